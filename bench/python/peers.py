@@ -89,17 +89,20 @@ def of_numpy(folder):
 
 
 def of_numba(folder):
+    import numba
+    import numpy as np
     import with_numba as w
 
-    e, who = columns(folder), named("numba")
-    expected, count = read(folder, "dev.f64", 1)[:, 0], e.shape[1]
-    agree(f"{who}, dev", relative(w.run(w.dev, e), expected))
-    agree(f"{who}, dev trig-free", relative(w.run(w.dev_without_trigonometry, e), expected))
-    note = "fastmath; poses as columns; tool along axis 6, all constants compiled in"
-    return [
-        (f"{who}, trigonometry", "dev", count, note, lambda: w.run(w.dev, e)),
-        (f"{who}, trig-free", "dev", count, note, lambda: w.run(w.dev_without_trigonometry, e)),
-    ]
+    e, who, threads = columns(folder), named("numba"), numba.get_num_threads()
+    expected, out = read(folder, "dev.f64", 1)[:, 0], np.empty(e.shape[1])
+    note = 'fastmath, error_model="numpy"; poses as columns; tool along axis 6, all constants compiled in'
+    rows = []
+    for kind, work in (("trigonometry", w.dev), ("trig-free", w.dev_without_trigonometry)):
+        for count, run in zip((1, threads), w.in_blocks(work)):
+            run(e, out)
+            agree(f"{who}, {kind}, {count} threads", relative(out, expected))
+            rows.append((f"{who}, {kind}", "dev", out.size, note, lambda run=run: run(e, out), count))
+    return rows
 
 
 def of_eaik(folder):

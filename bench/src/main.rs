@@ -1,6 +1,11 @@
-//! `armill-bench FOLDER [--quick] [--paths]`: writes the workload into FOLDER for peers in other languages, checks that
-//! all candidates agree, times them in turn, and prints a row for each; called by `cargo xtask bench`. With `--paths`
-//! the rows of tool path programs only, and the yardstick.
+//! `armill-bench FOLDER [--quick] [--paths | --peers]`: writes the workload into FOLDER for peers in other languages,
+//! checks that all candidates agree, times them in turn, and prints a row for each; called by `cargo xtask bench`.
+//!
+//! | | rows | built |
+//! |---|---|---|
+//! | | armill | as users get it |
+//! | `--paths` | armill: tool path programs and placements | the same |
+//! | `--peers` | the yardstick and the peers in Rust | for this processor (`target-cpu=native`): they choose no instructions while they run |
 
 // Rows go to stdout, what is going on to stderr.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
@@ -32,9 +37,9 @@ const BLOCK: usize = 256;
 fn main() -> ExitCode {
     let arguments: Vec<String> = env::args().skip(1).collect();
     let requested = |name: &str| arguments.iter().skip(1).any(|argument| argument == name);
-    let known = |argument: &String| ["--quick", "--paths"].contains(&argument.as_str());
+    let known = |argument: &String| ["--quick", "--paths", "--peers"].contains(&argument.as_str());
     let (Some(folder), true) = (arguments.first(), arguments.iter().skip(1).all(known)) else {
-        eprintln!("usage: armill-bench FOLDER [--quick] [--paths]");
+        eprintln!("usage: armill-bench FOLDER [--quick] [--paths | --peers]");
         return ExitCode::from(2);
     };
     let rounds = if requested("--quick") {
@@ -42,7 +47,12 @@ fn main() -> ExitCode {
     } else {
         ROUNDS
     };
-    match run(Path::new(folder), rounds, requested("--paths")) {
+    let part = match (requested("--peers"), requested("--paths")) {
+        (true, _) => Part::Peers,
+        (_, true) => Part::Paths,
+        _ => Part::Armill,
+    };
+    match run(Path::new(folder), rounds, part) {
         Ok(()) => ExitCode::SUCCESS,
         Err(problem) => {
             eprintln!("{problem}");
@@ -51,7 +61,15 @@ fn main() -> ExitCode {
     }
 }
 
-fn run(folder: &Path, rounds: usize, only_paths: bool) -> Result<(), String> {
+/// Whose rows.
+#[derive(Clone, Copy, PartialEq)]
+enum Part {
+    Armill,
+    Paths,
+    Peers,
+}
+
+fn run(folder: &Path, rounds: usize, part: Part) -> Result<(), String> {
     let (arm, poses) = (Arm::mh12(), poses(COUNT));
     fs::create_dir_all(folder)
         .and_then(|()| files::write(folder, &poses))
@@ -70,17 +88,19 @@ fn run(folder: &Path, rounds: usize, only_paths: bool) -> Result<(), String> {
 
     let (others, zigzag) = (kinds::others(), Paths::zigzag());
     let (steady, leaning) = (placements::Places::steady(), placements::Places::leaning());
-    let mut all = of_yardstick(&poses, &angles, &pools[1]);
+    let mut all = Vec::new();
     let question = arm.question(ONE_POSTURE);
-    if !only_paths {
+    if part == Part::Armill {
         all.extend(lanes::candidates(&question, &double, &single, &pools[1]));
         all.extend(of_armill(&arm, &isometries, &pools));
         all.extend(kinds::candidates(&others, &pools[0]));
     }
-    all.extend(paths::candidates(&arm, &zigzag));
-    all.extend(placements::candidates(&arm, [&steady, &leaning], &pools[0]));
-    if !only_paths {
+    if part == Part::Peers {
+        all.extend(of_yardstick(&poses, &angles, &pools[1]));
         all.extend(peers::candidates(&poses));
+    } else {
+        all.extend(paths::candidates(&arm, &zigzag));
+        all.extend(placements::candidates(&arm, [&steady, &leaning], &pools[0]));
     }
     let rates = rates(&mut all, rounds);
     for (candidate, rate) in all.iter().zip(&rates) {

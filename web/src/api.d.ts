@@ -1178,6 +1178,13 @@ export interface components {
             changes?: components["schemas"]["ChangedValue"][];
             /** @description The requested pose of the arm; none if left out. */
             arm?: components["schemas"]["PoseRequest"] | null;
+            /** @description The levels of a fixed colour scale, rising; chosen for the deviations if left out. */
+            levels_um?: number[] | null;
+            /**
+             * @description Whether maps have lines of equal deviation at these levels, in addition to those at the tolerance.
+             * @default false
+             */
+            lines: boolean;
         };
         /** @description The pose of the arm to show. */
         PoseRequest: {
@@ -1602,6 +1609,10 @@ export interface components {
             answer: components["schemas"]["StudyAnswer"];
             /** @description Its worst and best points: of sections those of each, else of one. */
             extremes: components["schemas"]["ExtremesAnswer"][];
+            /** @description The levels of its colour scale, from end to end; `null` if no point has a deviation. */
+            levels_um: number[] | null;
+            /** @description Lines of equal deviation, one entry a map. */
+            lines: components["schemas"]["LinesAnswer"][];
             /** @description The arm at the requested point; `null` if none was requested, and if there is no such point. */
             arm: components["schemas"]["PoseAtTarget"] | null;
         };
@@ -2241,7 +2252,10 @@ export interface components {
             tolerance_um: number;
             /** @description Active parts of the stiffness model. */
             model: string[];
-            /** @description The contributors of `share_um`: the joints, then base, flange and tool if springs are attached there. */
+            /**
+             * @description The contributors of `share_um`: the joints; base, flange and tool if springs are attached there;
+             *     geometry with a calibrated robot; thermal growth.
+             */
             contributors: string[];
         };
         /** @description The points of a map, row by row along z', in each row along y'. */
@@ -2847,7 +2861,7 @@ export interface components {
             /** @description Every joint with backlash. */
             joints: components["schemas"]["JointBacklash"][];
             /** @description Whether the arm differs from the nominal model of its controller. */
-            measured_arm: boolean;
+            calibrated_robot: boolean;
         };
         /** @description The backlash of one joint. */
         JointBacklash: {
@@ -3457,6 +3471,29 @@ export interface components {
             /** @description Where it is least. */
             best: components["schemas"]["PoseTarget"] | null;
         };
+        /** @description Lines of equal in-plane deviation on a map. */
+        LinesAnswer: {
+            /** @description Where it equals the tolerance: y', z' along each line; closed lines repeat their first point. */
+            tolerance_mm: [
+                number,
+                number
+            ][][];
+            /** @description Lines at the levels of the colour scale; levels without a line and one at the tolerance are left out. */
+            levels: components["schemas"]["LevelAnswer"][];
+        };
+        /** @description Lines at one level. */
+        LevelAnswer: {
+            /**
+             * Format: double
+             * @description The deviation along them.
+             */
+            level_um: number;
+            /** @description y', z' along each line; closed lines repeat their first point. */
+            lines_mm: [
+                number,
+                number
+            ][][];
+        };
         /** @description The arm at its target. */
         PoseAtTarget: {
             /** @description The target. */
@@ -3499,7 +3536,10 @@ export interface components {
             compliance_assumed: boolean;
             /** @description Parts of the stiffness model that were on. */
             model: string[];
-            /** @description The contributors of `share_um`: the joints, then base, flange and tool if springs are attached there. */
+            /**
+             * @description The contributors of `share_um`: the joints; base, flange and tool if springs are attached there;
+             *     geometry with a calibrated robot; thermal growth.
+             */
             contributors: string[];
             /** @description Every posture; empty if the pose is unreachable. */
             postures: components["schemas"]["PostureAnswer"][];

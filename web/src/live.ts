@@ -7,7 +7,7 @@
 import { api, Refused } from "./server";
 import { Newest } from "./newest";
 import { choosePosture, worstCase } from "./posture";
-import type { Answer, Analysis, At, Change, Extremes, Follow, MapAnswer, Point, Pose, Scene, Setting, Study, Values, View } from "./types";
+import type { Answer, Analysis, At, Change, Extremes, Follow, MapAnswer, MapLines, Point, Pose, Scene, Setting, Study, Values, View } from "./types";
 
 export type Topic = "study" | "answer" | "pose" | "moving" | "busy" | "error" | "view";
 
@@ -32,6 +32,12 @@ export class Live {
   scene: Scene | null = null;
   /** The worst and best points; for sections those of each. */
   extremes: Extremes[] = [];
+  /** Levels of the colour scale, µm: the last ones if no point has a deviation. */
+  levels_um: number[] | null = null;
+  /** Lines of equal deviation; for sections those of each. */
+  lines: MapLines[] = [];
+  /** Whether lines at the levels are requested, and whether the levels stay as they are; the next answer follows it. */
+  readonly wanted = { lines: true, fix_scale: false };
   pose: Pose | null = null;
   posture = 0;
   load_case = 1;
@@ -209,7 +215,9 @@ export class Live {
     const wish = this.wish;
     const there = this.follow === "place";
     const request = { follow: this.follow, at: there ? this.at : null, section: this.section, case: this.fixed_case ?? (there ? this.load_case : null) };
-    return { sent, wish, view: await api.view(this.text, job.analysis, changes, request, signal) };
+    const { lines, fix_scale } = this.wanted;
+    const shown = { arm: request, lines, levels_um: fix_scale ? this.levels_um : null };
+    return { sent, wish, view: await api.view(this.text, job.analysis, changes, shown, signal) };
   }
 
   private take({ sent, wish, view }: Result, job: Job): void {
@@ -221,6 +229,8 @@ export class Live {
     if (this.settled) this.values = view.values;
     this.scene = view.scene;
     this.extremes = view.extremes;
+    this.levels_um = view.levels_um ?? this.levels_um;
+    this.lines = view.lines;
     if (this.section >= Math.max(1, view.answer.maps.length)) this.section = 0;
     const begun = performance.now();
     const arm = wish === this.wish ? view.arm : null;

@@ -1,7 +1,7 @@
 // Requests to the server, one function each. The token is in the URL that armill opens, and is kept in this tab.
 
 import type { Schema } from "./tables/schema";
-import type { At, Change, Changed, Checked, Job, Picture, Pose, PoseRequest, Problem, RobotRow, StoredFile, Study, Tables, TakenIn, View, Wrong } from "./types";
+import type { At, Change, Changed, Checked, Job, Picture, Pose, Problem, RobotRow, Shown, StoredFile, Study, Tables, TakenIn, View, Wrong } from "./types";
 
 export class Refused extends Error {
   constructor(
@@ -74,9 +74,9 @@ export const api = {
   schema: () => json<Schema>("GET", "/api/schema"),
   tables: (text: string, signal?: AbortSignal) => json<Tables>("POST", "/api/tables", { text }, signal),
   change: (text: string, analysis: string | null, changes: Change[], signal?: AbortSignal) => json<Changed>("POST", "/api/change", { text, analysis, changes }, signal),
-  view: async (text: string, analysis: string | null, changes: Change[], arm: PoseRequest, signal?: AbortSignal) => {
+  view: async (text: string, analysis: string | null, changes: Change[], shown: Shown, signal?: AbortSignal) => {
     const sent = performance.now();
-    const response = await raw("POST", "/api/view", { text, analysis, changes, arm }, signal);
+    const response = await raw("POST", "/api/view", { text, analysis, changes, ...shown }, signal);
     const body = await response.text();
     const got = performance.now();
     const view = JSON.parse(body) as View;

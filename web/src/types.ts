@@ -30,6 +30,10 @@ export type Setting = Schemas["SettingAnswer"];
 export type Values = Schemas["ValuesAnswer"];
 /** The grid of a map that is requested alone. */
 export type MapGrid = Schemas["GridAnswer"];
+/** y', z' of its points. */
+export type Line = [number, number][];
+/** Lines of equal deviation on a map. */
+export type MapLines = Schemas["LinesAnswer"];
 
 export type At = Schemas["PoseTarget"];
 export type PoseRequest = Schemas["PoseRequest"];
@@ -65,6 +69,9 @@ export type Scene = Omit<Schemas["SceneAnswer"], "points" | "plate" | "sections"
   box: Box | null;
 };
 
+/** What is to be shown in addition to the answer. */
+export type Shown = Pick<Schemas["ViewRequest"], "arm" | "levels_um" | "lines">;
+
 /** All that is shown of an analysis after a change. */
 export interface View {
   text: string;
@@ -73,6 +80,10 @@ export interface View {
   scene: Scene;
   answer: Answer;
   extremes: Extremes[];
+  /** Levels of the colour scale; null if no point has a deviation. */
+  levels_um: number[] | null;
+  /** One entry a map. */
+  lines: MapLines[];
   /** The arm at the requested point; null if there is no such point. */
   arm: { at: At; case: number; pose: Pose } | null;
 }

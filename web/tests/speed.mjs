@@ -42,7 +42,7 @@ try {
   let size = 0;
   for (let i = 0; i < CHANGES; i++) {
     const begun = performance.now();
-    const view = await request("POST", "/api/view", { text: STUDY, analysis: null, changes: [{ key: "plane.centre_mm", value: [800 + i, 0, 1000] }], arm: { follow: "worst" } });
+    const view = await request("POST", "/api/view", { text: STUDY, analysis: null, changes: [{ key: "plane.centre_mm", value: [800 + i, 0, 1000] }], arm: { follow: "worst" }, lines: true });
     alone.push(performance.now() - begun);
     size = JSON.stringify(view).length;
     if (view.answer.maps[0].grid.points !== 101 * 101) throw new Error(`${view.answer.maps[0].grid.points} points`);

@@ -19,7 +19,8 @@ use clap::{Arg, ArgAction, CommandFactory, Parser};
 
 use crate::arguments::Arguments;
 use crate::listener::{Listener, heard_by};
-use crate::{Outcome, inputs_of, run};
+use crate::outcome::Outcome;
+use crate::{inputs_of, run};
 
 /// A call of a command.
 #[derive(Clone, Debug, PartialEq)]

@@ -17,6 +17,7 @@ mod arguments;
 mod call;
 mod command;
 mod listener;
+mod outcome;
 mod progress;
 mod terminal;
 
@@ -29,6 +30,7 @@ use clap::Parser;
 
 use arguments::{Arguments, Command};
 use armill_study::{ErrorKind, StudyError};
+use outcome::Outcome;
 
 pub use call::{Answer, Call, OptionOf, OptionValue, Refused, call, options_of};
 pub use listener::Listener;
@@ -96,15 +98,6 @@ fn run(command: &Command) -> Result<Outcome, StudyError> {
         Command::Completions(completions) => command::completions::run(completions),
         Command::Man(man) => command::man::run(man),
     }
-}
-
-/// Outcome of a command that did its work; an error that stopped it is a `StudyError`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Outcome {
-    /// Success.
-    Fine,
-    /// `--strict` was given and the tolerance is not met everywhere.
-    ToleranceNotMet,
 }
 
 /// The exit code depends only on the kind of the error.

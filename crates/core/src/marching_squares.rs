@@ -38,15 +38,6 @@ type Vertex = (usize, usize);
 /// Two vertices that follow each other, the area to the left where both axes rise.
 type Piece = (Vertex, Vertex);
 
-/// The boundary of an area, cell by cell.
-#[derive(Default)]
-struct Pieces {
-    /// Across cells, where the field equals the level.
-    cuts: Vec<Piece>,
-    /// Along the edge of the grid and along omitted cells.
-    edges: Vec<Piece>,
-}
-
 impl<V: Copy + Into<Option<f64>>> ScalarField<'_, V> {
     /// The closed boundaries of the area where the field is at most `level`. Where both axes rise, the area is to their
     /// left: counter-clockwise around it, clockwise around its holes.
@@ -62,55 +53,69 @@ impl<V: Copy + Into<Option<f64>>> ScalarField<'_, V> {
     /// The lines along which the field equals `level`, lower values to the left where both axes rise. Open ones end at
     /// the edge of the grid or at an omitted cell. A saddle is separated as by [`area_from`](Self::area_from).
     pub fn lines_at(&self, level: f64) -> Vec<Polyline> {
-        let cuts = self.pieces(|value| value >= level).cuts.into_iter();
+        let cuts = self.cuts(|value| value >= level).into_iter();
         self.joined(cuts.map(|(from, to)| (to, from)).collect(), level)
     }
 
     fn area(&self, level: f64, is_inside: impl Fn(f64) -> bool) -> Vec<Polyline> {
-        let Pieces { mut cuts, mut edges } = self.pieces(is_inside);
-        cuts.append(&mut edges);
-        self.joined(cuts, level)
+        let mut boundary = self.cuts(&is_inside);
+        boundary.append(&mut self.edges(&is_inside));
+        self.joined(boundary, level)
     }
 
-    /// The boundary of the area of the values that are inside.
-    fn pieces(&self, is_inside: impl Fn(f64) -> bool) -> Pieces {
-        let mut pieces = Pieces::default();
-        let is_inside = |point: usize| self.value(point).is_some_and(&is_inside);
-        for row in 0..self.y.len() {
-            for column in 0..self.x.len() {
-                let Some(corners) = self.cell(row, column) else {
-                    continue;
-                };
-                let inside = corners.map(is_inside);
-                // Each run of corners inside, around the cell, is cut off from the others: a saddle has two.
-                for start in (0..4).filter(|k| inside[*k] && !inside[(k + 3) % 4]) {
-                    let mut end = start;
-                    while inside[(end + 1) % 4] {
-                        end = (end + 1) % 4;
-                    }
-                    let leave = (corners[end], corners[(end + 1) % 4]);
-                    let enter = (corners[start], corners[(start + 3) % 4]);
-                    pieces.cuts.push((leave, enter));
+    /// The boundary of the values that are inside, across cells: where the field equals the level.
+    fn cuts(&self, is_inside: impl Fn(f64) -> bool) -> Vec<Piece> {
+        let mut cuts = Vec::new();
+        for (_, _, corners) in self.cells() {
+            let inside = self.inside(corners, &is_inside);
+            // Each run of corners inside, around the cell, is cut off from the others: a saddle has two.
+            for start in (0..4).filter(|k| inside[*k] && !inside[(k + 3) % 4]) {
+                let mut end = start;
+                while inside[(end + 1) % 4] {
+                    end = (end + 1) % 4;
                 }
-                let neighbours = [
-                    (row.wrapping_sub(1), column),
-                    (row, column + 1),
-                    (row + 1, column),
-                    (row, column.wrapping_sub(1)),
-                ];
-                for (k, (row, column)) in neighbours.into_iter().enumerate() {
-                    let next = (k + 1) % 4;
-                    let (a, b) = (corners[k], corners[next]);
-                    if !(inside[k] || inside[next]) || self.cell(row, column).is_some() {
-                        continue;
-                    }
-                    let from = if inside[k] { (a, a) } else { (b, a) };
-                    let to = if inside[next] { (b, b) } else { (a, b) };
-                    pieces.edges.push((from, to));
-                }
+                let leave = (corners[end], corners[(end + 1) % 4]);
+                let enter = (corners[start], corners[(start + 3) % 4]);
+                cuts.push((leave, enter));
             }
         }
-        pieces
+        cuts
+    }
+
+    /// The boundary of the values that are inside, along the edge of the grid and along omitted cells.
+    fn edges(&self, is_inside: impl Fn(f64) -> bool) -> Vec<Piece> {
+        let mut edges = Vec::new();
+        for (row, column, corners) in self.cells() {
+            let inside = self.inside(corners, &is_inside);
+            let neighbours = [
+                (row.wrapping_sub(1), column),
+                (row, column + 1),
+                (row + 1, column),
+                (row, column.wrapping_sub(1)),
+            ];
+            for (k, (row, column)) in neighbours.into_iter().enumerate() {
+                let next = (k + 1) % 4;
+                let (a, b) = (corners[k], corners[next]);
+                if !(inside[k] || inside[next]) || self.cell(row, column).is_some() {
+                    continue;
+                }
+                let from = if inside[k] { (a, a) } else { (b, a) };
+                let to = if inside[next] { (b, b) } else { (a, b) };
+                edges.push((from, to));
+            }
+        }
+        edges
+    }
+
+    fn inside(&self, corners: [usize; 4], is_inside: impl Fn(f64) -> bool) -> [bool; 4] {
+        corners.map(|point| self.value(point).is_some_and(&is_inside))
+    }
+
+    /// The row, the column and the corners of each cell that is not omitted.
+    fn cells(&self) -> impl Iterator<Item = (usize, usize, [usize; 4])> {
+        let rows = 0..self.y.len();
+        let places = rows.flat_map(|row| (0..self.x.len()).map(move |column| (row, column)));
+        places.filter_map(|(row, column)| Some((row, column, self.cell(row, column)?)))
     }
 
     /// The corners of a cell, counter-clockwise from its first column and row; `None` outside the grid and where a
@@ -410,5 +415,20 @@ mod tests {
         assert_eq!(lines.len(), 1);
         let ends = [lines[0][0], lines[0][lines[0].len() - 1]];
         assert!(ends.iter().all(|end| end[1].abs() < 1e-9), "{ends:?}");
+    }
+
+    #[test]
+    fn the_lines_of_a_saddle_do_not_cross() {
+        // The saddle is the middle of the cell in the middle.
+        let axes = Axes::new(22, 22, 200.0 / 21.0);
+        let lines = axes.field(&axes.sampled(|x, y| Some(x * y))).lines_at(1.0);
+        assert_eq!(lines.len(), 2);
+        for line in lines {
+            let side = line[0][0].signum();
+            assert!(
+                line.iter().all(|[x, y]| x * side > 0.0 && y * side > 0.0),
+                "{line:?}"
+            );
+        }
     }
 }

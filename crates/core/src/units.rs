@@ -105,8 +105,8 @@ mod tests {
             Vector3::new(100.0, 0.0, -1000.0)
         );
         assert_eq!(
-            (from_um(5.0), from_mm(12.0), from_deg(&90.0)),
-            (5e-6, 0.012, core::f64::consts::FRAC_PI_2)
+            (from_um(4.0), from_mm(12.0), from_deg(90.0)),
+            (4e-6, 0.012, core::f64::consts::FRAC_PI_2)
         );
     }
 }

@@ -49,9 +49,7 @@ pub(crate) fn call(
     let report = report
         .as_ref()
         .map(|report| report as &dyn Fn(usize) -> PyResult<()>);
-    let answer = watched(py, threads, (beats, report), || {
-        armill_cli::call(&call, &listener)
-    })?;
+    let answer = watched(py, threads, beats, report, || armill_cli::call(&call, &listener))?;
     match answer {
         Ok(answer) => Ok((answer.json, answer.messages, answer.within_tolerance)),
         Err(Refused::Usage(text)) => Err(usage(py, text)),

@@ -66,7 +66,9 @@ pub(crate) struct EvaluationOptions<'a, 'py> {
 /// Evaluates poses with the kernel.
 pub(crate) fn evaluate(
     robot: &Robot,
-    (poses, forces, tool): (&Bound<'_, PyAny>, &Bound<'_, PyAny>, Option<&Bound<'_, PyAny>>),
+    poses: &Bound<'_, PyAny>,
+    forces: &Bound<'_, PyAny>,
+    tool: Option<&Bound<'_, PyAny>>,
     options: &EvaluationOptions<'_, '_>,
 ) -> PyResult<PoseEvaluations> {
     let py = poses.py();
@@ -111,7 +113,7 @@ pub(crate) fn evaluate(
                 ..template.arm
             };
             let pose = |i| wrong.pose(matrices, i);
-            answers(&Question { arm, ..template }, (&forces, count), pose, watch)
+            answers(&Question { arm, ..template }, &forces, count, pose, watch)
         };
         let answers = match samples {
             [compliance] => of(compliance)?,
@@ -129,7 +131,8 @@ pub(crate) fn evaluate(
 /// The answers at `count` poses: all together, or one by one where each has a load case of its own.
 fn answers(
     template: &Question<'_>,
-    (forces, count): (&Forces, usize),
+    forces: &Forces,
+    count: usize,
     pose: impl Fn(usize) -> armill_core::frame::Isometry + Sync,
     watch: Watch<'_>,
 ) -> Result<Vec<Answers>, Cancelled> {

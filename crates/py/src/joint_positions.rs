@@ -79,7 +79,8 @@ pub(crate) fn compliance<'py>(robot: &Robot, request: &Request<'_, 'py>) -> Floa
 pub(crate) fn deviation<'py>(
     robot: &Robot,
     request: &Request<'_, 'py>,
-    (forces, paired): (&Bound<'py, PyAny>, bool),
+    forces: &Bound<'py, PyAny>,
+    paired: bool,
 ) -> Floats<'py> {
     let positions = JointPositions::compliant(robot, request)?;
     let forces = Forces::of(forces, paired.then_some(&positions.joints.axes))?;
@@ -96,7 +97,8 @@ pub(crate) fn deviation<'py>(
 pub(crate) fn contributions<'py>(
     robot: &Robot,
     request: &Request<'_, 'py>,
-    (forces, paired): (&Bound<'py, PyAny>, bool),
+    forces: &Bound<'py, PyAny>,
+    paired: bool,
 ) -> Floats<'py> {
     let positions = JointPositions::compliant(robot, request)?;
     let forces = Forces::of(forces, paired.then_some(&positions.joints.axes))?;
@@ -117,7 +119,8 @@ pub(crate) fn contributions<'py>(
 pub(crate) fn gravity<'py>(
     robot: &Robot,
     request: &Request<'_, 'py>,
-    (reference, acceleration): (Vec<f64>, Vector3<f64>),
+    reference: Vec<f64>,
+    acceleration: Vector3<f64>,
 ) -> Floats<'py> {
     let py = request.joints.py();
     if robot.model.structure.masses.is_empty() {

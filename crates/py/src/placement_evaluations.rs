@@ -44,7 +44,8 @@ pub(crate) fn nominal<'py>(
 /// Evaluates placements.
 pub(crate) fn evaluate(
     study: &Study,
-    (places, analysis): (&Bound<'_, PyAny>, Option<String>),
+    places: &Bound<'_, PyAny>,
+    analysis: Option<String>,
     threads: Option<ThreadCount>,
 ) -> PyResult<PlacementEvaluations> {
     let py = places.py();

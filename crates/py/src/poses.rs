@@ -34,7 +34,7 @@ impl<'py> Poses<'py> {
             && pair.get_item(0)?.hasattr("as_matrix")?
         {
             let turns = pair.get_item(0)?.call_method0("as_matrix")?;
-            return composed(py, name, (&turns, &pair.get_item(1)?));
+            return composed(py, name, &turns, &pair.get_item(1)?);
         }
         let matrices = if value.cast::<PyUntypedArray>().is_ok() {
             value.clone()
@@ -73,7 +73,8 @@ pub(crate) fn pose_at(values: &[f64], index: usize) -> Result<Isometry, PoseMatr
 /// The exception of a matrix that is not a pose.
 pub(crate) fn no_pose(
     py: Python<'_>,
-    (name, axes): (&str, &[usize]),
+    name: &str,
+    axes: &[usize],
     index: usize,
     why: PoseMatrixError,
 ) -> PyErr {
@@ -96,14 +97,15 @@ pub(crate) fn one_pose(value: Option<&Bound<'_, PyAny>>, name: &str) -> PyResult
             poses.batch.given.shape(),
         ));
     }
-    pose_at(poses.values(), 0).map_err(|why| no_pose(value.py(), (name, &[]), 0, why))
+    pose_at(poses.values(), 0).map_err(|why| no_pose(value.py(), name, &[], 0, why))
 }
 
 /// Matrices from rotations (n, 3, 3) and translations (n, 3).
 fn composed<'py>(
     py: Python<'py>,
     name: &str,
-    (turns, translations): (&Bound<'py, PyAny>, &Bound<'py, PyAny>),
+    turns: &Bound<'py, PyAny>,
+    translations: &Bound<'py, PyAny>,
 ) -> PyResult<Poses<'py>> {
     let turns = Batch::of(turns, name, &[3, 3])?;
     let translations = Batch::of(translations, name, &[3])?;

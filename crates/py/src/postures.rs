@@ -35,7 +35,8 @@ pub(crate) struct Postures {
 /// Finds the postures.
 pub(crate) fn inverse(
     robot: &Robot,
-    (poses, tool): (&Bound<'_, PyAny>, Option<&Bound<'_, PyAny>>),
+    poses: &Bound<'_, PyAny>,
+    tool: Option<&Bound<'_, PyAny>>,
     home: Option<&Bound<'_, PyAny>>,
     threads: Option<ThreadCount>,
 ) -> PyResult<Postures> {
@@ -105,7 +106,7 @@ impl FirstWrong {
         }
         match pose_at(poses.values(), index) {
             Ok(_) => Ok(()),
-            Err(why) => Err(no_pose(py, (name, &poses.batch.axes), index, why)),
+            Err(why) => Err(no_pose(py, name, &poses.batch.axes, index, why)),
         }
     }
 }

@@ -29,7 +29,9 @@ type Optional<'a, 'py> = Option<&'a Bound<'py, PyAny>>;
 /// Joint positions with tool, compliances and output.
 fn request<'a, 'py>(
     joints: &'a Bound<'py, PyAny>,
-    (tool, compliances, out): (Optional<'a, 'py>, Optional<'a, 'py>, Optional<'a, 'py>),
+    tool: Optional<'a, 'py>,
+    compliances: Optional<'a, 'py>,
+    out: Optional<'a, 'py>,
     threads: Option<ThreadCount>,
 ) -> Request<'a, 'py> {
     Request {
@@ -90,7 +92,7 @@ impl Robot {
         limits: Optional<'_, '_>,
         name: &str,
     ) -> PyResult<Robot> {
-        let text = source::dh_text(py, (rows, convention), &prismatic, limits)?;
+        let text = source::dh_text(py, rows, convention, &prismatic, limits)?;
         Robot::read(py, RobotSource::text(Format::Dh, name, text, None))
     }
 
@@ -217,7 +219,7 @@ impl Robot {
         out: Optional<'_, 'py>,
         threads: Option<ThreadCount>,
     ) -> Floats<'py> {
-        let request = request(joints, (tool, None, out), threads);
+        let request = request(joints, tool, None, out, threads);
         joint_positions::forward(self, &request)
     }
 
@@ -230,7 +232,7 @@ impl Robot {
         out: Optional<'_, 'py>,
         threads: Option<ThreadCount>,
     ) -> Floats<'py> {
-        let request = request(joints, (tool, None, out), threads);
+        let request = request(joints, tool, None, out, threads);
         joint_positions::jacobian(self, &request)
     }
 
@@ -247,7 +249,7 @@ impl Robot {
         out: Optional<'_, 'py>,
         threads: Option<ThreadCount>,
     ) -> Floats<'py> {
-        let request = request(joints, (tool, compliances, out), threads);
+        let request = request(joints, tool, compliances, out, threads);
         joint_positions::compliance(self, &request)
     }
 
@@ -268,8 +270,8 @@ impl Robot {
         out: Optional<'_, 'py>,
         threads: Option<ThreadCount>,
     ) -> Floats<'py> {
-        let request = request(joints, (tool, compliances, out), threads);
-        joint_positions::deviation(self, &request, (forces, paired))
+        let request = request(joints, tool, compliances, out, threads);
+        joint_positions::deviation(self, &request, forces, paired)
     }
 
     /// (n, dof) joints, (cases, 3) forces -> (n, cases, contributors, 3) contributions to the deviation, m, base axes.
@@ -287,8 +289,8 @@ impl Robot {
         out: Optional<'_, 'py>,
         threads: Option<ThreadCount>,
     ) -> Floats<'py> {
-        let request = request(joints, (tool, compliances, out), threads);
-        joint_positions::contributions(self, &request, (forces, paired))
+        let request = request(joints, tool, compliances, out, threads);
+        joint_positions::contributions(self, &request, forces, paired)
     }
 
     /// (n, dof) joints, (dof,) reference -> (n, 3) deviations of the TCP by the weight of the arm, m, base axes.
@@ -309,8 +311,8 @@ impl Robot {
         threads: Option<ThreadCount>,
     ) -> Floats<'py> {
         let reference = self.one_a_joint(reference, "reference")?;
-        let request = request(joints, (tool, None, out), threads);
-        joint_positions::gravity(self, &request, (reference, Vector3::from(acceleration)))
+        let request = request(joints, tool, None, out, threads);
+        joint_positions::gravity(self, &request, reference, Vector3::from(acceleration))
     }
 
     /// (n, dof) joints -> list of n str: the branch at each of the joint positions.
@@ -333,7 +335,7 @@ impl Robot {
         home: Optional<'_, '_>,
         threads: Option<ThreadCount>,
     ) -> PyResult<Postures> {
-        postures::inverse(self, (poses, tool), home, threads)
+        postures::inverse(self, poses, tool, home, threads)
     }
 
     /// (n, 4, 4) poses, (cases, 3) forces -> Evaluation: one posture for each pose, and the deviation of the tool there.
@@ -370,7 +372,7 @@ impl Robot {
             compliances,
             threads,
         };
-        evaluation::evaluate(self, (poses, forces, tool), &options)
+        evaluation::evaluate(self, poses, forces, tool, &options)
     }
 
     /// Whether the other robot was read from the same text under the same name, with the same given compliances.

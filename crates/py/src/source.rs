@@ -61,7 +61,7 @@ impl RobotSource {
             return Ok(source);
         }
         let found = robots::find(&name, Path::new(".")).map_err(|error| exception(py, &error))?;
-        RobotSource::file(py, robot, (&found, None))
+        RobotSource::file(py, robot, &found, None)
     }
 
     /// The text of a URDF with its flange at the link `tip`.
@@ -77,14 +77,15 @@ impl RobotSource {
         };
         let found = format::read(path, &stem(path), &bytes, &requested);
         let found = found.map_err(|problems| exception(py, &problems.into()))?;
-        RobotSource::file(py, path, (&found, tip))
+        RobotSource::file(py, path, &found, tip)
     }
 
     /// The text of a file that was read already. A file that includes other files is kept as a robot file of armill.
     fn file(
         py: Python<'_>,
         path: &Path,
-        (found, tip): (&RobotDescription, Option<String>),
+        found: &RobotDescription,
+        tip: Option<String>,
     ) -> PyResult<RobotSource> {
         let bytes = read(py, path)?;
         let name = found.robot.name();
@@ -214,9 +215,10 @@ impl RobotSource {
     /// An unknown format.
     pub(crate) fn again(
         py: Python<'_>,
-        (path, name, bytes): (PathBuf, String, Bound<'_, PyBytes>),
-        (format, tip): (String, Option<String>),
+        file: (PathBuf, String, Bound<'_, PyBytes>),
+        format: (String, Option<String>),
     ) -> PyResult<RobotSource> {
+        let ((path, name, bytes), (format, tip)) = (file, format);
         let format = format
             .parse()
             .map_err(|message: String| refused(py, message, "the pickle may be of another version"))?;
@@ -251,13 +253,14 @@ fn read(py: Python<'_>, path: &Path) -> PyResult<Vec<u8>> {
 /// Rows or limits of another shape, numbers that are not finite.
 pub(crate) fn dh_text(
     py: Python<'_>,
-    (rows, convention): (&Bound<'_, PyAny>, &str),
+    rows: &Bound<'_, PyAny>,
+    convention: &str,
     prismatic: &[usize],
     limits: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<String> {
-    let rows = table(py, (rows, "rows"), (None, 4))?;
+    let rows = table(py, rows, "rows", None, 4)?;
     let limits = limits
-        .map(|limits| table(py, (limits, "limits"), (Some(rows.len()), 2)))
+        .map(|limits| table(py, limits, "limits", Some(rows.len()), 2))
         .transpose()?;
     if let Some(index) = prismatic.iter().find(|index| **index >= rows.len()) {
         let message = format!(
@@ -304,8 +307,10 @@ pub(crate) fn dh_text(
 /// Rows of numbers.
 fn table(
     py: Python<'_>,
-    (value, name): (&Bound<'_, PyAny>, &str),
-    (count, width): (Option<usize>, usize),
+    value: &Bound<'_, PyAny>,
+    name: &str,
+    count: Option<usize>,
+    width: usize,
 ) -> PyResult<Vec<Vec<f64>>> {
     let expected = match count {
         Some(count) => format!("({count}, {width})"),

@@ -220,7 +220,7 @@ impl Study {
         threads: Option<ThreadCount>,
     ) -> PyResult<PlacementEvaluations> {
         let study = self.checked(py).map_err(|error| exception(py, error))?;
-        placement_evaluations::evaluate(&study, (places, analysis), threads)
+        placement_evaluations::evaluate(&study, places, analysis, threads)
     }
 
     /// folder or None -> Result: runs all analyses; with a folder `out` it writes the files of `armill run`.
@@ -256,7 +256,7 @@ impl Study {
         let report = report
             .as_ref()
             .map(|report| report as &dyn Fn(usize) -> PyResult<()>);
-        let found = watched(py, threads, (beats, report), || {
+        let found = watched(py, threads, beats, report, || {
             let options = output_options(pictures, csv);
             let out = out.map(|out| writer.folder(&out)).transpose()?;
             if let Some(out) = &out {

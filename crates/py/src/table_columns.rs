@@ -152,7 +152,8 @@ pub(crate) fn stored<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Stored
 ///
 /// # Errors
 /// Parts of another version.
-pub(crate) fn read((kind, values, labels): StoredColumn<'_>) -> PyResult<ArrayRef> {
+pub(crate) fn read(column: StoredColumn<'_>) -> PyResult<ArrayRef> {
+    let (kind, values, labels) = column;
     let data = match &*kind {
         "float" => ColumnData::OptionalFloat(values.extract()?),
         "integer" => ColumnData::OptionalInteger(values.extract()?),

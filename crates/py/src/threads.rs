@@ -95,7 +95,7 @@ pub(crate) fn work<T: Send>(
         cancel: &cancel,
         counted: &counted,
     };
-    watched(py, threads, (beats, None), || job(watch))
+    watched(py, threads, beats, None, || job(watch))
 }
 
 /// Communication between long work and the thread that waits for it.
@@ -114,7 +114,8 @@ pub(crate) struct Beats<'b> {
 pub(crate) fn watched<T: Send>(
     py: Python<'_>,
     threads: Option<ThreadCount>,
-    (beats, progress): (Beats<'_>, Progress<'_>),
+    beats: Beats<'_>,
+    progress: Progress<'_>,
     job: impl FnOnce() -> T + Send,
 ) -> PyResult<T> {
     let pool = py.detach(|| pool(threads)).map_err(|why| {

@@ -129,7 +129,7 @@ impl BudgetBars {
             };
             page.svg.rect(field, &Style::fill(bar.group.colour()));
             if finite(bar.scatter_um) > 0.0 {
-                rows.draw_whisker(&mut page.svg, [largest, end_um(bar)], (middle, 4.5));
+                rows.draw_whisker(&mut page.svg, [largest, end_um(bar)], middle, 4.5);
             }
             let number = [rows.area.right() + 8.0, middle + 4.0];
             page.svg.text(number, &reported(bar), &Text::new(SMALL_PX).bold());

@@ -103,7 +103,7 @@ impl Comparison {
         }
         for (k, cell) in self.cells.iter().enumerate() {
             page.svg.layer("compared-cell", 1.0, |svg| {
-                draw_cell(svg, &rows, (k, cell), top(k));
+                draw_cell(svg, &rows, k, cell, top(k));
             });
         }
         let zero = rows.x(0.0);
@@ -140,7 +140,7 @@ impl Comparison {
 }
 
 /// Label, range with its marks, note below, numbers at the right.
-fn draw_cell(svg: &mut Svg, rows: &Rows, (k, cell): (usize, &ComparedCell), top: f64) {
+fn draw_cell(svg: &mut Svg, rows: &Rows, k: usize, cell: &ComparedCell, top: f64) {
     let colour = category(k);
     let middle = top + 0.42 * ROW_PX;
     rows.draw_label(svg, &cell.label, middle);
@@ -164,7 +164,7 @@ fn draw_cell(svg: &mut Svg, rows: &Rows, (k, cell): (usize, &ComparedCell), top:
     if let Some(largest) = largest {
         if let Some(u) = finite(cell.largest_uncertainty_um).filter(|u| *u > 0.0) {
             let low = (largest - u).max(0.0);
-            rows.draw_whisker(svg, [low, largest + u], (middle, 4.0));
+            rows.draw_whisker(svg, [low, largest + u], middle, 4.0);
         }
         svg.polygon(&diamond(at(largest), 6.0), &largest_style(colour));
     }

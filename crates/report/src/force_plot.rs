@@ -107,7 +107,12 @@ impl ForcePlot {
         if spans.any(|other| other != span_s) {
             return heading.notice("The traces have different time spans.");
         }
-        let strips: Option<Vec<Strip<'_>>> = self.traces.iter().enumerate().map(strip).collect();
+        let strips: Option<Vec<Strip<'_>>> = self
+            .traces
+            .iter()
+            .enumerate()
+            .map(|(index, trace)| strip(index, trace))
+            .collect();
         let Some(mut strips) = strips else {
             return heading.notice(NOTHING);
         };
@@ -226,7 +231,7 @@ struct Strip<'a> {
 }
 
 /// The strip of a trace, still without its place: its scale shows both envelopes and zero. `None` without values.
-fn strip((index, trace): (usize, &ForceTrace)) -> Option<Strip<'_>> {
+fn strip(index: usize, trace: &ForceTrace) -> Option<Strip<'_>> {
     let values = || trace.before.values().chain(trace.after.values());
     extent(values())?;
     Some(Strip {

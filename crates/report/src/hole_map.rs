@@ -86,7 +86,7 @@ impl HoleMap {
                 draw_arrow(svg, ends, INK);
             }
             for hole in self.finite() {
-                self.draw_hole(svg, plane.at(hole.at_mm), (hole, &levels));
+                self.draw_hole(svg, plane.at(hole.at_mm), hole, &levels);
             }
         });
         plane.draw_axes(&mut page.svg, &self.axes);
@@ -130,7 +130,7 @@ impl HoleMap {
         Some((window, span))
     }
 
-    fn draw_hole(&self, svg: &mut Svg, at: Point, (hole, levels): (&HoleMark, &Levels)) {
+    fn draw_hole(&self, svg: &mut Svg, at: Point, hole: &HoleMark, levels: &Levels) {
         let small = if self.holes.len() > MANY { 0.5 } else { 1.0 };
         let [x, y] = at;
         match value(hole) {
@@ -143,7 +143,7 @@ impl HoleMap {
                 svg.circle(at, HOLE_PX * small, &fill);
             }
             None => {
-                draw_cross(svg, at, (HOLE_PX * small, &unreachable_style()));
+                draw_cross(svg, at, HOLE_PX * small, &unreachable_style());
             }
         }
         if !hole.name.is_empty() {

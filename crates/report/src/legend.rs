@@ -72,7 +72,7 @@ impl Key {
                 let [x, y] = centre;
                 svg.line([x, y - 7.0], [x, y + 7.0], style);
             }
-            Self::Cross(style) => draw_cross(svg, centre, (5.0, style)),
+            Self::Cross(style) => draw_cross(svg, centre, 5.0, style),
             Self::Dot(style) => svg.circle(centre, 3.5, style),
             Self::Diamond(style) => svg.polygon(&diamond(centre, 5.0), style),
         }
@@ -127,7 +127,7 @@ pub(crate) fn draw_legend(svg: &mut Svg, entries: &[Entry], at: Point, width_px:
 }
 
 /// Two strokes across each other at a point.
-pub(crate) fn draw_cross(svg: &mut Svg, [x, y]: Point, (half_px, style): (f64, &Style)) {
+pub(crate) fn draw_cross(svg: &mut Svg, [x, y]: Point, half_px: f64, style: &Style) {
     for side in [half_px, -half_px] {
         svg.line([x - half_px, y - side], [x + half_px, y + side], style);
     }

@@ -138,7 +138,7 @@ impl PolarPlot {
         if self.references.is_empty() {
             return;
         }
-        draw_cross(svg, centre, (HALF_PX, &Style::line(INK, 1.3)));
+        draw_cross(svg, centre, HALF_PX, &Style::line(INK, 1.3));
         let px_per_um = rings.px_per_um();
         for (k, reference) in self.references.iter().enumerate() {
             let [right, up] = reference.centre_um.map(|um| um * px_per_um);
@@ -146,7 +146,7 @@ impl PolarPlot {
             if right.hypot(up) < RADIUS_PX {
                 let at = [centre[0] + self.growth.sign() * right, centre[1] - up];
                 let style = Style::line(category(self.series.len() + k), 1.3);
-                draw_cross(svg, at, (HALF_PX, &style));
+                draw_cross(svg, at, HALF_PX, &style);
             }
         }
     }

@@ -65,7 +65,7 @@ impl Rows {
     }
 
     /// A line between two values with a stroke across each end, on a white ground.
-    pub(crate) fn draw_whisker(&self, svg: &mut Svg, ends_um: [f64; 2], (y, half_px): (f64, f64)) {
+    pub(crate) fn draw_whisker(&self, svg: &mut Svg, ends_um: [f64; 2], y: f64, half_px: f64) {
         let [a, b] = ends_um.map(|um| self.x(um));
         for style in [Style::line("#fff", 3.2).opacity(0.8), Style::line(INK, 1.3)] {
             svg.line([a, y], [b, y], &style);

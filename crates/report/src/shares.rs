@@ -172,7 +172,7 @@ fn draw_total(svg: &mut Svg, scale: &Rows, bar: &ShareBar, middle: f64) {
     let u = bar.total_uncertainty_um.filter(|u| u.is_finite() && *u > 0.0);
     let at: Point = [scale.x(total), middle];
     if let Some(u) = u {
-        scale.draw_whisker(svg, [total - u, total + u], (middle, 4.0));
+        scale.draw_whisker(svg, [total - u, total + u], middle, 4.0);
     }
     svg.polygon(&diamond(at, 5.5), &total_style());
     let decimals = if total.abs() < 10.0 { 1 } else { 0 };

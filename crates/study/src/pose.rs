@@ -86,7 +86,8 @@ pub struct PoseAnswer {
     pub compliance_assumed: bool,
     /// Parts of the stiffness model that were on.
     pub model: Vec<String>,
-    /// The contributors of `share_um`: the joints, then base, flange and tool if springs are attached there.
+    /// The contributors of `share_um`: the joints; base, flange and tool if springs are attached there;
+    /// geometry with a calibrated robot; thermal growth.
     pub contributors: Vec<String>,
     /// Every posture; empty if the pose is unreachable.
     pub postures: Vec<PostureAnswer>,

@@ -10,8 +10,8 @@ use armill_formats::file::Writer;
 use armill_study::answer::answer;
 use armill_study::file_names;
 use armill_study::live::{
-    ChangedValue, Follow, PoseRequest, PoseTarget, PostureQuestion, StudyText, answer_json, changed, outline,
-    pictures, postures, scene, table_csv, values, view,
+    ChangedValue, Follow, PoseRequest, PoseTarget, PostureQuestion, StudyText, ViewQuestion, answer_json,
+    changed, outline, pictures, postures, scene, table_csv, values, view,
 };
 use armill_study::output::{self, OutputOptions, StudyResults};
 use armill_study::run::run;
@@ -298,6 +298,15 @@ fn points_of_a_path_are_on_its_plate_and_deviate_as_in_its_table() {
 /// A study whose path is cut.
 const POCKET: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../studies/r2000ic-pocket");
 
+/// This analysis, with the arm in this pose.
+fn arm_at<'a>(analysis: &'a str, pose: &'a PoseRequest) -> ViewQuestion<'a> {
+    ViewQuestion {
+        analysis: Some(analysis),
+        arm: Some(pose),
+        ..ViewQuestion::default()
+    }
+}
+
 /// The in-plane deviation, its uncertainty and its contributions at the worst point of this analysis, and those of
 /// the same posture computed alone.
 fn worst_and_pose(text: StudyText<'_>, analysis: &str, part: &str) -> [(f64, f64, Vec<f64>); 2] {
@@ -307,7 +316,7 @@ fn worst_and_pose(text: StudyText<'_>, analysis: &str, part: &str) -> [(f64, f64
         section: 0,
         case: None,
     };
-    let given = view(text, Some(analysis), &[], Some(&pose), Watch::NONE).unwrap();
+    let given = view(text, &arm_at(analysis, &pose), Watch::NONE).unwrap();
     let answer = serde_json::to_value(&given.answer).unwrap();
     let point = answer.pointer(part).unwrap();
     let arm = given.arm.unwrap();
@@ -437,7 +446,7 @@ fn the_arm_of_a_view_has_the_posture_of_the_result() {
             section,
             case: None,
         };
-        view(of(&study), Some(analysis), &[], Some(&pose), Watch::NONE).unwrap()
+        view(of(&study), &arm_at(analysis, &pose), Watch::NONE).unwrap()
     };
     for (analysis, follow, section, part) in [
         ("far", Follow::Worst, 1, "/maps/1/worst"),
@@ -485,7 +494,7 @@ fn the_arm_of_a_view_has_the_posture_of_the_result() {
         section: 0,
         case: None,
     };
-    let given = view(of(CIRCLE), Some("rim"), &[], Some(&gone), Watch::NONE).unwrap();
+    let given = view(of(CIRCLE), &arm_at("rim", &gone), Watch::NONE).unwrap();
     assert!(given.arm.is_none() && given.extremes[0].worst.is_some());
 }
 
@@ -500,6 +509,95 @@ fn boxes_and_sections_have_theirs() {
     let given = scene(of(CIRCLE), Some("far"), Watch::NONE).unwrap();
     assert_eq!(given.sections.len(), 2);
     assert!((given.sections[0].plate.centre_mm[0] - 900.0).abs() < 1e-9 && given.points.is_none());
+}
+
+/// The deviation (um) at a place on the grid of a map, linear along its sides.
+fn on_a_side(grid: &armill_study::answer::GridAnswer, [y, z]: [f64; 2]) -> f64 {
+    let columns = grid.y_mm.len();
+    let value = |column: usize, row: usize| grid.in_plane_um[row * columns + column].unwrap();
+    let step = (grid.y_mm[1] - grid.y_mm[0]).abs();
+    // The grid points of its side: one, or two a step apart.
+    let near = |axis: &[f64], at: f64| {
+        let mut near: Vec<usize> = (0..axis.len()).collect();
+        near.sort_by(|a, b| (axis[*a] - at).abs().total_cmp(&(axis[*b] - at).abs()));
+        ((axis[near[0]] - at).abs() / step, [near[0], near[1]])
+    };
+    let ((along, columns), (up, rows)) = (near(&grid.y_mm, y), near(&grid.z_mm, z));
+    assert!(along.min(up) < 1e-4, "{y} {z} is on no side");
+    let mix = |a: f64, b: f64, part: f64| a + (b - a) * part;
+    match along < up {
+        true => mix(value(columns[0], rows[0]), value(columns[0], rows[1]), up),
+        false => mix(value(columns[0], rows[0]), value(columns[1], rows[0]), along),
+    }
+}
+
+#[test]
+fn the_lines_of_a_view_are_where_the_deviation_equals_their_level() {
+    let text = CIRCLE.replace("step_mm = 20", "step_mm = 5");
+    let asked = ViewQuestion {
+        analysis: Some("far"),
+        lines: true,
+        ..ViewQuestion::default()
+    };
+    let free = view(of(&text), &asked, Watch::NONE).unwrap();
+    let levels = free.levels_um.unwrap();
+    assert_eq!(free.lines.len(), 2);
+    let spans = free.answer.maps.iter();
+    let [mut least, mut largest] = [f64::INFINITY, 0.0_f64];
+    for map in spans {
+        least = least.min(map.min_in_plane_um.unwrap());
+        largest = largest.max(map.max_in_plane_um.unwrap());
+    }
+    assert!(levels[0] <= least && largest <= levels[levels.len() - 1] && levels.len() > 5);
+    // On the scale, but without lines of its own: that of the tolerance is another one.
+    let tolerance = levels[levels.len() / 2];
+    let text = text.replace("tolerance_um = 100", &format!("tolerance_um = {tolerance}"));
+    let fixed = ViewQuestion {
+        levels_um: Some(&levels),
+        ..asked
+    };
+    let given = view(of(&text), &fixed, Watch::NONE).unwrap();
+    assert_eq!(given.levels_um.as_ref(), Some(&levels));
+    let mut drawn = 0;
+    for (map, lines) in given.answer.maps.iter().zip(&given.lines) {
+        let of_levels = lines.levels.iter().map(|level| (level.level_um, &level.lines_mm));
+        for (um, lines) in of_levels.chain([(tolerance, &lines.tolerance_mm)]) {
+            for at in lines.iter().flatten() {
+                assert!((on_a_side(&map.grid, *at) - um).abs() < 0.02, "{um} {at:?}");
+                assert_eq!(at.map(|mm| (mm * 1e3).round() / 1e3), *at, "short numbers");
+            }
+            drawn += lines.len();
+        }
+        let mut of_levels = lines.levels.iter();
+        assert!(
+            of_levels.all(|level| (level.level_um - tolerance).abs() > 1e-6 && !level.lines_mm.is_empty())
+        );
+    }
+    assert!(drawn > 5, "{drawn}");
+    // Lines that are not requested: those of the tolerance alone.
+    let without = ViewQuestion {
+        lines: false,
+        ..fixed
+    };
+    let without = view(of(&text), &without, Watch::NONE).unwrap();
+    for (few, all) in without.lines.iter().zip(&given.lines) {
+        assert!(few.levels.is_empty());
+        assert_eq!(few.tolerance_mm, all.tolerance_mm);
+    }
+    // Points have colours without lines.
+    for analysis in ["rim", "box"] {
+        let of_points = ViewQuestion {
+            analysis: Some(analysis),
+            ..asked
+        };
+        let given = view(of(CIRCLE), &of_points, Watch::NONE).unwrap();
+        assert!(given.levels_um.is_some_and(|levels| levels.len() > 2) && given.lines.is_empty());
+    }
+    let refused = ViewQuestion {
+        levels_um: Some(&[3.0, 2.0]),
+        ..asked
+    };
+    assert!(view(of(CIRCLE), &refused, Watch::NONE).is_err());
 }
 
 #[test]

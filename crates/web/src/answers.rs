@@ -3,7 +3,7 @@
 //! | path | answers |
 //! |---|---|
 //! | `POST /api/answer` | as `armill run --json` of one analysis, or of all |
-//! | `POST /api/view` | answer, values, scene of an analysis and the arm in it at once, after values are changed |
+//! | `POST /api/view` | answer, values, scene, colours and lines of an analysis and the arm in it at once, after values are changed |
 //! | `POST /api/values` | the settings that an analysis resolves to |
 //! | `POST /api/pose` | the arm at one place of an analysis |
 //! | `POST /api/scene` | the geometry of an analysis for drawing |
@@ -16,8 +16,8 @@ use std::sync::{Arc, OnceLock};
 
 use armill_core::watch::Watch;
 use armill_study::live::{
-    ChangedValue, PoseRequest, PoseTarget, PostureQuestion, StudyText, answer_json, measured_csv, mesh_bytes,
-    picture_svg, pictures, postures, scene, table_csv, values, view,
+    ChangedValue, PoseRequest, PoseTarget, PostureQuestion, StudyText, ViewQuestion, answer_json,
+    measured_csv, mesh_bytes, picture_svg, pictures, postures, scene, table_csv, values, view,
 };
 use armill_study::robot_answers::library_rows;
 use armill_study::{StudyError, output};
@@ -56,6 +56,11 @@ pub(crate) struct ViewRequest {
     pub changes: Vec<ChangedValue>,
     /// The requested pose of the arm; none if left out.
     pub arm: Option<PoseRequest>,
+    /// The levels of a fixed colour scale, rising; chosen for the deviations if left out.
+    pub levels_um: Option<Vec<f64>>,
+    /// Whether maps have lines of equal deviation at these levels, in addition to those at the tolerance.
+    #[serde(default)]
+    pub lines: bool,
 }
 
 /// A shape of the robot.
@@ -161,13 +166,14 @@ pub(crate) async fn of_view(
 ) -> Answered {
     let headers = for_itself(&headers, "view");
     answered(state, (of.text, headers, JSON), move |text, watch| {
-        as_json(&view(
-            text,
-            of.analysis.as_deref(),
-            &of.changes,
-            of.arm.as_ref(),
-            watch,
-        )?)
+        let question = ViewQuestion {
+            analysis: of.analysis.as_deref(),
+            changes: &of.changes,
+            arm: of.arm.as_ref(),
+            levels_um: of.levels_um.as_deref(),
+            lines: of.lines,
+        };
+        as_json(&view(text, &question, watch)?)
     })
     .await
 }

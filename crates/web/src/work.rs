@@ -36,6 +36,9 @@ struct Tab {
     requested: watch::Sender<u64>,
 }
 
+/// A computation that keeps its result itself.
+type Job = Box<dyn FnOnce(Watch<'_>) + Send>;
+
 /// Cancels the work when its client is gone.
 struct CancelOnDrop(Arc<AtomicBool>);
 
@@ -61,6 +64,19 @@ impl Work {
         &self,
         work: impl FnOnce(Watch<'_>) -> Result<T, StudyError> + Send + 'static,
     ) -> Result<T, ApiError> {
+        let answer = Arc::new(Mutex::new(None));
+        let slot = Arc::clone(&answer);
+        self.run(Box::new(move |watch| {
+            let found = work(watch);
+            *slot.lock().unwrap_or_else(PoisonError::into_inner) = Some(found);
+        }))
+        .await?;
+        let found = answer.lock().unwrap_or_else(PoisonError::into_inner).take();
+        Ok(found.ok_or_else(ended_early)??)
+    }
+
+    /// Runs `job` on a separate thread; cancelled when the client is gone. Compiled once, whatever the result.
+    async fn run(&self, job: Job) -> Result<(), ApiError> {
         let place = Arc::clone(&self.places).acquire_owned().await;
         let cancel = Arc::new(AtomicBool::new(false));
         let expected = CancelOnDrop(Arc::clone(&cancel));
@@ -68,20 +84,15 @@ impl Work {
             // Kept until the work has really ended, also when the client is gone.
             let _place = place;
             Inputs::cancelled_by(Arc::clone(&cancel)).during(|| {
-                work(Watch {
+                job(Watch {
                     finished: &|_| (),
                     cancel: &cancel,
-                })
-            })
+                });
+            });
         });
-        let result = task.await;
+        let ended = task.await;
         drop(expected);
-        match result {
-            Ok(result) => Ok(result?),
-            Err(_) => Err(ApiError::internal(
-                "internal error of armill: the computation ended early",
-            )),
-        }
+        ended.map_err(|_| ended_early())
     }
 
     /// [`Work::done`] as the only work of its tab, where the request names one.
@@ -120,6 +131,11 @@ impl Work {
         };
         Arc::clone(tabs.entry(name.to_owned()).or_insert_with(new))
     }
+}
+
+/// The answer where a computation panics.
+fn ended_early() -> ApiError {
+    ApiError::internal("internal error of armill: the computation ended early")
 }
 
 /// Waits until this question is the one to work on.

@@ -2,7 +2,6 @@
 // as in the pictures of the command. Ten anchors of the published table, linear between.
 
 import * as THREE from "three";
-import { niceStep } from "../format";
 
 export type Rgb = [number, number, number];
 
@@ -21,31 +20,16 @@ export function viridis(at: number): Rgb {
 
 export const css = ([r, g, b]: Rgb): string => `rgb(${Math.round(r * 255)} ${Math.round(g * 255)} ${Math.round(b * 255)})`;
 
-export interface Scale {
-  low: number;
-  high: number;
-  /** Levels of lines and ticks. */
-  levels: number[];
+/** Levels of lines and ticks, µm; colours reach from the first to the last. */
+export type Scale = number[];
+
+export const ends = (scale: Scale): [number, number] => [scale[0]!, scale.at(-1)!];
+
+/** Where a value is on the scale: 0 at its first level, 1 at its last. */
+export function along(scale: Scale, value: number): number {
+  const [low, high] = ends(scale);
+  return (value - low) / (high - low);
 }
-
-/** A scale of round numbers about the values; it reaches to the tolerance where that costs less than half the colours. */
-export function scaleOf(least: number, largest: number, tolerance: number): Scale {
-  let low = least;
-  let high = Math.max(largest, least + 1e-9);
-  const span = high - low || Math.abs(high) || 1;
-  if (tolerance < low && low - tolerance < span) low = tolerance;
-  if (tolerance > high && tolerance - high < span) high = tolerance;
-  const step = niceStep(high - low || span, 8);
-  const first = Math.floor(low / step + 1e-9) * step;
-  const last = Math.ceil(high / step - 1e-9) * step;
-  const count = Math.max(1, Math.round((last - first) / step));
-  const levels = Array.from({ length: count + 1 }, (_, i) => tidy(first + i * step));
-  return { low: levels[0]!, high: levels[count]!, levels };
-}
-
-export const along = (scale: Scale, value: number): number => (value - scale.low) / (scale.high - scale.low || 1);
-
-const tidy = (x: number): number => Number(x.toPrecision(12));
 
 const shades = new Map<string, THREE.Color>();
 /** A colour of the page, by its name in the style; read once a theme, since reading it makes the browser style all there is. */

@@ -3,12 +3,12 @@
 import { fill, h, renew, s } from "../dom";
 import { fixed, mm, percent, trimmed, um } from "../format";
 import type { Live } from "../live";
-import { along, css, viridis } from "./colour";
+import { along, css, ends, viridis } from "./colour";
 import type { View } from "./stage";
 import { ELLIPSOID, type SceneView, type Show, type Under } from "./view";
 
 const VIEWS: [View, string, string][] = [["overview", "Overview", "1"], ["front", "Front", "2"], ["side", "Side", "3"], ["top", "Top", "4"], ["plate", "Plate", "5"]];
-const SWITCHES: [keyof Show, string][] = [["arm", "Arm"], ["shape", "CAD meshes"], ["forces", "Force arrow"], ["deviation", "Deviation arrow"], ["parts", "Components: in plane, normal"], ["ellipsoid", "Compliance ellipsoid"], ["lines", "Lines of equal deviation"], ["certainty", "Robustly within (dashed)"], ["rectangle", "Largest rectangle within"], ["fix_scale", "Fix the colour scale"]];
+const SWITCHES: [keyof Show | keyof Live["wanted"], string][] = [["arm", "Arm"], ["shape", "CAD meshes"], ["forces", "Force arrow"], ["deviation", "Deviation arrow"], ["parts", "Components: in plane, normal"], ["ellipsoid", "Compliance ellipsoid"], ["lines", "Lines of equal deviation"], ["certainty", "Robustly within (dashed)"], ["rectangle", "Largest rectangle within"], ["fix_scale", "Fix the colour scale"]];
 
 export function overlay(view: SceneView, live: Live): HTMLElement {
   const legendBox = h("div", { class: "legend card", role: "img" });
@@ -34,12 +34,15 @@ export function overlay(view: SceneView, live: Live): HTMLElement {
     { class: "shown card" },
     h("summary", {}, "Show"),
     SWITCHES.map(([key, text]) => {
-      const box = h("input", { type: "checkbox", checked: view.show[key] as boolean });
+      const by_server = key in live.wanted;
+      const flags = (by_server ? live.wanted : view.show) as Record<typeof key, boolean>;
+      const box = h("input", { type: "checkbox", checked: flags[key] });
       box.addEventListener("change", () => {
         if (key === "ellipsoid") soft.hidden = !box.checked;
         if (key === "parts") parts.hidden = !box.checked;
-        (view.show[key] as boolean) = box.checked;
-        redraw();
+        flags[key] = box.checked;
+        if (by_server) live.refresh();
+        else redraw();
       });
       const label = h("label", {}, box, ` ${text}`);
       // There to be chosen where the robot has one.
@@ -63,7 +66,7 @@ export function overlay(view: SceneView, live: Live): HTMLElement {
     if (hit) view.look(hit[0]);
   });
   view.onScale = () => {
-    legend(legendBox, view, live);
+    legend(legendBox, live);
     magnified.textContent = times(view.show.magnified);
     slider.value = String(Math.log10(view.show.magnified));
   };
@@ -84,17 +87,18 @@ export function overlay(view: SceneView, live: Live): HTMLElement {
 const times = (n: number): string => `× ${trimmed(n, 0)}`;
 
 /** The colour bar, with ticks at the lines' levels and the tolerance marked. */
-function legend(box: HTMLElement, view: SceneView, live: Live): void {
-  const scale = view.scale;
+function legend(box: HTMLElement, live: Live): void {
+  const scale = live.levels_um;
   const tolerance = live.setting?.tolerance_um;
   if (!scale || tolerance === undefined) return;
   const W = 280;
+  const [low, high] = ends(scale);
   const at = (value: number) => 14 + (W - 28) * along(scale, value);
   const stops = Array.from({ length: 21 }, (_, i) => s("stop", { offset: i / 20, "stop-color": css(viridis(i / 20)) }));
-  const every = Math.ceil(scale.levels.length / 6);
-  const inside = tolerance >= scale.low && tolerance <= scale.high;
+  const every = Math.ceil(scale.length / 6);
+  const inside = tolerance >= low && tolerance <= high;
   const cases = live.setting!.cases_n.length;
-  box.setAttribute("aria-label", `Colours from ${um(scale.low)} to ${um(scale.high)} micrometres; tolerance ${um(tolerance)}`);
+  box.setAttribute("aria-label", `Colours from ${um(low)} to ${um(high)} micrometres; tolerance ${um(tolerance)}`);
   renew(
     box,
     h("p", { class: "legend-name" }, "In-plane deviation ", h("b", {}, "µm"), cases > 1 ? h("small", {}, ` largest of ${cases} load cases`) : null),
@@ -103,13 +107,13 @@ function legend(box: HTMLElement, view: SceneView, live: Live): void {
       { width: W, height: 46, viewBox: `0 0 ${W} 46`, "aria-hidden": "true" },
       s("defs", {}, s("linearGradient", { id: "bar" }, stops)),
       s("rect", { x: 14, y: 15, width: W - 28, height: 12, rx: 2, fill: "url(#bar)" }),
-      scale.levels.filter((_, i) => i % every === 0).map((level) => [
+      scale.filter((_, i) => i % every === 0).map((level) => [
         s("line", { x1: at(level), x2: at(level), y1: 27, y2: 31, class: "tick" }),
         s("text", { x: at(level), y: 43, "text-anchor": "middle" }, trimmed(level, 1)),
       ]),
       inside
         ? [s("path", { d: `M${at(tolerance)} 29 V13 m-5 -7 h10 l-5 7 z`, class: "limit" }), s("text", { x: at(tolerance) > W - 90 ? at(tolerance) - 9 : at(tolerance) + 9, y: 10, class: "limit-text", "text-anchor": at(tolerance) > W - 90 ? "end" : "start" }, `tolerance ${trimmed(tolerance, 1)}`)]
-        : [s("text", { x: tolerance < scale.low ? 14 : W - 14, y: 10, class: "limit-text", "text-anchor": tolerance < scale.low ? "start" : "end" }, tolerance < scale.low ? `◀ tolerance ${trimmed(tolerance, 1)}, all above it` : `tolerance ${trimmed(tolerance, 1)}, all below it ▶`)],
+        : [s("text", { x: tolerance < low ? 14 : W - 14, y: 10, class: "limit-text", "text-anchor": tolerance < low ? "start" : "end" }, tolerance < low ? `◀ tolerance ${trimmed(tolerance, 1)}, all above it` : `tolerance ${trimmed(tolerance, 1)}, all below it ▶`)],
     ),
   );
 }

@@ -4,9 +4,8 @@
 
 import * as THREE from "three";
 import { trimmed } from "../format";
-import type { MapAnswer, MapGrid, Plate, Vec3 } from "../types";
+import type { Line, MapAnswer, MapGrid, MapLines, Plate, Vec3 } from "../types";
 import { along, viridis, type Scale } from "./colour";
-import { contours, type Line } from "./contour";
 import type { Labels } from "./labels";
 import { Lines } from "./lines";
 
@@ -41,23 +40,20 @@ export class PlateView {
     this.robust.object.renderOrder = 2;
   }
 
-  draw(map: MapAnswer, plate: Plate, scale: Scale, options: { lines: boolean; certainty: boolean; rectangle: boolean }): void {
+  draw(map: MapAnswer, plate: Plate, scale: Scale, lines: MapLines, options: { certainty: boolean; rectangle: boolean }): void {
     this.moveTo(plate);
     this.build(map.grid);
     this.surface.visible = true;
     this.colour(map.grid, scale);
-    const grid = { y_mm: map.grid.y_mm, z_mm: map.grid.z_mm, values: map.grid.in_plane_um };
-    const levels = scale.levels.filter((level) => Math.abs(level - map.setting.tolerance_um) > 1e-6);
-    const [bound, ...iso] = contours(grid, [map.setting.tolerance_um, ...(options.lines ? levels : [])]) as [Line[], ...Line[][]];
-    this.iso.draw(iso.flat());
-    this.casing.draw(bound);
-    this.tolerance.draw(bound);
+    this.iso.draw(lines.levels.flatMap((level) => level.lines_mm));
+    this.casing.draw(lines.tolerance_mm);
+    this.tolerance.draw(lines.tolerance_mm);
     this.robust.draw(options.certainty && map.certainty ? map.certainty.boundary_robust_mm : []);
     this.labels.group(this.name);
     const corners = options.rectangle ? map.region.rectangle_mm : null;
     this.largest.draw(corners ? [rectangle(...corners)] : []);
-    this.tag(bound, `tolerance ${trimmed(map.setting.tolerance_um, 1)} µm`, "limit-tag", 1);
-    iso.forEach((lines, i) => this.tag(lines, trimmed(levels[i]!, 1), "iso", 2));
+    this.tag(lines.tolerance_mm, `tolerance ${trimmed(map.setting.tolerance_um, 1)} µm`, "limit-tag", 1);
+    for (const { level_um, lines_mm } of lines.levels) this.tag(lines_mm, trimmed(level_um, 1), "iso", 2);
   }
 
   /** Only its edges: a plane other than the one shown. */

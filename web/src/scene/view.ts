@@ -8,7 +8,7 @@ import { sharesOf } from "../shares";
 import type { At, Plate } from "../types";
 import { Arm } from "./arm";
 import { Arrow } from "./arrows";
-import { scaleOf, shade, type Scale } from "./colour";
+import { shade } from "./colour";
 import { isCovered } from "./covered";
 import { Ellipsoid } from "./ellipsoid";
 import { Part } from "./part";
@@ -27,7 +27,6 @@ export interface Show {
   /** Its parts in the plane and along the normal. */
   parts: boolean;
   ellipsoid: boolean;
-  lines: boolean;
   certainty: boolean;
   /** The largest rectangle within tolerance. */
   rectangle: boolean;
@@ -35,7 +34,6 @@ export interface Show {
   magnified: number;
   magnified_by_hand: boolean;
   mm_per_n: number;
-  fix_scale: boolean;
 }
 
 /** The object under the pointer. */
@@ -49,8 +47,7 @@ const STOUT = 1.7;
 
 export class SceneView {
   readonly stage: Stage;
-  scale: Scale | null = null;
-  readonly show: Show = { arm: true, shape: true, forces: true, deviation: true, parts: false, ellipsoid: false, lines: true, certainty: true, rectangle: false, magnified: 1000, magnified_by_hand: false, mm_per_n: 25, fix_scale: false };
+  readonly show: Show = { arm: true, shape: true, forces: true, deviation: true, parts: false, ellipsoid: false, certainty: true, rectangle: false, magnified: 1000, magnified_by_hand: false, mm_per_n: 25 };
   onHover: (under: Under, x: number, y: number) => void = () => {};
   onScale: () => void = () => {};
   private readonly arm = new Arm();
@@ -98,9 +95,7 @@ export class SceneView {
   private drawAnswer(): void {
     const { answer, scene, setting } = this.live;
     if (!answer || !scene || !setting) return;
-    const range = this.range();
-    if (range && !(this.show.fix_scale && this.scale)) this.scale = scaleOf(range[0], range[1], setting.tolerance_um);
-    const scale = this.scale;
+    const scale = this.live.levels_um;
     const plates = answer.maps.length > 0 ? this.platesOf() : [];
     while (this.plates.length < plates.length) {
       const plate = new PlateView(this.stage.labels, `plate ${this.plates.length}`);
@@ -110,9 +105,10 @@ export class SceneView {
     this.plates.forEach((view, i) => {
       const map = answer.maps[i];
       const plate = plates[i];
-      if (!map || !plate || !scale) return view.hide();
+      const lines = this.live.lines[i];
+      if (!map || !plate || !lines || !scale) return view.hide();
       if (answer.maps.length > 1 && i !== this.live.section) return view.outline(map, plate);
-      view.draw(map, plate, scale, { lines: this.show.lines, certainty: this.show.certainty, rectangle: this.show.rectangle });
+      view.draw(map, plate, scale, lines, { certainty: this.show.certainty, rectangle: this.show.rectangle });
     });
     if (scene.points && scale && !scene.box) this.path.draw(scene.points, scale, answer.paths.length > 0, this.show.deviation ? this.show.magnified / 1000 : 0);
     else this.path.clear();
@@ -127,14 +123,6 @@ export class SceneView {
     }
     this.onScale();
     this.stage.draw();
-  }
-
-  private range(): [number, number] | null {
-    const { answer, scene } = this.live;
-    const spans = answer!.maps.flatMap((m) => [m.min_in_plane_um, m.max_in_plane_um]).concat(answer!.volumes.flatMap((v) => [v.best?.in_plane_um ?? null, v.worst?.in_plane_um ?? null]));
-    const values = spans.length > 0 ? spans : (scene!.points?.columns.in_plane_um ?? []);
-    const known = values.filter((v): v is number => v !== null && v !== undefined);
-    return known.length > 0 ? [known.reduce((a, b) => Math.min(a, b)), known.reduce((a, b) => Math.max(a, b))] : null;
   }
 
   /** One plate a map. */

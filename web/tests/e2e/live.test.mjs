@@ -97,6 +97,34 @@ test("a change is one question, and what is shown of map and arm comes with it",
   await page.context().close();
 });
 
+test("a fixed colour scale stays while values change; lines and scale follow their switches", async () => {
+  const page = await open(browser, server.url);
+  const legend = () => page.locator(".legend").getAttribute("aria-label");
+  const turn = async (text) => {
+    await page.locator(".shown label", { hasText: text }).click();
+    await settled(page);
+  };
+  const lines = page.locator(".labels .iso:visible");
+  await page.click(".views button:nth-child(5)");
+  await page.locator(".shown summary").click();
+  assert.ok((await lines.count()) > 0);
+  await turn("Lines of equal deviation");
+  assert.equal(await lines.count(), 0);
+  await turn("Lines of equal deviation");
+  assert.ok((await lines.count()) > 0);
+  const first = await legend();
+  await turn("Fix the colour scale");
+  await page.fill("#field-x", "1400");
+  await settled(page);
+  assert.equal(await legend(), first);
+  await turn("Fix the colour scale");
+  assert.notEqual(await legend(), first);
+  const { levels_um } = await request("POST", "/api/view", { text: await changed("Fig. 6", ["plane.centre_mm", [1400, 0, 1000]]), analysis: "Fig. 6" });
+  assert.equal(await legend(), `Colours from ${um(levels_um[0])} to ${um(levels_um.at(-1))} micrometres; tolerance 50.0`);
+  assert.deepEqual(page.complaints, []);
+  await page.context().close();
+});
+
 const HOLES = `format = 1
 robot = "yaskawa/mh12"
 tolerance_um = 90

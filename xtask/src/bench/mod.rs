@@ -36,8 +36,9 @@ pub const ABOUT: &str =
 const PAGE: &str = "docs/performance.md";
 /// The poses that all peers read.
 const WORKLOAD: &str = "target/bench-workload";
-/// Where `bench/` is built.
+/// Where `bench/` is built, and where it is for this processor.
 const TARGET: &str = "target/bench";
+const NATIVE_TARGET: &str = "target/bench-native";
 
 /// What was requested.
 #[derive(Debug, Default, PartialEq)]
@@ -136,9 +137,19 @@ fn measured(options: &Options) -> Result<BenchRun, String> {
     Ok(found)
 }
 
-/// armill and the peers in Rust; writes the poses for the others.
+/// armill as users get it, and the peers in Rust built for this processor; writes the poses for the others.
 fn rust(options: &Options, found: &mut BenchRun) -> Result<(), String> {
+    let mut command = bench_cargo(&["run", "--release", "--", WORKLOAD]);
+    if options.only == Some(Only::Paths) {
+        command.arg("--paths");
+    }
+    found.read(&printed(options.quicken(&mut command))?);
+    if options.only == Some(Only::Paths) {
+        return Ok(());
+    }
     let mut command = bench_cargo(&["run", "--release"]);
+    command.env("CARGO_TARGET_DIR", NATIVE_TARGET);
+    command.env("RUSTFLAGS", "-C target-cpu=native");
     if let Some(cmake) = peers::cmake() {
         command.args(["--features", "ik-geo"]).env("CMAKE", cmake);
     } else {
@@ -146,10 +157,7 @@ fn rust(options: &Options, found: &mut BenchRun) -> Result<(), String> {
             .skipped
             .push("ik-geo: its dependency nlopt needs cmake to build".to_owned());
     }
-    command.args(["--", WORKLOAD]);
-    if options.only == Some(Only::Paths) {
-        command.arg("--paths");
-    }
+    command.args(["--", WORKLOAD, "--peers"]);
     found.read(&printed(options.quicken(&mut command))?);
     Ok(())
 }

@@ -36,6 +36,20 @@ be faster on this processor.
 
 The packaged libraries verify, treat singular cases or take any geometry; the plain version and the specialised numpy and
 numba ones do not. Results are overwritten block by block: work is timed, not the memory.
+
+## How each is run
+
+As someone who knows it well would run it; where a loop written for this one arm is faster than armill, it may be used
+where its limits do not matter: it has no joint limits, no flags for what is out of reach, singular or unverified, no
+other branch, arm or tool, and no shares and uncertainties.
+
+- **armill**: as users get it, without options of the compiler; instructions are chosen while it runs
+- **plain Rust, rs-opw-kinematics, ik-geo, k**: `target-cpu=native`, release profile, arms made once, poses in their own types
+- **numba**: `fastmath`, `error_model=\"numpy\"` (with Python's check for a division by zero the loop gets no vectors), poses as
+  columns, output allocated once, blocks that stay in cache; with threads: `parallel` over the blocks
+- **numpy**: poses as columns, blocks of 8192, output allocated once
+- **EAIK**: `IK_batched` on one thread
+- **Pinocchio, C++ by hand**: `-O3 -march=native`, model and data made once
 ";
 
 /// The whole page, Markdown.

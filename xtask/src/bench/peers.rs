@@ -7,7 +7,7 @@
 //! | virtual environment | `target/bench-venv` | `bench/python/requirements.txt`, reinstalled when that changes |
 //! | programs in C++ | `target/bench-...` | `bench/cpp/`, rebuilt when the source is newer |
 //!
-//! All work on one thread. Nothing outside `target/` is installed.
+//! numba works on one thread and on all, the others on one. Nothing outside `target/` is installed.
 
 use super::WORKLOAD;
 use crate::command::printed;
@@ -26,13 +26,8 @@ const BY_HAND: CppPeer = CppPeer {
     source: "bench/cpp/limit.cpp",
     program: "target/bench-limit",
 };
-/// Environment variables that limit the thread pools of numpy and others.
-const THREADS: &[&str] = &[
-    "OMP_NUM_THREADS",
-    "MKL_NUM_THREADS",
-    "OPENBLAS_NUM_THREADS",
-    "NUMBA_NUM_THREADS",
-];
+/// Environment variables that limit the thread pools of numpy and others; the loops of numba say themselves.
+const THREADS: &[&str] = &["OMP_NUM_THREADS", "MKL_NUM_THREADS", "OPENBLAS_NUM_THREADS"];
 
 /// Makes the virtual environment, or brings it up to date.
 ///
@@ -51,7 +46,7 @@ pub fn virtual_environment() -> Result<(), String> {
     fs::write(installed, requested).map_err(|problem| problem.to_string())
 }
 
-/// The peers in Python, on one thread.
+/// The peers in Python.
 pub fn python() -> Command {
     let mut command = Command::new(in_venv("python"));
     command.args(["bench/python/peers.py", WORKLOAD]);

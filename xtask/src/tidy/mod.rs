@@ -9,6 +9,8 @@
 
 // The repository as the rules see it.
 mod boundary_fields;
+mod circles;
+mod paths;
 mod rust;
 mod toml_tables;
 mod tree;
@@ -20,6 +22,7 @@ mod core_absence;
 mod crate_direction;
 mod embedded;
 mod exit_codes;
+mod file_circles;
 mod file_length;
 mod links;
 mod machine_paths;
@@ -68,6 +71,7 @@ const RULES: &[Rule] = &[
     crate_direction::RULE,
     module_order::RULE,
     module_circles::RULE,
+    file_circles::RULE,
     module_folders::RULE,
     core_absence::RULE,
     unsafe_code::RULE,

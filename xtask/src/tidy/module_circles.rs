@@ -7,9 +7,8 @@
 //! Looked at are `crate::name` and as many `super::` as lead to the root; tests may use everything. A name that the
 //! root re-exports is no module and leads nowhere.
 
-use std::collections::BTreeMap;
-
 use super::Rule;
+use super::circles::{Uses, circles};
 use super::tree::Tree;
 use super::violation::Violation;
 
@@ -20,15 +19,15 @@ pub const RULE: Rule = Rule {
     check,
 };
 
-/// Of each module those that it uses, with the file and line of the first use.
-type Uses = BTreeMap<String, BTreeMap<String, (String, usize)>>;
-
 /// Finds the circles of each crate.
 fn check(tree: &Tree) -> Vec<Violation> {
     let manifests = tree.texts_in("crates/", "/Cargo.toml");
     let folders = manifests.filter_map(|(path, _)| path.strip_suffix("Cargo.toml"));
     folders
-        .flat_map(|folder| circles(&uses(tree, &format!("{folder}src/"))))
+        .flat_map(|folder| {
+            let uses = uses(tree, &format!("{folder}src/"));
+            circles(&uses, "move what both need into a module below them")
+        })
         .collect()
 }
 
@@ -55,47 +54,6 @@ fn uses(tree: &Tree, source: &str) -> Uses {
         }
     }
     uses
-}
-
-/// A violation for each use that closes a circle: the used module leads back to the one that uses it.
-fn circles(uses: &Uses) -> Vec<Violation> {
-    let mut violations = Vec::new();
-    for (module, used) in uses {
-        for (name, (path, line)) in used {
-            // At least one use of a circle goes against the alphabet; the others would report the same circle again.
-            if module < name {
-                continue;
-            }
-            if let Some(way) = way(uses, name, module) {
-                let what = format!(
-                    "`{module}` uses `{name}`, which leads back to it: {}",
-                    way.join(" -> ")
-                );
-                let hint = "move what both need into a module below them";
-                violations.push(Violation::new(path, *line, what, hint));
-            }
-        }
-    }
-    violations
-}
-
-/// The modules on the way from one to another along uses, both included; none if there is no way.
-fn way<'a>(uses: &'a Uses, from: &'a str, to: &str) -> Option<Vec<&'a str>> {
-    let mut ways: Vec<Vec<&str>> = vec![vec![from]];
-    let mut seen = vec![from];
-    while let Some(way) = ways.pop() {
-        let last = *way.last()?;
-        if last == to {
-            return Some(way);
-        }
-        for next in uses.get(last).into_iter().flat_map(BTreeMap::keys) {
-            if !seen.contains(&next.as_str()) {
-                seen.push(next);
-                ways.push([way.as_slice(), &[next.as_str()]].concat());
-            }
-        }
-    }
-    None
 }
 
 #[cfg(test)]

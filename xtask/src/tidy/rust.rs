@@ -188,7 +188,7 @@ pub fn is_punct(tree: &TokenTree, character: char) -> bool {
 }
 
 /// Whether `tree` is what follows the `#` of an attribute for tests.
-fn is_cfg_test(tree: Option<&TokenTree>) -> bool {
+pub fn is_cfg_test(tree: Option<&TokenTree>) -> bool {
     let words = tokens(tree.cloned());
     words
         .iter()

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::ROBOT_HELP;
 use super::poses::PosesOptions;
+use super::robots::ROBOT_HELP;
 use super::writing::WritingOptions;
 
 #[derive(Debug, Args)]

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::ROBOT_HELP;
+use super::robots::ROBOT_HELP;
 use super::writing::WritingOptions;
 
 #[derive(Debug, Args)]

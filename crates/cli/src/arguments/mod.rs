@@ -68,9 +68,6 @@ pub(crate) use serve::ServeArguments;
 
 use clap::{Parser, Subcommand};
 
-/// Help text of every option that accepts a robot.
-const ROBOT_HELP: &str = "Library name, or a robot file (.toml, .urdf, .xacro, .yaml, .dh, .chain)";
-
 /// Predict, explain and reduce the machining error of industrial robots.
 #[derive(Debug, Parser)]
 #[command(name = "armill", version, propagate_version = true, arg_required_else_help = true, after_help = EXAMPLES)]

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::ROBOT_HELP;
+use super::robots::ROBOT_HELP;
 use super::writing::WritingOptions;
 
 #[derive(Debug, Args)]

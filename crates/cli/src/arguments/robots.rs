@@ -8,8 +8,11 @@ use std::path::PathBuf;
 use armill_formats::robot::format::Format;
 use clap::{Args, Subcommand};
 
-use super::ROBOT_HELP;
 use super::writing::WritingOptions;
+
+/// Help text of every option that accepts a robot.
+pub(super) const ROBOT_HELP: &str =
+    "Library name, or a robot file (.toml, .urdf, .xacro, .yaml, .dh, .chain)";
 
 #[derive(Debug, Args)]
 #[command(

@@ -11,8 +11,8 @@ use armill_study::{StudyError, output, studies};
 
 use super::place::requested;
 use super::run::{folder, in_pool, results};
-use crate::Outcome;
 use crate::arguments::AdviseArguments;
+use crate::outcome::Outcome;
 use crate::progress::Progress;
 
 /// Searches, optimizes the spin, compensates, and runs the recommended path.

@@ -20,9 +20,9 @@ use armill_measure::backlash::{
 use armill_study::StudyError;
 use armill_study::{Study, studies};
 
-use crate::Outcome;
 use crate::arguments::BacklashArguments;
 use crate::arguments::numbers::{above_zero, finite, within};
+use crate::outcome::Outcome;
 use crate::progress::Progress;
 use crate::terminal::{Align, columns, print, say};
 

@@ -16,8 +16,8 @@ use armill_study::budget::answer::PartAnswer;
 use armill_study::budget::{BudgetAnswer, budget, point_count};
 use armill_study::{output, studies};
 
-use crate::Outcome;
 use crate::arguments::BudgetArguments;
+use crate::outcome::Outcome;
 use crate::progress::Progress;
 use crate::terminal::{print, say};
 

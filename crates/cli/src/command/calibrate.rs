@@ -21,9 +21,9 @@ use armill_measure::calibrate::{
 use armill_study::{StudyError, robots};
 
 use super::poses::{errors_head, errors_text, frames_text, question};
-use crate::Outcome;
 use crate::arguments::numbers::above_zero;
 use crate::arguments::{CalibrateArguments, UnknownsArgument};
+use crate::outcome::Outcome;
 use crate::terminal::{print, say};
 
 /// Reads, calibrates, writes the requested files and prints the result.

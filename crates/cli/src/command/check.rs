@@ -9,8 +9,8 @@ use armill_study::file::format::StudyFile;
 use armill_study::run::point_count;
 use armill_study::{StudyError, studies};
 
-use crate::Outcome;
 use crate::arguments::CheckArguments;
+use crate::outcome::Outcome;
 use crate::terminal::{print, say};
 
 /// Checks the study, or prints the schema.

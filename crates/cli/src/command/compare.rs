@@ -10,8 +10,8 @@ use armill_study::output::Pictures;
 use armill_study::{StudyError, studies};
 
 use super::run::in_pool;
-use crate::Outcome;
 use crate::arguments::CompareArguments;
+use crate::outcome::Outcome;
 use crate::progress::Progress;
 use crate::terminal::{Align, columns, print, say};
 
@@ -95,7 +95,7 @@ fn of_analysis(analysis: &ComparedAnswer) -> Vec<String> {
         "normal",
         "tolerance",
         "within",
-        "largest joint",
+        "largest share",
     ];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
     rows.extend(analysis.cells.iter().map(row));

@@ -13,8 +13,8 @@ use armill_study::program_out::program;
 use armill_study::{StudyError, studies};
 
 use super::program::{requested, save};
-use crate::Outcome;
 use crate::arguments::CompensateArguments;
+use crate::outcome::Outcome;
 use crate::progress::Progress;
 use crate::terminal::{print, say};
 

@@ -3,8 +3,8 @@
 use armill_study::StudyError;
 use clap::CommandFactory;
 
-use crate::Outcome;
 use crate::arguments::{Arguments, CompletionsArguments};
+use crate::outcome::Outcome;
 
 /// Prints the script, generated from the definition of the arguments.
 ///

@@ -23,8 +23,8 @@ use armill_study::measured::force_record::{Unread, read};
 use armill_study::measured::treatment::{Air, Refusal, Treatment, treat};
 use armill_study::number::decimals;
 
-use crate::Outcome;
 use crate::arguments::ForcesArguments;
+use crate::outcome::Outcome;
 use crate::terminal::{print, say};
 
 /// Reads, processes, writes the requested files and prints the result.

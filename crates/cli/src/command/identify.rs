@@ -27,9 +27,9 @@ use armill_measure::identify::{
 };
 use armill_study::{StudyError, robots};
 
-use crate::Outcome;
 use crate::arguments::numbers::{above_zero, three};
 use crate::arguments::{IdentifyArguments, PointsArgument, PriorArgument};
+use crate::outcome::Outcome;
 use crate::terminal::{print, say};
 
 /// Identifies from tests, or plans tests.

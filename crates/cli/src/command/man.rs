@@ -7,8 +7,8 @@ use armill_study::StudyError;
 use clap::{Command, CommandFactory};
 use clap_mangen::Man;
 
-use crate::Outcome;
 use crate::arguments::{Arguments, ManArguments};
+use crate::outcome::Outcome;
 
 /// Writes the pages, generated from the definition of the arguments, and prints their paths.
 ///

@@ -5,8 +5,8 @@ use armill_study::materials::{KienzleDetails, MaterialDetails, MaterialRow, Mech
 use armill_study::number::{decimals, digits};
 use armill_study::{StudyError, library};
 
-use crate::Outcome;
 use crate::arguments::MaterialsArguments;
+use crate::outcome::Outcome;
 use crate::terminal::{Align, columns, print};
 
 /// Prints the library or one material of it.

@@ -10,8 +10,8 @@ use armill_formats::file::create_folder;
 use armill_study::new::{Compliances, MadeStudy, new_study};
 use armill_study::{StudyError, library};
 
-use crate::Outcome;
 use crate::arguments::NewArguments;
+use crate::outcome::Outcome;
 use crate::terminal::{print, say};
 
 /// Creates the folder and the study in it.

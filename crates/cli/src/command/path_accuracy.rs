@@ -9,8 +9,8 @@
 use armill_measure::path_accuracy::{PathAccuracyAnswer, PlaceAnswer, answer, drawing, points, read};
 use armill_study::StudyError;
 
-use crate::Outcome;
 use crate::arguments::PathAccuracyArguments;
+use crate::outcome::Outcome;
 use crate::terminal::{print, say};
 
 /// Reads, writes the requested files and prints the result.

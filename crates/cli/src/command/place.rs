@@ -9,9 +9,9 @@ use armill_study::file::placement::PlaceTable;
 use armill_study::{StudyError, output, studies};
 
 use super::run::{folder, in_pool, results};
-use crate::Outcome;
 use crate::arguments::numbers::within;
 use crate::arguments::{PlaceArguments, PlaceOptions};
+use crate::outcome::Outcome;
 use crate::progress::Progress;
 use crate::terminal::say;
 

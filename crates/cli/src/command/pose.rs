@@ -29,9 +29,9 @@ use armill_study::output::posture_drawing;
 use armill_study::pose::{At, PoseAnswer, PoseQuestion, PostureAnswer, answer};
 use armill_study::{ComplianceClass, StudyError, robots};
 
-use crate::Outcome;
 use crate::arguments::PoseArguments;
 use crate::arguments::numbers::{finite, three, three_or_six};
+use crate::outcome::Outcome;
 use crate::terminal::print;
 
 /// Finds all postures of the pose and prints them.

@@ -14,8 +14,8 @@ use armill_measure::pose_accuracy::{PoseAccuracyAnswer, answer};
 use armill_study::{StudyError, robots};
 
 use super::poses::{errors_head, errors_text, frames_text, question};
-use crate::Outcome;
 use crate::arguments::PoseAccuracyArguments;
+use crate::outcome::Outcome;
 use crate::terminal::print;
 
 /// Number of poses listed.

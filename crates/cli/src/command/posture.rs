@@ -8,9 +8,9 @@ use armill_study::input::posture_search::{ComponentName, ObjectiveName, SearchTa
 use armill_study::{StudyError, studies};
 
 use super::run::{folder, results};
-use crate::Outcome;
 use crate::arguments::PostureArguments;
 use crate::arguments::numbers::within;
+use crate::outcome::Outcome;
 
 /// Searches along all paths of the study and writes the results.
 ///

@@ -23,8 +23,8 @@ use armill_study::StudyError;
 use armill_study::measured::profile::read;
 use armill_study::number::decimals;
 
-use crate::Outcome;
 use crate::arguments::RoundnessArguments;
+use crate::outcome::Outcome;
 use crate::terminal::{print, say};
 
 /// Harmonics above this are noise, and their sums take long.

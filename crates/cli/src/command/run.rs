@@ -12,9 +12,9 @@ use armill_study::run::run as run_study;
 use armill_study::studies::{self, FoundStudy};
 use armill_study::{Study, StudyError};
 
-use crate::Outcome;
 use crate::arguments::{RunArguments, RunOptions};
 use crate::listener;
+use crate::outcome::Outcome;
 use crate::progress::Progress;
 use crate::terminal::{print, say};
 

@@ -5,8 +5,8 @@
 use armill_study::StudyError;
 use armill_web::{Options, Server, has_page};
 
-use crate::Outcome;
 use crate::arguments::ServeArguments;
+use crate::outcome::Outcome;
 use crate::terminal::{print, say};
 
 /// Serves until Ctrl-C.

@@ -9,17 +9,18 @@
 //! of the current rayon pool. Every point is written by index, so any number of threads gives the same bits.
 //!
 //! `question` and `answer`: input and output; `solver`: a block of points, by lanes and by `general`; `loaded`: points
-//! with a load each; `column`: every posture of a few poses under a load; `placed`: a path on a part with a variable
-//! placement.
+//! with a load each; `column`: every posture of a few poses under a load; `path_on_part` and `placed`: a path on a part
+//! with a variable placement.
 
 mod answer;
 mod column;
+mod evaluate_at_joints;
 mod general;
 // Loops over lanes index many planes at once.
-mod evaluate_at_joints;
 #[allow(clippy::needless_range_loop)]
 pub mod lanes;
 mod loaded;
+mod path_on_part;
 mod placed;
 mod postures_at;
 mod question;
@@ -29,10 +30,8 @@ pub use answer::{AT_LIMIT, Answers, Evaluation};
 pub use column::{Column, ColumnLoad, Columns, PostureStatus, SLOTS};
 pub use evaluate_at_joints::{EvaluateError, evaluate_at_joints};
 pub use loaded::evaluate_loaded;
-pub use placed::{
-    PartPlacement, PathTotals, PathWrenches, PlacedPath, PlacedPoint, PlacementEvaluator, PlacementScreen,
-    PostureMargins, WrenchAxes,
-};
+pub use path_on_part::{PartPlacement, PathWrenches, PlacedPoint, PostureMargins, WrenchAxes};
+pub use placed::{PathTotals, PlacedPath, PlacementEvaluator, PlacementScreen};
 pub use postures_at::{PosturesAt, postures_at};
 pub use question::{BranchChoice, Question};
 

@@ -1,6 +1,6 @@
 //! Deviation over depth and feed, at the points of a program with the smallest permitted values.
 
-use super::limits::PointLimits;
+use super::point_limits::PointLimits;
 use super::varied::{CutLimits, MOST_DEPTH, MOST_FEED, Permitted, Varied, fed};
 use crate::load::Cut;
 use crate::watch::{Cancelled, Watch};
@@ -97,7 +97,7 @@ mod tests {
         CutHere, CutsAlong, Cutter, CuttingLaw, Engagement, GreatestForce, Immersion, Mechanistic, Milling,
         TipCompliance,
     };
-    use crate::map::limits::PermittedForces;
+    use crate::map::PermittedForces;
     use nalgebra::{Matrix3, Vector3};
     use std::sync::atomic::AtomicBool;
 

@@ -23,6 +23,7 @@ use nalgebra::Vector3;
 
 use super::along::AlongPath;
 use super::depth_by_feed::DepthByFeed;
+use super::point_limits::{PermittedForces, PointLimits};
 use super::varied::Varied;
 pub use super::varied::{CutLimits, Permitted};
 use crate::compliance::{permissible_force, permissible_force_in_worst_direction};
@@ -31,31 +32,6 @@ use crate::load::{CutsAlong, PathLoad, TipCompliance};
 use crate::path::Track;
 use crate::source::ArmState;
 use crate::watch::{Cancelled, Watch};
-
-/// Limits at a point of a program.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PointLimits {
-    /// Index of the point.
-    pub index: usize,
-    /// Force in addition to all other loads.
-    pub forces: PermittedForces,
-    /// Limits of the cut; `None` where nothing is cut, or no cut is known.
-    pub cut: Option<CutLimits>,
-}
-
-/// Permitted force (N) at a point: under this force alone, without gravity, the in-plane deviation of the tip equals
-/// the tolerance.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PermittedForces {
-    /// Along the feed.
-    pub along: f64,
-    /// To its left.
-    pub across: f64,
-    /// Along the tool.
-    pub normal: f64,
-    /// In the weakest direction.
-    pub weakest: f64,
-}
 
 /// Limits along a program.
 #[derive(Clone, Debug, PartialEq)]

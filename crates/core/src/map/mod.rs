@@ -3,9 +3,9 @@
 //! [`plane`]: deviation over a plane; [`volume`]: in space; [`along`]: along a path; [`radial`]: radial deviation and
 //! roundness of a circle; [`radial_parts`]: the part without load, and its uncertainty; [`backlash_geometry`]: effect
 //! of backlash and geometry along a path; `worst` and `jumps`: the largest deviations of a path, and jumps of the
-//! joints; [`limits`]: permitted force and cut along a path (`varied`: one cut with a varied parameter),
-//! [`depth_by_feed`]: depth over feed; [`region`]: the part of a plane within the tolerance, its area, boundary and
-//! inscribed shapes; [`certainty`]: its uncertainty.
+//! joints; [`limits`]: permitted force and cut along a path (`point_limits`: at a point; `varied`: one cut with a
+//! varied parameter), [`depth_by_feed`]: depth over feed; [`region`]: the part of a plane within the tolerance, its
+//! area, boundary and inscribed shapes; [`certainty`]: its uncertainty.
 //!
 //! `inscribed`: inscribed shapes; `turns`: whole turns of joints along a path.
 
@@ -17,6 +17,7 @@ mod inscribed;
 mod jumps;
 pub mod limits;
 pub mod plane;
+mod point_limits;
 pub mod radial;
 pub mod radial_parts;
 pub mod region;
@@ -30,8 +31,9 @@ pub use backlash_geometry::BacklashGeometry;
 pub use certainty::{COVERAGE, Certainty, probability_within};
 pub use depth_by_feed::DepthByFeed;
 pub use jumps::{Jump, jumps};
-pub use limits::{CutLimits, Permitted, PermittedForces, PointLimits, ProgramLimits, program_limits};
+pub use limits::{CutLimits, Permitted, ProgramLimits, program_limits};
 pub use plane::{Counts, PlaneMap, plane_map};
+pub use point_limits::{PermittedForces, PointLimits};
 pub use radial::{RadialDeviation, radial_deviations};
 pub use radial_parts::{WithoutLoad, radial_uncertainties, radial_without_load};
 pub use region::{Region, region_within};

@@ -1,6 +1,6 @@
 //! Thinned lattice of path points and tool turns, for pictures of a search.
 
-use super::posture::Spins;
+use super::spins::Spins;
 use crate::kernel::{PostureStatus, SLOTS};
 
 /// Path points by turns of the tool: the deviations, and the chain.

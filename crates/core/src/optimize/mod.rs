@@ -7,9 +7,9 @@
 //! - [`nodes`]: the same with few targets and straight moves between them.
 //! - [`reversals`](fn@reversals): number of reversals of each joint.
 //!
-//! `chain`: the chain of postures with the lowest cost; `links`: transitions between neighbouring points; `heading`:
-//! directions of the joints; `lattice`: data for pictures; `smooth`: turns without steps; `rank_by`: uncertainty of the
-//! cost of a placement.
+//! `spins`: the turns that are tried; `chain`: the chain of postures with the lowest cost; `links`: transitions between
+//! neighbouring points; `heading`: directions of the joints; `lattice`: data for pictures; `smooth`: turns without
+//! steps; `rank_by`: uncertainty of the cost of a placement.
 
 mod chain;
 pub mod compensation;
@@ -23,6 +23,7 @@ pub mod posture;
 mod rank_by;
 mod reversals;
 mod smooth;
+mod spins;
 
 pub use compensation::{Compensated, Compensation, compensated, residual_of};
 pub use holes::{HolesFound, hole_postures};
@@ -31,6 +32,7 @@ pub use nodes::{Shares, fitted};
 pub use placement::{
     Placeable, PlacementEvaluation, PlacementObjective, PostureSelection, Score, ToolTurn, on_part,
 };
-pub use posture::{Component, Objective, PostureFound, PostureSearch, Spins, postures_along};
+pub use posture::{Component, Objective, PostureFound, PostureSearch, postures_along};
 pub use rank_by::RankBy;
 pub use reversals::reversals;
+pub use spins::Spins;

@@ -16,8 +16,9 @@
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 use rayon::prelude::*;
 
-use super::posture::{Component, Objective, Spins, WITHIN};
+use super::posture::{Component, Objective, WITHIN};
 use super::rank_by::{RankBy, one_off};
+use super::spins::Spins;
 use crate::frame::{Isometry, tool_orientation};
 use crate::kernel::{
     PartPlacement, PathTotals, PathWrenches, PlacedPath, PlacedPoint, PlacementEvaluator, PlacementScreen,

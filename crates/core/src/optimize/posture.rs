@@ -30,6 +30,7 @@ use super::lattice::Lattice;
 use super::links::{Between, JointRate};
 use super::reversals::reversals;
 use super::smooth::without_steps;
+use super::spins::Spins;
 use crate::frame::{Isometry, both_across};
 use crate::kernel::{BranchChoice, Column, ColumnLoad, Columns, PostureStatus, Question, SLOTS};
 use crate::map::along_postures;
@@ -57,17 +58,6 @@ pub enum Objective {
     Mean,
     /// The mean excess over this tolerance (m).
     Above(f64),
-}
-
-/// Spins of the tool about its axis, in addition to that of the placing.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Spins {
-    /// The first, rad.
-    pub first: f64,
-    /// Step, rad; above zero.
-    pub step: f64,
-    /// Number of spins, at least one.
-    pub count: usize,
 }
 
 /// Settings of the search.
@@ -375,13 +365,6 @@ impl PostureFound {
             choices.push((0, BranchChoice::Of(BranchPattern::default())));
         }
         choices
-    }
-}
-
-impl Spins {
-    /// Spin number `index`, rad.
-    pub fn at(&self, index: usize) -> f64 {
-        self.first + self.step * index as f64
     }
 }
 

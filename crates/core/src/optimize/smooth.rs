@@ -5,7 +5,7 @@
 
 use std::f64::consts::TAU;
 
-use super::posture::Spins;
+use super::spins::Spins;
 use crate::kernel::SLOTS;
 use crate::path::SampledPath;
 

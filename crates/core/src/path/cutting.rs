@@ -13,7 +13,8 @@ use std::collections::BTreeMap;
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::engagement::{EngagementKind, Pass};
+use super::engagement::EngagementKind;
+use super::pass::Pass;
 use super::placing::Placing;
 use super::program::{Operation, Pace};
 use super::sampled::SampledPath;

@@ -6,24 +6,10 @@
 //! Material on the way of a step longer than two pitches is included only in its volume. For a spindle that turns
 //! counterclockwise left and right are exchanged: up-milling is down-milling.
 
-use nalgebra::{Point3, Unit, Vector3};
-
+use super::pass::Pass;
 use super::stock::{Stock, StockError, checked_place};
 use super::strip::{Heading, LEAST_HEIGHT, StripAhead, strip_ahead};
 use crate::load::{EndMillBody, Engagement};
-
-/// A straight step of a cut: a rapid would also remove material.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pass {
-    /// Position of the tip before, m, frame of the path; `to` itself where a cut begins.
-    pub from: Point3<f64>,
-    /// Position of the tip after, m.
-    pub to: Point3<f64>,
-    /// Feed direction at the end.
-    pub direction: Unit<Vector3<f64>>,
-    /// The tool, from the tip towards the spindle.
-    pub axis: Unit<Vector3<f64>>,
-}
 
 /// Kind of engagement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

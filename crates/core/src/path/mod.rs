@@ -2,9 +2,9 @@
 //!
 //! [`program`]: the moves of a tool path program. [`sampler`]: those moves as points. [`shape`]: circles and lines on a
 //! workpiece plane. [`sampled`]: the points of either. [`placing`] and [`track`]: position in the cell and turn of the
-//! tool. [`thinned`](mod@thinned): fewer points of a path. [`clock`]: time at each point. [`stock`], `sweep`, `strip`
-//! and [`engagement`]: engagement of the cutter; [`cutting`], [`drilled`]: its forces. [`feature`]: errors of the
-//! circle, line, plane or hole produced. [`holes`]: single points.
+//! tool. [`thinned`](mod@thinned): fewer points of a path. [`clock`]: time at each point. [`stock`], `sweep`, `pass`,
+//! `strip` and [`engagement`]: engagement of the cutter; [`cutting`], [`drilled`]: its forces. [`feature`]: errors of
+//! the circle, line, plane or hole produced. [`holes`]: single points.
 
 pub mod clock;
 pub mod cutting;
@@ -12,6 +12,7 @@ pub mod drilled;
 pub mod engagement;
 pub mod feature;
 pub mod holes;
+mod pass;
 pub mod placing;
 pub mod program;
 pub mod sampled;
@@ -27,9 +28,10 @@ pub use crate::load::GreatestForce;
 pub use clock::{Clock, NoTime, Speeds};
 pub use cutting::{Cutting, CuttingForces, ForceSummary, NoForces, StockEngagement};
 pub use drilled::Drill;
-pub use engagement::{EngagementKind, Pass, PassEngagement};
+pub use engagement::{EngagementKind, PassEngagement};
 pub use feature::{DeviatedPoint, FeatureErrors, FeatureKind, feature_errors};
 pub use holes::{Hole, drilled_holes, path_of_holes};
+pub use pass::Pass;
 pub use placing::{Placing, Spin};
 pub use program::{Arc, Course, DepthOfCut, GivenSpin, Move, Operation, Pace, Step};
 pub use sampled::{PathBuilder, SampledPath, TooManyPoints};

@@ -24,7 +24,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::{Point2, Point3, Vector2};
 
-use super::engagement::Pass;
+use super::pass::Pass;
 use super::stock::Stock;
 use crate::load::{EndMillBody, Engagement};
 

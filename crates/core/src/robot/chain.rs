@@ -248,6 +248,11 @@ impl Chain {
         &self.links
     }
 
+    /// Whether joint `index` is prismatic.
+    pub fn slides(&self, index: usize) -> bool {
+        matches!(self.links[index].motion, Motion::Along(_, Amount::Joint(_)))
+    }
+
     /// From the frame of the last joint, after its motion, to the flange.
     pub fn last_joint_from_flange(&self) -> &Fixed {
         &self.last_joint_from_flange

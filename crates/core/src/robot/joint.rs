@@ -42,6 +42,9 @@ pub struct JointCompliance {
     pub standard_uncertainty: f64,
 }
 
+/// Softest joint, rad/(N m) (m/N): a newton metre turns no machining joint by a radian.
+pub const SOFTEST: f64 = 1.0;
+
 /// An earlier joint whose position is added to this one's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coupling {

@@ -1,11 +1,12 @@
 //! The robot: kinematics, structure and postures.
 //!
-//! In reading order: [`chain`] (elementary motions and their inner form), [`joint`] (limits, signs, zeros,
-//! compliance), [`spring`], [`compensator`], [`torque_curve`], [`backlash`], [`structure`] (the parts other than
-//! drives), [`model`] (the robot as one value), [`forward`] (joint positions to frames), [`jacobian`] (screws at the
-//! tool), [`deflected_arm`] (frames and screws of the deflected arm), [`branch`] and [`posture`] (the postures of a
-//! pose), [`unreachable`](mod@unreachable) (why there may be none), [`inverse`] (tool pose to every posture),
-//! [`mod@reach`] (reach of the wrist centre), [`convention`] (which sign or zero disagrees with the pendant).
+//! In reading order: [`chain`] (elementary motions and their inner form), [`joint`] (limits, signs, zeros, compliance),
+//! [`structure_error`] (why a structure is not valid), [`spring`], [`compensator`], [`torque_curve`], [`backlash`],
+//! [`structure`] (the parts other than drives), [`model`] (the robot as one value), [`forward`] (joint positions to
+//! frames), [`jacobian`] (screws at the tool), [`deflected_arm`] (frames and screws of the deflected arm), [`branch`]
+//! and [`posture`] (the postures of a pose), [`unreachable`](mod@unreachable) (why there may be none), [`inverse`]
+//! (tool pose to every posture), [`mod@reach`] (reach of the wrist centre), [`convention`] (which sign or zero
+//! disagrees with the pendant).
 
 pub mod backlash;
 pub mod branch;
@@ -22,6 +23,7 @@ pub mod posture;
 pub mod reach;
 pub mod spring;
 pub mod structure;
+pub mod structure_error;
 pub mod torque_curve;
 pub mod unreachable;
 
@@ -34,6 +36,7 @@ pub use model::{Robot, RobotError};
 pub use posture::{Posture, PostureName, Sides, Singularity};
 pub use reach::reach;
 pub use spring::{Attachment, Spring};
-pub use structure::{Structure, StructureError};
+pub use structure::Structure;
+pub use structure_error::StructureError;
 pub use torque_curve::{JointCurve, TorqueCurve};
 pub use unreachable::{Overrun, Unreachable};

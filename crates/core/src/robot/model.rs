@@ -1,10 +1,11 @@
 //! The robot: chain, joints, compliance, frames. Immutable and shareable.
 
 use super::branch::BranchPattern;
-use super::chain::{Amount, Chain, ChainError, Motion};
+use super::chain::{Chain, ChainError, Motion};
 use super::inverse::{Inverse, OrthoParallel};
-use super::joint::{Joint, JointCompliance};
-use super::structure::{Structure, StructureError};
+use super::joint::{Joint, JointCompliance, SOFTEST};
+use super::structure::Structure;
+use super::structure_error::StructureError;
 use crate::frame::Isometry;
 
 /// A reference frame for positions, other than the base.
@@ -28,9 +29,6 @@ pub struct Robot {
     nominal: BranchPattern,
     inverse: Inverse,
 }
-
-/// Softest joint, rad/(N m) (m/N): a newton metre turns no machining joint by a radian.
-pub const SOFTEST: f64 = 1.0;
 
 /// Why a robot description is not consistent. Joint positions are in rad (m for prismatic joints).
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -175,7 +173,7 @@ impl Robot {
     /// # Errors
     /// See [`StructureError`].
     pub fn with_structure(mut self, structure: Structure) -> Result<Robot, RobotError> {
-        structure.check(&self)?;
+        structure.check(&self.chain)?;
         self.structure = structure;
         Ok(self)
     }
@@ -247,10 +245,7 @@ impl Robot {
 
     /// Whether joint `index` is prismatic.
     pub fn slides(&self, index: usize) -> bool {
-        matches!(
-            self.chain.links()[index].motion,
-            Motion::Along(_, Amount::Joint(_))
-        )
+        self.chain.slides(index)
     }
 
     /// Chain position `theta` of joint `index` at the joint positions `q`.

@@ -17,7 +17,7 @@
 use nalgebra::{Matrix6, Vector3};
 
 use super::joint::JointCompliance;
-use super::structure::StructureError;
+use super::structure_error::StructureError;
 use crate::spatial::Twist;
 
 /// Where a spring or a mass is attached.

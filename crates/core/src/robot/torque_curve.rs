@@ -13,7 +13,7 @@
 //! Source: piecewise-linear torsional stiffness of strain wave and cycloidal gears as their makers print it (stiffness
 //! by torque range); `docs/theory/gravity.md`.
 
-use super::structure::StructureError;
+use super::structure_error::StructureError;
 
 /// Piecewise-linear angle over torque.
 #[derive(Clone, Debug, PartialEq)]

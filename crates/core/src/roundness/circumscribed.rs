@@ -11,7 +11,7 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::profile::reach;
+use super::reach::reach;
 
 /// Its centre, and the least and greatest distance of the points from it: the latter is its radius.
 pub(super) fn minimum_circumscribed(points: &[Vector2<f64>]) -> (Vector2<f64>, [f64; 2]) {

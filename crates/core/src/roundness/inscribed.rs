@@ -17,7 +17,7 @@ use nalgebra::Vector2;
 
 use super::RoundnessError;
 use super::polar::widest_gap;
-use super::profile::reach;
+use super::reach::reach;
 use super::search::{Bound, Cell, Objective, Tangent, bound_by, distance_bend, least};
 
 /// From this open angle on there is no inscribed circle: it needs less than half a turn, and within a degree of it the

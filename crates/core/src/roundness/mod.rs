@@ -4,7 +4,8 @@
 //! its radius. `circumscribed`: the smallest circle about them. `search`: the global optimum of the centre, with proof;
 //! [`zone`] and `inscribed` use it: the narrowest ring that contains the points, the largest circle between them.
 //! [`polar`]: deviations over the angle; [`outlier`]: outliers of the profile; `filter` and `harmonics`: its waves.
-//! [`plane`]: points in space, projected on their plane. `error`: errors of all these.
+//! [`plane`]: points in space, projected on their plane. `reach`: the nearest and farthest point; `error`: errors of
+//! all these.
 //!
 //! Names after ISO 12181: LSCI, MZCI, MCCI and MICI are the four reference circles, RONt the peak to valley about one.
 //! Theory: `docs/theory/roundness.md`.
@@ -19,6 +20,7 @@ pub mod outlier;
 pub mod plane;
 pub mod polar;
 pub mod profile;
+mod reach;
 mod search;
 pub mod zone;
 

@@ -18,7 +18,7 @@
 use nalgebra::{Point2, Vector2};
 
 use super::RoundnessError;
-use super::profile::reach;
+use super::reach::reach;
 use super::search::{Bound, Cell, Objective, Tangent, bound_by, distance_bend, least};
 
 /// Two concentric circles.

@@ -4,9 +4,10 @@
 //! JSON schema of the target type, then lets serde build the value. What no schema can say (a step larger than its
 //! plane) the caller checks, and reports through [`Document::problem`], which finds the place of a value by its path.
 //!
-//! In reading order: `source` (the text), `problem` (what is reported of it), `tree` (its values, each with its place),
-//! `path` (finds a value), `limits` (refuses what would nest too deep); `shape` and `merge` (the types of a schema),
-//! `check` (compares tree and shape), `unit` and `words` (units of names, and how both are written in messages);
+//! In reading order: `source` (the text), `problem` (what is reported of it), `path` (names a value), `tree` (the
+//! values, each with its place), `lookup` (finds one by its path), `limits` (refuses what would nest too deep); `shape`
+//! (what a value must look like), `schema` (reads that from a JSON schema) and `merge` (puts shapes together), `check`
+//! (compares tree and shape), `unit` and `words` (units of names, and how both are written in messages);
 //! [`edit`] (changes values of a text and leaves the rest) with `entries` (list entries: added and removed); `lines`
 //! (text that is not TOML, line by line).
 //!
@@ -31,9 +32,11 @@ pub mod edit;
 mod entries;
 mod limits;
 pub(crate) mod lines;
+mod lookup;
 mod merge;
 mod path;
 mod problem;
+mod schema;
 mod shape;
 mod source;
 mod tree;
@@ -110,7 +113,7 @@ impl Document {
     /// Every unknown or missing field, wrong type, wrong number of entries, number out of range and number that is not
     /// finite (at most 1000); only when there is none, the first thing serde refuses.
     pub fn read<T: DeserializeOwned + JsonSchema>(&self) -> Result<T, Problems> {
-        let shapes = shape::Shapes::of(&schemars::schema_for!(T).to_value());
+        let shapes = schema::shapes(&schemars::schema_for!(T).to_value());
         let problems = check::all_problems(&self.source, &self.root, &shapes);
         if !problems.is_empty() {
             return Err(Problems::from(problems));
@@ -132,19 +135,19 @@ impl Document {
 
     /// The position of the value that `path` names, in bytes of the text; of its nearest parent if there is none.
     fn span(&self, path: &str) -> Range<usize> {
-        path::nearest_span(&self.root, path)
+        lookup::nearest_span(&self.root, path)
     }
 
     /// Whether the file itself gives a value at `path`, rather than leaving it to a default.
     pub fn contains(&self, path: &str) -> bool {
-        path::exists(&self.root, path)
+        lookup::exists(&self.root, path)
     }
 
     /// The paths of all values at or below `path` that are not tables, such as `centre_mm` and `half_size_mm` below
     /// `plane`; counted from there, in the order of the alphabet.
     pub fn keys(&self, path: &str) -> Vec<String> {
         let mut found = Vec::new();
-        if let Some(node) = path::found(&self.root, path) {
+        if let Some(node) = lookup::found(&self.root, path) {
             tree::leaves(node, "", &mut found);
         }
         found
@@ -157,7 +160,7 @@ impl Document {
 
     /// The position of the value that `path` names, in bytes of the text; `None` where there is none.
     pub fn place(&self, path: &str) -> Option<Range<usize>> {
-        path::found(&self.root, path).map(|node| node.span.clone())
+        lookup::found(&self.root, path).map(|node| node.span.clone())
     }
 
     /// Every text in the document, with its path as [`Document::problem`] takes it.

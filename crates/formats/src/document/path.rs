@@ -1,4 +1,4 @@
-//! Finds a value by its path: `analysis[2].distances_mm[0]`, `material."EN AW-6082".density`.
+//! The path of a value, as text: `analysis[2].distances_mm[0]`, `material."EN AW-6082".density`.
 //!
 //! ```text
 //! path  = part { "." key | "[" index "]" }      part = key | "[" index "]"
@@ -6,12 +6,8 @@
 //! index = from 0
 //! ```
 //!
-//! The reverse of [`joined`], and lenient: a path comes from our own code, never from a user, and one that finds
-//! nothing costs no more than a problem reported at a parent.
-
-use std::ops::Range;
-
-use super::tree::{Node, Value};
+//! [`joined`] writes paths and [`steps`] reads them, leniently: a path comes from our own code, never from a user, and
+//! one that finds nothing costs no more than a problem reported at a parent.
 
 /// One part of a path.
 #[derive(Debug, PartialEq)]
@@ -20,21 +16,6 @@ pub(super) enum Step {
     Key(String),
     /// An entry of a list, from 0.
     Entry(usize),
-}
-
-/// The span of the value at `path`, or of the last value on the way there; the start of the file if there is none.
-pub(super) fn nearest_span(root: &Node, path: &str) -> Range<usize> {
-    walk(root, &steps(path)).0
-}
-
-/// Whether there is a value at `path`.
-pub(super) fn exists(root: &Node, path: &str) -> bool {
-    walk(root, &steps(path)).1
-}
-
-/// The value at `path`, if there is one.
-pub(super) fn found<'a>(root: &'a Node, path: &str) -> Option<&'a Node> {
-    steps(path).iter().try_fold(root, below)
 }
 
 /// A path longer by a key, which is quoted unless it is bare in TOML.
@@ -48,27 +29,6 @@ pub(crate) fn joined(path: &str, key: &str) -> String {
         key
     } else {
         format!("{path}.{key}")
-    }
-}
-
-/// The last span reached, and whether that is the end of the path.
-fn walk(root: &Node, steps: &[Step]) -> (Range<usize>, bool) {
-    let mut here = root;
-    for step in steps {
-        let Some(next) = below(here, step) else {
-            return (here.span.clone(), false);
-        };
-        here = next;
-    }
-    (here.span.clone(), true)
-}
-
-/// The value one step below `here`, if there is one.
-fn below<'a>(here: &'a Node, step: &Step) -> Option<&'a Node> {
-    match (step, &here.value) {
-        (Step::Key(key), Value::Table(table)) => table.get(key).map(|entry| &entry.node),
-        (Step::Entry(index), Value::List(entries)) => entries.get(*index),
-        _ => None,
     }
 }
 
@@ -135,17 +95,6 @@ mod tests {
             [key("a"), key("b.c \"d\""), key("e")]
         );
         assert_eq!(steps(""), []);
-    }
-
-    #[test]
-    fn a_broken_path_is_only_a_key_that_is_not_found() {
-        for path in ["[", "a[", "a[x]", "\"open", "..", "a..b", "]", "a[1", "ä[é]"] {
-            let empty = Node {
-                span: 0..0,
-                value: Value::Table(Default::default()),
-            };
-            assert_eq!(nearest_span(&empty, path), 0..0, "{path}");
-        }
     }
 
     #[test]

@@ -3,8 +3,6 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::part::folder_of;
-
 /// Why a file or folder was not written: what failed, and what to try.
 #[derive(Debug, thiserror::Error)]
 pub enum FileError {
@@ -175,6 +173,14 @@ fn listed(paths: &[PathBuf]) -> String {
     match paths.len().checked_sub(MOST) {
         Some(more) if more > 0 => format!("{named} and {more} more"),
         _ => named,
+    }
+}
+
+/// The folder of a path; the current one for a bare name.
+pub(super) fn folder_of(path: &Path) -> PathBuf {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder.to_owned(),
+        _ => PathBuf::from("."),
     }
 }
 

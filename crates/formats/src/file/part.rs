@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
-use super::error::{FileError, file_in_the_way};
+use super::error::{FileError, file_in_the_way, folder_of};
 
 /// Writes a file whole, in place of what may have been there, which keeps its permissions. Whether it may be replaced
 /// is the question of [`super::Writer`].
@@ -194,14 +194,6 @@ fn write_temporary(
         part.as_file().set_permissions(old.permissions())?;
     }
     Ok(Some((part, path.to_owned())))
-}
-
-/// The folder of a path; the current one for a bare name.
-pub(super) fn folder_of(path: &Path) -> PathBuf {
-    match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder.to_owned(),
-        _ => PathBuf::from("."),
-    }
 }
 
 #[cfg(test)]

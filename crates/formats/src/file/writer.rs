@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use super::error::FileError;
+use super::error::{FileError, folder_of};
 use super::ledger::{FileRecord, Ledger, sum_of};
 use super::lock::Lock;
-use super::part::{PartFile, create_folder, folder_of, remove_abandoned, sync_folder, write_atomically};
+use super::part::{PartFile, create_folder, remove_abandoned, sync_folder, write_atomically};
 use crate::input::{Identity, Inputs};
 
 /// How long a file waits for another command that writes into the same folder.

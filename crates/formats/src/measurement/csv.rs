@@ -23,7 +23,7 @@ use std::io::BufRead;
 use armill_core::load::ActsOn;
 
 use super::columns::{Column, Quantity, Samples, doubled, measured, missing, of_names_and_units};
-use super::format::{ForceReadOptions, ForceRecords, Format};
+use super::force_records::{ForceReadOptions, ForceRecords, Format};
 use crate::document::lines::{Line, Lines};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
 use crate::table::sheet::{Cell, cells, is_blank_row, row_cells, separator_of};

@@ -12,12 +12,13 @@
 //! Force records are [`Record`](armill_core::load::Record)s in the axes of the sensor. Whether the force acts on the
 //! tool or on the part, and how the sensor is oriented, is not in any file: the caller gives it.
 //!
-//! `columns`: quantity and unit of each column; samples.
+//! `columns`: quantity and unit of each column; samples. `force_records`: the content of a force file in any format.
 
 pub mod ballbar;
 mod columns;
 pub mod csv;
 pub mod dynoware;
+mod force_records;
 pub mod format;
 pub mod load_tests;
 pub mod poses;

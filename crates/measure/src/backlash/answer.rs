@@ -9,7 +9,7 @@ use armill_core::units::{to_deg, to_mm, to_um};
 use armill_study::file::resolve::Study;
 use serde::Serialize;
 
-use super::estimate::{BacklashEstimate, FollowedCircle};
+use super::circles::{BacklashEstimate, FollowedCircle};
 
 /// Backlash of each joint.
 #[derive(Clone, Debug, Serialize)]

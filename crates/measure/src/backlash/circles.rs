@@ -1,8 +1,8 @@
-//! The circles of a study, and the joint motion along them without load.
+//! The circles of a study, the joint motion along them without load, and what measurements on them show.
 
 use armill_core::kernel::Question;
 use armill_core::measure::ballbar::joints::circle::STATIONS;
-use armill_core::measure::ballbar::joints::{Circle, Followed, NotFollowed, follow};
+use armill_core::measure::ballbar::joints::{BacklashFit, Circle, Followed, NotFollowed, follow};
 use armill_core::nalgebra::Point3;
 use armill_core::path::Shape;
 use armill_core::watch::Watch;
@@ -10,6 +10,7 @@ use armill_study::analysis::Subject;
 use armill_study::analysis::path::PathAnalysis;
 use armill_study::analysis::runner::Runner;
 use armill_study::error::StudyError;
+use armill_study::file::circles::MeasuredCircle;
 use armill_study::file::resolve::Study;
 
 /// A circle of a study.
@@ -21,6 +22,26 @@ pub struct CircleAnalysis<'a> {
     pub path: &'a PathAnalysis,
     /// The circle in the cell.
     pub circle: Circle,
+}
+
+/// What circles show. SI.
+#[derive(Clone, Debug)]
+pub struct BacklashEstimate<'a> {
+    /// Each measured circle.
+    pub circles: Vec<FollowedCircle<'a>>,
+    /// The joint estimate from all of them.
+    pub gaps: BacklashFit,
+}
+
+/// A measured circle with the joint motion along it.
+#[derive(Clone, Debug)]
+pub struct FollowedCircle<'a> {
+    /// Its test.
+    pub measured: &'a MeasuredCircle,
+    /// Its path.
+    pub circle: CircleAnalysis<'a>,
+    /// The joint motion.
+    pub followed: Followed,
 }
 
 impl CircleAnalysis<'_> {

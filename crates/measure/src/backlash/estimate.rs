@@ -1,13 +1,13 @@
 //! The backlash of the joints from measurements on circles of the study.
 
-use armill_core::measure::ballbar::joints::{BacklashFit, BacklashOptions, Followed, Observed, fit_backlash};
+use armill_core::measure::ballbar::joints::{BacklashOptions, Observed, fit_backlash};
 use armill_core::watch::Watch;
 use armill_study::error::StudyError;
 use armill_study::file::circles::MeasuredCircle;
 use armill_study::file::resolve::Study;
 
 use super::answer::{BacklashAnswer, answer};
-use super::circles::{CircleAnalysis, circles, followed};
+use super::circles::{BacklashEstimate, CircleAnalysis, FollowedCircle, circles, followed};
 
 /// Options of the estimate.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,26 +16,6 @@ pub struct EstimateOptions {
     pub most_lobes: usize,
     /// Standard deviation of a sample, m; from the residuals if not given.
     pub noise: Option<f64>,
-}
-
-/// What circles show. SI.
-#[derive(Clone, Debug)]
-pub struct BacklashEstimate<'a> {
-    /// Each measured circle.
-    pub circles: Vec<FollowedCircle<'a>>,
-    /// The joint estimate from all of them.
-    pub gaps: BacklashFit,
-}
-
-/// A measured circle with the joint motion along it.
-#[derive(Clone, Debug)]
-pub struct FollowedCircle<'a> {
-    /// Its test.
-    pub measured: &'a MeasuredCircle,
-    /// Its path.
-    pub circle: CircleAnalysis<'a>,
-    /// The joint motion.
-    pub followed: Followed,
 }
 
 /// The points that the progress of [`estimate`] ends at.

@@ -5,7 +5,7 @@
 //! study with [[ballbar]] -> follow each circle -> estimate: BacklashEstimate (SI) -> BacklashAnswer, tables, pictures
 //! ```
 //!
-//! [`circles`](mod@circles): the circles of a study, and the joint motion along them. [`estimate`](mod@estimate):
+//! [`circles`](mod@circles): the circles of a study, the joint motion along them, and what they show. [`estimate`](mod@estimate):
 //! backlash from the measurements. [`answer`](mod@answer): its values with units. [`plan`](mod@plan): circles to
 //! measure. [`simulate`](mod@simulate): ball-bar files simulated from the robot file, with `noise`. [`output`]: tables
 //! and pictures.
@@ -19,6 +19,7 @@ pub mod plan;
 pub mod simulate;
 
 pub use answer::BacklashAnswer;
-pub use estimate::{BacklashEstimate, EstimateOptions, FollowedCircle, estimate};
+pub use circles::{BacklashEstimate, FollowedCircle};
+pub use estimate::{EstimateOptions, estimate};
 pub use plan::{PlanAnswer, PlanOptions, plan};
 pub use simulate::{SimulatedFile, SimulationOptions, simulate};

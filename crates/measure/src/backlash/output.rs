@@ -19,7 +19,7 @@ use armill_study::file_names::slug;
 use armill_study::output::{Picture, RESULT, picture_files, replace, save_pictures};
 
 use super::answer::{BacklashAnswer, CircleAnswer, ReversalAnswer};
-use super::estimate::{BacklashEstimate, FollowedCircle};
+use super::circles::{BacklashEstimate, FollowedCircle};
 
 /// The table.
 const TABLE: &str = "reversals.csv";

@@ -5,12 +5,13 @@
 //! ```
 //!
 //! Files become one circle as in a study: [`armill_study::measured::circular_test`]. [`analyse`](mod@analyse): the
-//! analysis. [`answer`](mod@answer): its values with units. [`results`]: results of the software of the ball-bar.
-//! `warnings`: what to know before use. [`teach`](mod@teach): the corrected circle, and the comparison of two tests.
-//! [`program`]: that circle as a robot program. [`output`]: tables, pictures, report.
+//! analysis. [`answer`](mod@answer): its values with units, which `numbers` gives. [`results`]: results of the software
+//! of the ball-bar. `warnings`: what to know before use. [`teach`](mod@teach): the corrected circle, and the comparison
+//! of two tests. [`program`]: that circle as a robot program. [`output`]: tables, pictures, report.
 
 pub mod analyse;
 pub mod answer;
+mod numbers;
 pub mod output;
 pub mod program;
 pub mod results;
@@ -18,6 +19,7 @@ pub mod teach;
 mod warnings;
 
 pub use analyse::{BallbarAnalysis, Centring, Cyclic, Question, analyse};
-pub use answer::{BallbarAnswer, answer};
-pub use program::{CirclePlacement, points_within, sagitta, taught_program};
+pub use answer::BallbarAnswer;
+pub use numbers::answer;
+pub use program::{CirclePlacement, points_within, taught_program};
 pub use teach::{BeforeAnswer, TaughtAnswer, TaughtCircle, before, teach};

@@ -20,13 +20,14 @@ use armill_core::map::along_path;
 use armill_core::nalgebra::Vector2;
 use armill_core::path::{Shape, Track};
 use armill_core::spatial::Wrench;
-use armill_core::units::to_mm;
+use armill_core::units::{to_mm, to_um};
 use armill_core::watch::Watch;
 use armill_programs::Written;
 use armill_study::analysis::path::PathAnalysis;
 use armill_study::analysis::runner::Runner;
 use armill_study::error::StudyError;
 use armill_study::file::resolve::Study;
+use armill_study::number::decimals;
 use armill_study::program_out::{ProgramSettings, program};
 
 use super::teach::TaughtCircle;
@@ -56,7 +57,7 @@ pub fn points_within(radius: f64, within: f64) -> usize {
 }
 
 /// Deviation of linear moves between `points` equally spaced points from a circle of `radius` (m), m.
-pub fn sagitta(radius: f64, points: usize) -> f64 {
+fn sagitta(radius: f64, points: usize) -> f64 {
     radius * (1.0 - (PI / points as f64).cos())
 }
 
@@ -76,8 +77,8 @@ pub fn taught_program(
         return Err(StudyError::value(
             format!(
                 "the circle of the study has {} mm, that of the ball-bar {} mm",
-                armill_study::number::decimals(to_mm(radius), 6),
-                armill_study::number::decimals(to_mm(taught.radius), 6)
+                decimals(to_mm(radius), 6),
+                decimals(to_mm(taught.radius), 6)
             ),
             "use the same circle in both; give --radius-mm if the files do not contain it",
         ));
@@ -109,11 +110,21 @@ pub fn taught_program(
     });
     let runner = Runner::new(&study.robot.robot, Watch::NONE)?;
     let along = along_path(&runner.question(&analysis.setting), &track, nothing, Watch::NONE)?;
-    let expected = ProgramSettings {
+    let all_points = ProgramSettings {
         within: ALL,
         ..expected.clone()
     };
-    program(study, &analysis.setting, &track, &along.answers, &expected)
+    let mut written = program(study, &analysis.setting, &track, &along.answers, &all_points)?;
+    let sagitta = sagitta(radius, count);
+    if sagitta > expected.within {
+        written.notes.push(format!(
+            "linear moves between {count} points deviate by {:.1} um from the circle; {} points are within {} um",
+            to_um(sagitta),
+            points_within(radius, expected.within),
+            decimals(to_um(expected.within), 6)
+        ));
+    }
+    Ok(written)
 }
 
 /// The requested circle, its centre and its radius.

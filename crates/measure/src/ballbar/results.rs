@@ -3,11 +3,9 @@
 use armill_core::measure::ballbar::parts::Term;
 use armill_core::units::to_um;
 use armill_formats::measurement::ballbar::Feature;
-use armill_study::measured::circular_test::MeasuredTest;
 use serde::Serialize;
 
 use super::analyse::BallbarAnalysis;
-use super::answer::BallbarAnswer;
 
 /// Results of the software of the ball-bar.
 #[derive(Clone, Debug, Serialize)]
@@ -43,31 +41,16 @@ pub struct FeatureAnswer {
     pub ours: Option<f64>,
 }
 
-/// All results in the files, without the values of armill.
-pub(super) fn results(measured: &MeasuredTest) -> Vec<ResultsAnswer> {
-    let of = measured.results.iter().map(|(file, results)| {
-        let feature = |feature: &Feature| FeatureAnswer {
-            name: feature.name.clone(),
-            value: feature.value,
-            unit: feature.unit.clone(),
-            ours: None,
-        };
-        ResultsAnswer {
-            file: file.clone(),
-            test: results.test.clone(),
-            machine: results.machine.clone(),
-            date: results.date.clone(),
-            plane: results.plane.clone(),
-            features: results.features.iter().map(feature).collect(),
-            without_number: results.without_number.clone(),
-        }
-    });
-    of.collect()
-}
-
-/// Adds the values of armill to those of the software of the ball-bar.
-pub(super) fn add_own_values(given: &mut BallbarAnswer, found: &BallbarAnalysis<'_>) {
-    let [a, b] = &given.axes;
+/// All results in the files, with the values of armill where both have the same quantity.
+///
+/// `axes` are the names of those of the plane; G(b) and squareness are those of the answer.
+pub(super) fn results(
+    found: &BallbarAnalysis<'_>,
+    axes: &[String; 2],
+    circular_um: Option<f64>,
+    squareness_urad: Option<f64>,
+) -> Vec<ResultsAnswer> {
+    let [a, b] = axes;
     // The reversal of that name: given ones may be added to those of the axes, or replace them.
     let step = |axis: &str, side: &str| {
         let name = format!("{axis}{side}");
@@ -75,19 +58,37 @@ pub(super) fn add_own_values(given: &mut BallbarAnswer, found: &BallbarAnalysis<
         let part = found.parts.as_ref()?.alone(Term::Reversal(index))?;
         Some(to_um(part.value))
     };
-    let squareness = given.parts.as_ref().and_then(|parts| parts.squareness_urad);
-    let ours = [
-        ("AF_CIRCULARITY", "um", given.circular_bidirectional_um),
-        ("AF_SQUARENESS", "um/m", squareness),
+    let own_values = [
+        ("AF_CIRCULARITY", "um", circular_um),
+        ("AF_SQUARENESS", "um/m", squareness_urad),
         ("AF_BACKLASH_A_POS", "um", step(a, "+")),
         ("AF_BACKLASH_A_NEG", "um", step(a, "-")),
         ("AF_BACKLASH_B_POS", "um", step(b, "+")),
         ("AF_BACKLASH_B_NEG", "um", step(b, "-")),
     ];
-    for feature in given.results.iter_mut().flat_map(|results| &mut results.features) {
-        let of = ours
+    let feature = |feature: &Feature| {
+        let own = own_values
             .iter()
             .find(|(name, unit, _)| *name == feature.name && *unit == feature.unit);
-        feature.ours = of.and_then(|(.., value)| *value);
-    }
+        FeatureAnswer {
+            name: feature.name.clone(),
+            value: feature.value,
+            unit: feature.unit.clone(),
+            ours: own.and_then(|(.., value)| *value),
+        }
+    };
+    let of = found
+        .measured
+        .results
+        .iter()
+        .map(|(file, results)| ResultsAnswer {
+            file: file.clone(),
+            test: results.test.clone(),
+            machine: results.machine.clone(),
+            date: results.date.clone(),
+            plane: results.plane.clone(),
+            features: results.features.iter().map(feature).collect(),
+            without_number: results.without_number.clone(),
+        });
+    of.collect()
 }

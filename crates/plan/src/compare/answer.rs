@@ -12,11 +12,12 @@ use armill_study::analysis::path::PathAnalysis;
 use armill_study::answer::StudyAnswer;
 use serde::Serialize;
 
-use super::cells::Cell;
+use super::cells::{Cell, ComparableCells};
 use super::curve::Curve;
+use super::entry::Entry;
 use super::numbers::CellNumbers;
+use super::sentence;
 use super::traits::TraitAnswer;
-use super::{ComparableCells, ComparisonResult, Entry, sentence};
 
 /// The whole comparison.
 #[derive(Clone, Debug, Serialize)]
@@ -37,6 +38,15 @@ pub struct ComparisonAnswer {
     pub warnings: Vec<String>,
     /// Sources of the numbers, of all cells.
     pub sources: Vec<Source>,
+}
+
+/// Result of a comparison.
+#[derive(Clone, Debug)]
+pub struct ComparisonResult {
+    /// As numbers and text.
+    pub answer: ComparisonAnswer,
+    /// For each compared path the deviation along it, per cell in the order of its numbers.
+    pub(super) curves: Vec<Vec<Curve>>,
 }
 
 /// One cell.

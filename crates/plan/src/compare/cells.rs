@@ -6,7 +6,7 @@
 //! | one study, robots | as given, then with each robot | by their robots |
 //! | studies, robots | each as given and with each robot | `FOLDER`, `FOLDER with ROBOT` |
 //!
-//! The study's own robot does not make a second cell.
+//! The study's own robot does not make a second cell. [`ComparableCells`] are those with analyses in common.
 
 use std::path::{Path, PathBuf};
 
@@ -14,6 +14,7 @@ use armill_formats::document::{Problem, Problems};
 use armill_formats::robot::RobotDescription;
 use armill_study::error::StudyError;
 use armill_study::file::resolve::Study;
+use armill_study::run::point_count;
 use armill_study::studies::{self, FoundStudy};
 use armill_study::{library, robots};
 
@@ -31,6 +32,20 @@ pub struct Cell {
     pub shown: String,
     /// Its analyses.
     pub study: Study,
+}
+
+/// Cells with analyses in common; the others are left out.
+#[derive(Clone, Debug)]
+pub struct ComparableCells {
+    pub(super) cells: Vec<Cell>,
+    pub(super) left_out: Vec<String>,
+}
+
+impl ComparableCells {
+    /// Number of points, the end of the progress of [`compare`](super::compare).
+    pub fn point_count(&self) -> usize {
+        self.cells.iter().map(|cell| point_count(&cell.study)).sum()
+    }
 }
 
 /// The cells of these studies (folders, files, names of examples) with these robots (of the library, or files

@@ -19,9 +19,10 @@ use armill_study::error::StudyError;
 use armill_study::file_names::slug;
 use armill_study::output::{Picture, Pictures, REPORT, RESULT, picture_files, replace, save_pictures};
 
-use super::answer::{ComparedAnswer, ComparisonAnswer};
+use super::answer::{ComparedAnswer, ComparisonAnswer, ComparisonResult};
+use super::curve::Curve;
 use super::numbers::CellNumbers;
-use super::{ComparisonResult, Curve};
+use super::traits::TraitAnswer;
 
 /// The table.
 const TABLE: &str = "cells.csv";
@@ -328,7 +329,7 @@ fn numbers(analysis: &ComparedAnswer) -> Rows {
 fn traits(analysis: &ComparedAnswer) -> Rows {
     let names = analysis.cells.iter().map(|cell| (cell.cell.as_str(), ""));
     let heads: Vec<(&str, &str)> = [("", "")].into_iter().chain(names).collect();
-    let row = |of: &super::TraitAnswer| {
+    let row = |of: &TraitAnswer| {
         let given = of.of.iter().enumerate().map(|(index, given)| match of.differs {
             false if index > 0 => "the same".to_owned(),
             _ => given.clone(),

@@ -9,7 +9,7 @@ use armill_core::map::VolumeMap;
 use armill_core::nalgebra::Vector3;
 use armill_core::units::{to_deg, to_mm, to_um};
 use armill_study::analysis::Sheet;
-use armill_study::analysis::holes::resolve::HolesAnalysis;
+use armill_study::analysis::holes::HolesAnalysis;
 use armill_study::analysis::path::PathAnalysis;
 use armill_study::file::resolve::Study;
 use armill_study::input::setting::Setting;

@@ -6,8 +6,8 @@ use armill_study::analysis::words::micrometres;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::certificate::CertificateAnswer;
-use super::freedom::PlaceAnswer;
+use super::certificate::{CertificateAnswer, GridAnswer};
+use super::freedom::{FreeAnswer, PlaceAnswer};
 
 /// Where a path deviates least.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -64,24 +64,6 @@ pub struct OutcomeAnswer {
     pub unreachable_points: usize,
     /// The branch; none for robots without named branches.
     pub branch: Option<String>,
-}
-
-/// A degree that was free.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct FreeAnswer {
-    /// Its key in the study, with the unit of the numbers.
-    pub degree: &'static str,
-    /// Least value.
-    // unit: that of its degree
-    pub least: f64,
-    /// Greatest value.
-    // unit: that of its degree
-    pub greatest: f64,
-    /// The value at the best placement.
-    // unit: that of its degree
-    pub value: f64,
-    /// Whether it is at one of its bounds: wider bounds may allow a better placement.
-    pub at_bound: bool,
 }
 
 /// The best place for one margin.
@@ -173,7 +155,7 @@ impl PlacementAnswer {
                 edges.join(", ")
             ));
         }
-        let grid = |grid: &super::GridAnswer| {
+        let grid = |grid: &GridAnswer| {
             format!(
                 "{} placements every {:.0} mm and {:.1} deg",
                 grid.places, grid.pitch_mm, grid.pitch_deg

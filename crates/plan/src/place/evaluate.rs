@@ -11,8 +11,9 @@ use armill_study::analysis::runner::Runner;
 use armill_study::error::StudyError;
 use armill_study::file::placement::PlaceTable;
 
+use super::PlacementSearch;
 use super::freedom::Freedom;
-use super::{PlacementSearch, check_rail, rail_of};
+use super::rail::{check_rail, rail_of};
 
 /// Placement of a part.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -12,8 +12,6 @@ use armill_study::number::decimals;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::answer::FreeAnswer;
-
 /// Numbers that place a part and its tool.
 pub(super) const DEGREES: usize = 8;
 
@@ -46,6 +44,24 @@ pub struct PlaceAnswer {
     pub spin_deg: f64,
     /// Position of the rail, if it is free.
     pub rail_mm: Option<f64>,
+}
+
+/// A degree that was free.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct FreeAnswer {
+    /// Its key in the study, with the unit of the numbers.
+    pub degree: &'static str,
+    /// Least value.
+    // unit: that of its degree
+    pub least: f64,
+    /// Greatest value.
+    // unit: that of its degree
+    pub greatest: f64,
+    /// The value at the best placement.
+    // unit: that of its degree
+    pub value: f64,
+    /// Whether it is at one of its bounds: wider bounds may allow a better placement.
+    pub at_bound: bool,
 }
 
 impl Freedom {

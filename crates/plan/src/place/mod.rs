@@ -4,10 +4,10 @@
 //! free degrees -> placements spread over them -> best regions -> local search on all points -> certificate -> the study there
 //! ```
 //!
-//! `freedom`: free degrees; `search`: from spread placements to the best; `certificate`: whether grids contain a
-//! better one; `rounds`: all of that for every fixture and margin; [`journal`]: state of an interrupted
-//! search; [`answer`]: the values of the result; `result`: the study at the placement; `pictures`; [`evaluate`]:
-//! scores of given placements. Theory: `docs/theory/placement.md`.
+//! `freedom`: free degrees; `rail`: the joint that is one; `search`: from spread placements to the best; `certificate`:
+//! whether grids contain a better one; `rounds`: all of that for every fixture and margin; [`journal`]: state of an
+//! interrupted search; [`answer`]: the values of the result; `result`: the study at the placement; `pictures`;
+//! [`evaluate`]: scores of given placements. Theory: `docs/theory/placement.md`.
 //!
 //! If fixtures are given each is searched separately, and the best is used. For the margin to limits and singularities
 //! the search is repeated for several margins, with the previous placement as an additional start.
@@ -18,14 +18,15 @@ pub mod evaluate;
 mod freedom;
 pub mod journal;
 mod pictures;
+mod rail;
 mod result;
 mod rounds;
 mod search;
 
-pub use answer::{FreeAnswer, MarginAnswer, OutcomeAnswer, PlacementAnswer};
+pub use answer::{MarginAnswer, OutcomeAnswer, PlacementAnswer};
 pub use certificate::{CertificateAnswer, GridAnswer};
 pub use evaluate::{PlacementParameters, PlacementScores};
-pub use freedom::PlaceAnswer;
+pub use freedom::{FreeAnswer, PlaceAnswer};
 pub use journal::Journal;
 pub use result::PlacementResult;
 
@@ -34,11 +35,10 @@ use armill_core::kernel::{BranchChoice, PartPlacement};
 use armill_core::nalgebra::{Point3, UnitQuaternion, Vector3};
 use armill_core::optimize::{PlacementObjective, PostureSearch, PostureSelection, ToolTurn, on_part};
 use armill_core::path::{LoadedTrack, Spin};
-use armill_core::robot::{BranchPattern, Robot};
+use armill_core::robot::BranchPattern;
 use armill_core::units::{from_deg, from_mm, to_deg, to_mm};
 use armill_core::watch::Watch;
 use armill_core::workpiece::Plane;
-use armill_study::ENOUGH_JOINTS;
 use armill_study::analysis::Subject;
 use armill_study::analysis::path::PathAnalysis;
 use armill_study::analysis::path::answer::search::{component_name, objective_name};
@@ -53,6 +53,7 @@ use armill_study::number::decimals;
 
 use self::answer::rank_by_name;
 use self::freedom::Freedom;
+use self::rail::{check_rail, rail_of};
 use self::rounds::{Best, FoundPlacements, MARGINS_DEG, Prepared, Site, SiteSearch};
 use self::search::Effort;
 
@@ -194,7 +195,9 @@ impl<'a> PlacementSearch<'a> {
         let turn = ToolTurn::of(track);
         let sites = self.sites(turn);
         let prepared = Prepared {
-            of: self,
+            robot: &self.study.robot.robot,
+            setting: &self.analysis.setting,
+            seed: self.seed,
             question: &question,
             paths: [&some, &all],
             sites: &sites,
@@ -394,38 +397,6 @@ impl<'a> PlacementSearch<'a> {
             freedom: at(fixture),
         });
         sites.collect()
-    }
-}
-
-/// The joint that is the rail: the first prismatic joint of a robot with redundant joints.
-fn rail_of(robot: &Robot) -> Option<usize> {
-    let joints = robot.joints().len();
-    (0..joints).find(|joint| joints > ENOUGH_JOINTS && robot.slides(*joint))
-}
-
-/// Refuses a rail that is not there, or bounds (m) outside its limits.
-fn check_rail(robot: &Robot, [least, greatest]: [f64; 2]) -> Result<(), StudyError> {
-    let Some(rail) = rail_of(robot) else {
-        let message = format!("`rail_mm`: robot `{}` has no rail", robot.name());
-        return Err(StudyError::value(
-            message,
-            "a rail is a prismatic joint before the six of the robot",
-        ));
-    };
-    let joint = &robot.joints()[rail];
-    match joint.limits {
-        Some(limits) if least < limits.lower || greatest > limits.upper => {
-            let message = format!(
-                "`rail_mm` ranges from {} to {} mm, joint {} from {} to {} mm",
-                to_mm(least),
-                to_mm(greatest),
-                joint.name,
-                to_mm(limits.lower),
-                to_mm(limits.upper)
-            );
-            Err(StudyError::value(message, "bounds inside those of the joint"))
-        }
-        _ => Ok(()),
     }
 }
 

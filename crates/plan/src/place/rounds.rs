@@ -2,11 +2,12 @@
 
 use armill_core::kernel::{PlacedPath, Question};
 use armill_core::optimize::{Placeable, PlacementObjective, RankBy, Score};
+use armill_core::robot::Robot;
 use armill_core::units::{from_deg, to_deg, to_um};
 use armill_core::watch::Watch;
 use armill_study::error::StudyError;
+use armill_study::input::setting::Setting;
 
-use super::PlacementSearch;
 use super::certificate::{CertificateAnswer, GridAnswer};
 use super::freedom::Freedom;
 use super::journal::{Fingerprint, Journal};
@@ -50,7 +51,9 @@ pub(super) struct FoundPlacements {
 
 /// Data common to all searches of one path.
 pub(super) struct Prepared<'a> {
-    pub of: &'a PlacementSearch<'a>,
+    pub robot: &'a Robot,
+    pub setting: &'a Setting,
+    pub seed: u64,
     pub question: &'a Question<'a>,
     /// Some points of the path, and all.
     pub paths: [&'a PlacedPath; 2],
@@ -77,7 +80,7 @@ impl Prepared<'_> {
             all: of(self.paths[1]),
             freedom,
             effort,
-            seed: self.of.seed,
+            seed: self.seed,
         }
     }
 
@@ -247,11 +250,10 @@ impl Prepared<'_> {
     /// Fingerprint of all input of the search.
     pub fn fingerprint(&self, objective: &PlacementObjective) -> u64 {
         let mut print = Fingerprint::new();
-        let of = self.of;
-        let (robot, setting) = (&of.study.robot.robot, &of.analysis.setting);
+        let (robot, setting) = (self.robot, self.setting);
         let freedoms: Vec<&Freedom> = self.sites.iter().map(|site| &site.freedom).collect();
         print.take(format!("{robot:?}{setting:?}{objective:?}{freedoms:?}{:?}", self.effort).as_bytes());
-        print.take(&of.seed.to_le_bytes());
+        print.take(&self.seed.to_le_bytes());
         for number in self.paths[1].numbers() {
             print.take(&number.to_bits().to_le_bytes());
         }

@@ -3,7 +3,7 @@
 use armill_core::frame::{Isometry, fixed_angles};
 use armill_core::units::{to_deg, to_mm};
 
-use super::angle;
+use super::angle::angle;
 use super::error::FollowError;
 use crate::number::fixed;
 use crate::program::{Frame, Motion, RobotMove, RobotProgram, Target};

@@ -16,8 +16,9 @@
 //! rotates uniformly from start to end.
 //!
 //! In reading order: `cell` (the data that the program does not give, and the poses of frames and tools), `error`
-//! (missing data), `circle` (arcs through three points).
+//! (missing data), `circle` (arcs through three points), `angle` (between two orientations).
 
+mod angle;
 mod cell;
 mod circle;
 mod error;
@@ -25,7 +26,7 @@ mod error;
 use std::collections::BTreeMap;
 
 use armill_core::frame::Isometry;
-use armill_core::nalgebra::{Point3, UnitQuaternion, Vector3};
+use armill_core::nalgebra::{Point3, Vector3};
 use armill_core::path::{Course, GivenSpin, Move, Pace};
 use armill_core::robot::forward::forward;
 use armill_core::robot::inverse::{posture_at, tool_on};
@@ -33,6 +34,7 @@ use armill_core::robot::{BranchPattern, Robot};
 use armill_formats::toolpath::Summary;
 use armill_formats::toolpath::format::Format;
 
+use self::angle::angle;
 pub use self::cell::Cell;
 use self::circle::{Through, through};
 pub use self::error::FollowError;
@@ -292,12 +294,6 @@ impl Follower<'_> {
             }
         }
     }
-}
-
-/// The angle between two orientations, rad; accurate to rounding if it is small.
-fn angle(one: &UnitQuaternion<f64>, other: &UnitQuaternion<f64>) -> f64 {
-    let between = one.inverse() * other;
-    2.0 * between.vector().norm().atan2(between.scalar().abs())
 }
 
 /// Kinds of notes on single moves, in the order of the report.

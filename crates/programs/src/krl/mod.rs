@@ -17,8 +17,8 @@
 //! geometric operator `P1:{...}`, that `LIN_REL` is relative to the base unless `#TOOL` follows, that the positions in
 //! `$CONFIG.DAT` have names like `XHOME`.
 //!
-//! In reading order: `aggregate` (`{...}`), `points` (the content of data files), `read` (statements), `motion` and
-//! `relative` (moves), `modal` (modal settings), `write` (programs to load).
+//! In reading order: `aggregate` (`{...}`), `points` (the content of data files), `state` (while lines are read),
+//! `read` (statements), `motion` and `relative` (moves), `modal` (modal settings), `write` (programs to load).
 
 mod aggregate;
 mod modal;
@@ -26,6 +26,7 @@ mod motion;
 mod points;
 mod read;
 mod relative;
+mod state;
 mod write;
 
 pub(super) use self::aggregate::spell;

@@ -5,34 +5,13 @@ use armill_formats::convention::Convention;
 
 use super::aggregate::{Aggregate, POSE, Value};
 use super::points::{PointValue, Reference};
-use super::read::Reader;
+use super::state::Reader;
 use crate::messages::shown;
 use crate::program::{Frame, FrameKind, Speed};
 use crate::tokens::{Cursor, Kind, Token};
 
 /// Predefined frames; all are the base of the robot if `$ROBROOT` is null.
 const NULL_FRAMES: [&str; 3] = ["$NULLFRAME", "$WORLD", "$ROBROOT"];
-
-/// Settings for the next move.
-#[derive(Clone, Debug)]
-pub(super) struct Modal {
-    pub base: Frame,
-    pub tool: Frame,
-    pub speed: Speed,
-    /// The workpiece is on the flange and the tool is stationary (`#TCP`).
-    pub tool_is_stationary: bool,
-}
-
-impl Default for Modal {
-    fn default() -> Modal {
-        Modal {
-            base: Frame::Unknown,
-            tool: Frame::Unknown,
-            speed: Speed::Unknown,
-            tool_is_stationary: false,
-        }
-    }
-}
 
 impl FrameKind {
     /// The array of all frames of this kind.

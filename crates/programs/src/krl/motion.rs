@@ -1,23 +1,14 @@
 //! Moves: their targets by components, by name, relative to the previous move, or composed of frames.
 
+use armill_core::frame::Isometry;
 use armill_core::units::from_deg;
 use armill_formats::convention::Convention;
 
 use super::aggregate::{AXES, Aggregate, LocatedAggregate, POSE};
 use super::points::{PointValue, Reference};
-use super::read::Reader;
-use super::relative::composed;
-use crate::program::{Frame, Motion, RobotMove, Speed, Spelled, Target};
+use super::state::{Former, Reader};
+use crate::program::{Motion, RobotMove, Speed, Spelled, Target};
 use crate::tokens::{Cursor, Kind, Token};
-
-/// End of the previous move: default of missing components.
-#[derive(Clone, Debug)]
-pub(super) enum Former {
-    /// Components of a pose, with frame and tool.
-    Pose([f64; 6], Frame, Frame),
-    /// Axes, deg.
-    Axes([f64; 6]),
-}
 
 /// Target of a move.
 pub(super) enum KrlTarget {
@@ -308,4 +299,11 @@ impl<'a> Reader<'a> {
         }
         ends
     }
+}
+
+/// The components of one pose in another.
+pub(super) fn composed(one: &[f64; 6], other: &[f64; 6]) -> Option<[f64; 6]> {
+    let pose = |numbers: &[f64; 6]| -> Option<Isometry> { Convention::Kuka.pose(numbers).ok() };
+    let product = pose(one)? * pose(other)?;
+    Convention::Kuka.numbers_of(&product).try_into().ok()
 }

@@ -1,16 +1,12 @@
 //! Statements, line by line: data files first, then the routines in order.
 
-use std::collections::HashSet;
-
 use armill_formats::document::{Problem, Problems};
 use armill_formats::language::Language;
 
 use super::SYNTAX;
-use super::modal::Modal;
-use super::motion::Former;
-use super::points::{self, Names, declared, lines};
-use crate::messages::ProgramMessages;
-use crate::program::{RobotMove, RobotProgram};
+use super::points::{self, declared, lines};
+use super::state::Reader;
+use crate::program::RobotProgram;
 use crate::text::ProgramText;
 use crate::tokens::{Cursor, Kind, Token, tokens};
 
@@ -93,38 +89,7 @@ fn routine(line: &Cursor<'_>) -> Option<String> {
     Some(line.text[name.span()].to_owned())
 }
 
-/// State while lines are read.
-pub(super) struct Reader<'a> {
-    pub messages: ProgramMessages<'a>,
-    /// The module of the text that is being read.
-    pub module: String,
-    pub names: Names,
-    pub modal: Modal,
-    /// Settings to restore at the end of a spline block.
-    before_spline: Option<Modal>,
-    /// The speed of the set that `LDAT_ACT` names.
-    pub path_speed: Option<f64>,
-    /// End of the previous move.
-    pub former: Option<Former>,
-    routines: HashSet<String>,
-    pub moves: Vec<RobotMove>,
-}
-
 impl<'a> Reader<'a> {
-    fn new(texts: &'a [ProgramText]) -> Reader<'a> {
-        Reader {
-            messages: ProgramMessages::new(texts),
-            module: String::new(),
-            names: Names::default(),
-            modal: Modal::default(),
-            before_spline: None,
-            path_speed: None,
-            former: None,
-            routines: HashSet::new(),
-            moves: Vec::new(),
-        }
-    }
-
     fn statement(&mut self, line: Cursor<'a>) {
         let Some(first) = line.peek() else { return };
         let mut cursor = line.clone();

@@ -1,11 +1,8 @@
-//! Moves relative to the end of the previous move, and poses relative to poses.
-
-use armill_core::frame::Isometry;
-use armill_formats::convention::Convention;
+//! Moves relative to the end of the previous move.
 
 use super::aggregate::{AXES, Aggregate, POSE};
-use super::motion::{Former, KrlTarget};
-use super::read::Reader;
+use super::motion::{KrlTarget, composed};
+use super::state::{Former, Reader};
 use crate::program::Motion;
 use crate::tokens::{Cursor, Token};
 
@@ -56,11 +53,4 @@ impl<'a> Reader<'a> {
         }
         goal.map(|goal| (motion, goal))
     }
-}
-
-/// The components of one pose in another.
-pub(super) fn composed(one: &[f64; 6], other: &[f64; 6]) -> Option<[f64; 6]> {
-    let pose = |numbers: &[f64; 6]| -> Option<Isometry> { Convention::Kuka.pose(numbers).ok() };
-    let product = pose(one)? * pose(other)?;
-    Convention::Kuka.numbers_of(&product).try_into().ok()
 }

@@ -17,9 +17,11 @@
 //! `[recalled]`, not in a sample: `RelTool` rotates about x, then the new y, then the new z; the positions of tool and
 //! zone in the arguments of process moves; `v100` is 100 mm/s.
 //!
-//! In reading order: `statement` (a module as statements), `value` (expressions), `names` (values of names), `read`
-//! (statements), `motion`, `target` and `frames` (moves), `spell` (a pose), `write` (programs to load).
+//! In reading order: `statement` (a module as statements), `value` (kinds of expressions), `names` (values of
+//! names), `read` (statements), `expression` (how expressions are read), `motion`, `target` and `frames` (moves),
+//! `spell` (a pose), `write` (programs to load).
 
+mod expression;
 mod frames;
 mod motion;
 mod names;

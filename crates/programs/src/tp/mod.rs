@@ -28,13 +28,11 @@ mod write;
 use armill_core::frame::Isometry;
 use armill_formats::convention::Convention;
 
+use self::position::KEYS;
 use super::spelling::{Part, Respelling, respelled};
 
 pub use read::read;
 pub use write::write;
-
-/// Names of the numbers of a pose, in the order of its convention.
-const KEYS: [&str; 6] = ["X", "Y", "Z", "W", "P", "R"];
 
 /// Decimals that controllers write, of mm and of deg.
 const DECIMALS: usize = 3;

@@ -11,6 +11,9 @@ use crate::posture::Configuration;
 use crate::program::{Spelled, Target};
 use crate::spelling::{Line, Part, number};
 
+/// Names of the numbers of a pose, in the order of its convention.
+pub(super) const KEYS: [&str; 6] = ["X", "Y", "Z", "W", "P", "R"];
+
 /// A position of the first group.
 #[derive(Clone, Debug)]
 pub(super) struct Position {
@@ -199,7 +202,7 @@ fn one_field(line: &Line, part: Part, position: &mut Open, messages: &mut Progra
             }
         }
         _ => {
-            let known = super::KEYS.iter().position(|known| *known == key);
+            let known = KEYS.iter().position(|known| *known == key);
             if let Some(at) = known {
                 if position.pose[at].is_some() {
                     position.broken = true;
@@ -212,10 +215,7 @@ fn one_field(line: &Line, part: Part, position: &mut Open, messages: &mut Progra
                     .spelled
                     .get_or_insert_with(|| line.start + part.trimmed().at..place.end);
                 spelled.end = spelled.end.max(place.end);
-            } else if key
-                .strip_prefix('R')
-                .is_some_and(|key| super::KEYS.contains(&key))
-            {
+            } else if key.strip_prefix('R').is_some_and(|key| KEYS.contains(&key)) {
                 position.relative = true;
             } else if key.starts_with('E') {
                 let what = "extended axes (E1, ...) are ignored: they are assumed not to move";
@@ -321,7 +321,7 @@ fn end(open: Open, done: &mut BTreeMap<u32, Position>, messages: &mut ProgramMes
 }
 
 fn missing(pose: &[Option<f64>; 6]) -> String {
-    let keys: Vec<&str> = super::KEYS
+    let keys: Vec<&str> = KEYS
         .iter()
         .zip(pose)
         .filter(|(_, value)| value.is_none())

@@ -5,6 +5,7 @@ use armill_core::frame::Isometry;
 use armill_core::units::{to_deg, to_mm};
 use armill_formats::convention::Convention;
 
+use super::position::KEYS;
 use crate::draft::{Bounds, Draft, DraftError, DraftPoint, Written};
 use crate::number::fixed;
 use crate::posture::Configuration;
@@ -178,7 +179,7 @@ fn positions(draft: &Draft, points: &[DraftPoint]) -> String {
             ));
             continue;
         }
-        let fields: Vec<String> = super::KEYS
+        let fields: Vec<String> = KEYS
             .iter()
             .zip(Convention::Fanuc.numbers_of(&point.frame_from_tool))
             .enumerate()

@@ -15,9 +15,10 @@
 //! `[recalled]`, not in a sample: the order of the arguments of `movep` and `movec`, `get_inverse_kin` and `qnear`,
 //! `d2r`, `pose_inv`, and that the default values chosen by `write` (accelerations, joint speed) suit all arms.
 //!
-//! In reading order: `read` (statements), `motion` (moves), `value` (values of expressions), `spell` (a pose), `write`
-//! (programs to load).
+//! In reading order: `value` (values of expressions), `read` (statements), `expression` (how expressions are read),
+//! `motion` (moves), `spell` (a pose), `write` (programs to load).
 
+mod expression;
 mod motion;
 mod read;
 mod spell;

@@ -21,8 +21,8 @@
 //! The arm's length is the way from the base over all joint origins to the flange. All points are in the base
 //! frame, mm.
 
+use super::drawing::{ArmJoint, ArmPosture};
 use super::view::{Vec3, along, between, dot, length, unit};
-use super::{ArmJoint, ArmPosture};
 
 /// What a solid belongs to; decides its colour and when it is painted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,6 +1,7 @@
 //! The posture of the arm: a schematic drawing from joint origins and axes, seen from a chosen side.
 //!
-//! `view`: from which side; `body`: the posture as solids; `shapes`: solids on paper; `scene`: the whole drawing.
+//! `view`: from which side; `drawing`: what is shown; `body`: the posture as solids; `shapes`: solids on paper;
+//! `scene`: the whole drawing.
 //!
 //! | what | drawn as |
 //! |---|---|
@@ -14,60 +15,19 @@
 //! is drawn follows from its length.
 
 mod body;
+mod drawing;
 mod scene;
 mod shapes;
 mod view;
 
+pub use drawing::{ArmDrawing, ArmJoint, ArmPosture};
 pub use view::View;
 
 use crate::font::SMALL_PX;
 use crate::page::{BORDER_PX, Heading};
 use crate::svg::{Rect, Text};
+use drawing::is_finite;
 use scene::{Scene, draw_scene, wanted_height_px};
-
-/// One joint of a posture, in the base frame, at the position that it has in this posture.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct ArmJoint {
-    /// Its name, written next to it: `S`; empty for none.
-    pub name: String,
-    /// A point on its axis, in mm; links are drawn from origin to origin.
-    pub origin_mm: [f64; 3],
-    /// Direction of its axis, of any length; one of no length counts as z.
-    pub axis: [f64; 3],
-}
-
-/// The arm in one posture, in the base frame.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct ArmPosture {
-    /// The position of the foot, in mm. The foot is drawn about the axis of the first joint.
-    pub base_mm: [f64; 3],
-    /// The joints from base to flange.
-    pub joints: Vec<ArmJoint>,
-    /// Centre of the flange, in mm.
-    pub flange_mm: [f64; 3],
-    /// Tool centre point, in mm; where it is the flange, no tool is drawn.
-    pub tool_mm: [f64; 3],
-}
-
-/// What an arm drawing shows.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct ArmDrawing {
-    /// First line, bold.
-    pub title: String,
-    /// Second line.
-    pub subtitle: String,
-    /// The posture drawn in full.
-    pub posture: ArmPosture,
-    /// Further postures, drawn faintly behind it; one without joints, or with a point that is not finite, is
-    /// left out.
-    pub ghosts: Vec<ArmPosture>,
-    /// Corners of a plate in mm, in order around it. Not checked: that they are in one plane.
-    pub plate_mm: Option<[[f64; 3]; 4]>,
-    /// Path of the tool in mm; points that are not finite are left out.
-    pub path_mm: Vec<[f64; 3]>,
-    /// From where the arm is seen; `to_svg_views` takes its own.
-    pub view: View,
-}
 
 /// Largest drawing of one view, and each of several panels: width, height.
 const SINGLE_PX: [f64; 2] = [600.0, 520.0];
@@ -127,13 +87,4 @@ impl ArmDrawing {
         let rows = views.len().div_ceil(columns) as f64;
         page.finish(top + rows * (panel_px[1] + title_row + gap) - gap)
     }
-}
-
-/// Whether every point of a posture is a number.
-fn is_finite(posture: &ArmPosture) -> bool {
-    let points = posture.joints.iter().flat_map(|j| [j.origin_mm, j.axis]);
-    points
-        .chain([posture.base_mm, posture.flange_mm, posture.tool_mm])
-        .flatten()
-        .all(f64::is_finite)
 }

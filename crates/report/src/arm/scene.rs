@@ -7,9 +7,9 @@
 //! with y downwards.
 
 use super::body::{Body, JointSpot, Part, Solid, arm_length};
+use super::drawing::{ArmDrawing, ArmPosture, is_finite};
 use super::shapes::{ParallelProjection, corners, draw_solid, hull, paint_depth};
 use super::view::{Projection, Vec3, View};
-use super::{ArmDrawing, ArmPosture, is_finite};
 use crate::arrow::draw_arrow;
 use crate::axis::{extent, multiples, nice_step};
 use crate::colour::{INK, MUTED, SIGNAL};

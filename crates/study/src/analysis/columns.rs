@@ -14,7 +14,6 @@
 //! core does not compute them: along a path whose load differs from point to point, or with a tilted tool.
 
 use std::fmt::Display;
-use std::ops::Range;
 
 use armill_core::kernel::{Answers, Evaluation};
 use armill_core::map::probability_within;
@@ -24,54 +23,11 @@ use armill_formats::table::{Column, ColumnData, Table};
 use rayon::prelude::*;
 
 use crate::analysis::AnalysisData;
+use crate::analysis::numbers::Numbers;
 use crate::analysis::quantity::{self, Quantity};
-use crate::analysis::rows::{MM_DECIMALS, Rows, of_points, of_reached};
+use crate::analysis::rows::{MM_DECIMALS, Rows, of_points};
 use crate::error::StudyError;
 use crate::joint_unit::JointUnit;
-
-/// A column of numbers that is not filled yet.
-pub struct Numbers<'a> {
-    /// What its numbers are.
-    pub quantity: &'static Quantity,
-    /// Its name: the key of the quantity, with its capitals replaced.
-    pub name: String,
-    /// Appends its values at these points.
-    pub fill: Fill<'a>,
-}
-
-/// Accepts a series, a range of its points, and the list to append to: `None` for a point without posture.
-pub type Fill<'a> = Box<dyn Fn(&Rows<'_>, Range<usize>, &mut Vec<Option<f64>>) + Send + Sync + 'a>;
-
-impl<'a> Numbers<'a> {
-    /// The column of a quantity: `value` gives it at a point with a posture, in the unit of the quantity.
-    pub fn of(
-        quantity: &'static Quantity,
-        value: impl Fn(&Rows<'_>, usize, &Evaluation) -> f64 + Send + Sync + 'a,
-    ) -> Numbers<'a> {
-        Numbers {
-            quantity,
-            name: quantity.key.to_owned(),
-            fill: Box::new(move |rows, points, values| values.extend(of_reached(rows, points, &value))),
-        }
-    }
-
-    /// One of several columns of a quantity: `capitals` in its key stand for `name`.
-    fn named(mut self, capitals: &str, name: &str) -> Numbers<'a> {
-        self.name = self.name.replace(capitals, name);
-        self
-    }
-
-    /// The column with its values.
-    fn column(&self, values: Vec<Option<f64>>) -> Column {
-        Column {
-            name: self.name.clone(),
-            unit: self.quantity.unit.map(str::to_owned),
-            description: self.quantity.words.to_owned(),
-            decimals: Some(self.quantity.decimals),
-            data: ColumnData::of_decimals(values, self.quantity.decimals),
-        }
-    }
-}
 
 /// Points whose answers stay in the cache while all columns read them.
 const POINTS_AT_ONCE: usize = 512;

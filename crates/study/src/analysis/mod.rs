@@ -9,16 +9,18 @@
 //! | `columns`, `pictures`, `report` | its columns of the table, its pictures, its chapter of the report |
 //!
 //! A file is missing where a kind has nothing of its own. [`map`], [`sections`], [`volume`], [`path`], [`holes`]; this
-//! file is the list of them. What they share: [`table`] `[[analysis]]`, [`resolve`] the values of the study and those
-//! of the analysis, [`runner`] the question to the core, [`point`] a point of an answer, [`quantity`] what is known of
-//! a point, [`rows`] and [`columns`] the points as a table, [`picture`], [`panels`] and [`arm`] for pictures, [`cells`]
-//! for tables of a report, [`words`] for sentences.
+//! file is the list of them. What they share: [`table`] `[[analysis]]`, [`study_tables`] what the study gives to each,
+//! [`resolve`] the values of the study and those of the analysis, `sheet` a plane with its grid, [`runner`] the question
+//! to the core, [`point`] a point of an answer, [`quantity`] what is known of a point, [`rows`], [`numbers`] and
+//! [`columns`] the points as a table, [`picture`], [`panels`] and [`arm`] for pictures, [`cells`] for tables of a
+//! report, [`words`] for sentences.
 
 pub mod arm;
 pub mod cells;
 pub mod columns;
 pub mod holes;
 pub mod map;
+pub mod numbers;
 pub mod panels;
 pub mod path;
 pub mod picture;
@@ -28,6 +30,8 @@ pub mod resolve;
 pub mod rows;
 pub mod runner;
 pub mod sections;
+mod sheet;
+pub mod study_tables;
 pub mod table;
 pub mod volume;
 pub mod words;
@@ -36,16 +40,16 @@ use armill_core::map::{BoxGrid, PlaneMap, VolumeMap, plane_map, volume_map};
 use armill_core::optimize::{HolesFound, hole_postures};
 use armill_core::path::LoadedTrack;
 use armill_core::robot::Robot;
-use armill_core::workpiece::Grid;
 use armill_formats::robot::RobotDescription;
 
-use self::columns::Numbers;
 use self::holes::HolesAnalysis;
+use self::numbers::Numbers;
 use self::path::PathAnalysis;
 use self::path::run::PathResult;
 use self::rows::Rows;
 use self::runner::Runner;
 use self::sections::Section;
+pub use self::sheet::Sheet;
 use crate::error::StudyError;
 use crate::input::memory::{ExtraBytes, OF_FIELD, OF_MAP, PointMemory};
 use crate::input::setting::Setting;
@@ -72,15 +76,6 @@ pub enum Subject {
     Path(Box<PathAnalysis>),
     /// Holes.
     Holes(Box<HolesAnalysis>),
-}
-
-/// A plane with its grid.
-#[derive(Clone, Debug)]
-pub struct Sheet {
-    /// How the points are evaluated.
-    pub setting: Setting,
-    /// Which points.
-    pub grid: Grid,
 }
 
 /// The result of one analysis.

@@ -57,7 +57,8 @@ pub struct SettingAnswer {
     pub tolerance_um: f64,
     /// Active parts of the stiffness model.
     pub model: Vec<String>,
-    /// The contributors of `share_um`: the joints, then base, flange and tool if springs are attached there.
+    /// The contributors of `share_um`: the joints; base, flange and tool if springs are attached there;
+    /// geometry with a calibrated robot; thermal growth.
     pub contributors: Vec<String>,
 }
 

@@ -22,15 +22,15 @@ use armill_formats::robot::RobotDescription;
 
 use crate::StudyError;
 use crate::analysis::path::LoadSource;
-use crate::analysis::path::cut::CutTable;
+use crate::analysis::study_tables::StudyTables;
 use crate::analysis::table::{AnalysisKind, AnalysisTable};
 use crate::analysis::{Sheet, Subject};
 use crate::input::memory::{OF_FIELD, OF_MAP, PointMemory};
 use crate::input::problem_log::ProblemLog;
 use crate::input::quantities::{grid, load_cases, plane_at, pose_mm_deg};
 use crate::input::setting::Setting;
-use crate::input::stiffness::{self, StiffnessTables};
-use crate::input::tables::{LoadFrameName, LoadTable, PlaneTable, PostureTable, ToolTable};
+use crate::input::stiffness;
+use crate::input::tables::{LoadFrameName, PlaneTable, PostureTable, ToolTable};
 
 /// The plane of the study with the changes of the analysis.
 pub fn plane_of(plane: &PlaneTable, analysis: &AnalysisTable) -> PlaneTable {
@@ -46,31 +46,10 @@ pub fn plane_of(plane: &PlaneTable, analysis: &AnalysisTable) -> PlaneTable {
     plane
 }
 
-/// What the study gives to every analysis, as written.
-#[derive(Clone, Copy, Debug)]
-pub struct Common<'a> {
-    /// Reference frame of coordinates.
-    pub base: Option<&'a str>,
-    /// The tool.
-    pub tool: Option<&'a ToolTable>,
-    /// The plane.
-    pub plane: &'a PlaneTable,
-    /// The load.
-    pub load: Option<&'a LoadTable>,
-    /// The cut.
-    pub cut: Option<&'a CutTable>,
-    /// The posture.
-    pub posture: Option<&'a PostureTable>,
-    /// The tolerance.
-    pub tolerance_um: f64,
-    /// Parts of the stiffness model.
-    pub stiffness: StiffnessTables<'a>,
-}
-
 /// One analysis and its study.
 pub struct Resolver<'a> {
     /// What the study gives to every analysis.
-    pub common: &'a Common<'a>,
+    pub common: &'a StudyTables<'a>,
     /// The robot, if it was found.
     pub robot: Option<&'a RobotDescription>,
     /// The calibrated robot, where the controller uses the nominal model `robot`.

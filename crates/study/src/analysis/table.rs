@@ -5,7 +5,7 @@ use serde::Deserialize;
 
 use crate::analysis::holes::table::HolesTable;
 use crate::analysis::path::cut::CutTable;
-use crate::analysis::path::program::ProgramTable;
+use crate::analysis::path::program_table::ProgramTable;
 use crate::analysis::path::shape_tables::{CircleTable, LineTable, RectangleTable};
 use crate::analysis::volume::table::BoxTable;
 use crate::input::tables::{LoadTable, PlaneChange, PostureTable, ToolTable};

@@ -18,8 +18,10 @@
 //! warnings[]    what to know before relying on it; sources[]: where its numbers come from
 //! ```
 //!
-//! The parts are those of the kinds of [`crate::analysis`]; `statement` and `sentence` interpret them.
+//! The parts are those of the kinds of [`crate::analysis`], which `by_kind` collects; `statement` and `sentence`
+//! interpret them.
 
+mod by_kind;
 mod sentence;
 mod statement;
 
@@ -38,14 +40,13 @@ use armill_core::load::CuttingLaw;
 use armill_core::robot::BacklashSide;
 use armill_formats::robot::OtherLimits;
 use armill_formats::sources::Source;
-use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::analysis;
 use crate::analysis::path::{Cut, PathAnalysis};
-use crate::analysis::sections::Section;
-use crate::analysis::{AnalysisData, AnalysisResult, Subject};
+use crate::analysis::{AnalysisResult, Subject};
+use crate::answer::by_kind::AnalysisAnswers;
 use crate::budget::{self, BudgetAnswer};
 use crate::file::resolve::Study;
 use crate::input::setting::Setting;
@@ -118,63 +119,12 @@ pub struct JointAnswer {
     pub compliance_source: String,
 }
 
-/// The answer to one analysis.
-enum AnswerKind {
-    Maps(Vec<MapAnswer>),
-    Path(Box<PathAnswer>),
-    Volume(Box<VolumeAnswer>),
-    Holes(Box<HolesAnswer>),
-}
-
-/// The answers to all analyses, by kind.
-#[derive(Default)]
-struct AnalysisAnswers {
-    maps: Vec<MapAnswer>,
-    paths: Vec<PathAnswer>,
-    volumes: Vec<VolumeAnswer>,
-    holes: Vec<HolesAnswer>,
-}
-
 /// The answer to `study` from its results.
 ///
 /// `done` is the result of `run` for this study, in the order of its analyses; the answer has that order on any number
 /// of threads.
 pub fn answer(study: &Study, done: &[AnalysisResult<'_>]) -> StudyAnswer {
-    let robot = &study.robot.robot;
-    let given = |done: &AnalysisResult<'_>| match &done.found {
-        AnalysisData::Map(sheet, map) => AnswerKind::Maps(vec![analysis::map::answer::answer(
-            robot,
-            done.name,
-            &sheet.setting,
-            map,
-        )]),
-        AnalysisData::Sections(sections) => {
-            let section = |section: &Section<'_>| {
-                let name = format!("{}: {}", done.name, section.label);
-                analysis::map::answer::answer(robot, &name, &section.sheet.setting, &section.map)
-            };
-            AnswerKind::Maps(sections.par_iter().map(section).collect())
-        }
-        AnalysisData::Volume(setting, volume) => AnswerKind::Volume(Box::new(
-            analysis::volume::answer::answer(robot, done.name, setting, volume),
-        )),
-        AnalysisData::Path(analysis, found) => AnswerKind::Path(Box::new(analysis::path::answer::answer(
-            robot, done.name, analysis, found,
-        ))),
-        AnalysisData::Holes(analysis, found) => AnswerKind::Holes(Box::new(analysis::holes::answer::answer(
-            robot, done.name, analysis, found,
-        ))),
-    };
-    let all: Vec<AnswerKind> = done.par_iter().map(given).collect();
-    let mut answers = AnalysisAnswers::default();
-    for given in all {
-        match given {
-            AnswerKind::Maps(given) => answers.maps.extend(given),
-            AnswerKind::Path(given) => answers.paths.push(*given),
-            AnswerKind::Volume(given) => answers.volumes.push(*given),
-            AnswerKind::Holes(given) => answers.holes.push(*given),
-        }
-    }
+    let answers = AnalysisAnswers::of(study, done);
     let (measured, unmeasured) = match budget::of_results(study, done) {
         Some(Ok((_, given))) => (Some(given), None),
         Some(Err(reason)) => (None, Some(format!("The measurement is not compared: {reason}."))),

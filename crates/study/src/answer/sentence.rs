@@ -9,7 +9,7 @@
 
 use crate::analysis;
 use crate::analysis::Subject;
-use crate::answer::AnalysisAnswers;
+use crate::answer::by_kind::AnalysisAnswers;
 use crate::file::resolve::Study;
 
 /// The sentence of the first analysis.

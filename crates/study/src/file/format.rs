@@ -7,7 +7,7 @@ use super::circles::BallbarTable;
 use super::experiment::ExperimentTable;
 use super::placement::PlaceTable;
 use crate::analysis::path::cut::CutTable;
-use crate::analysis::resolve::Common;
+use crate::analysis::study_tables::StudyTables;
 use crate::analysis::table::AnalysisTable;
 use crate::compliance_class::ComplianceClass;
 use crate::input::stiffness::StiffnessTables;
@@ -77,8 +77,8 @@ pub struct StudyFile {
 
 impl StudyFile {
     /// What every analysis has unless it replaces it.
-    pub fn common(&self) -> Common<'_> {
-        Common {
+    pub fn common(&self) -> StudyTables<'_> {
+        StudyTables {
             base: self.base.as_deref(),
             tool: self.tool.as_ref(),
             plane: &self.plane,

@@ -11,19 +11,29 @@
 
 use armill_core::kernel::Answers;
 use armill_core::load::PathLoad;
-use armill_core::nalgebra::{UnitQuaternion, Vector3};
+use armill_core::nalgebra::{Unit, UnitQuaternion, Vector3};
 use armill_core::optimize::hole_postures;
 use armill_core::path::{LoadedTrack, Track};
+use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
 
-use crate::analysis::holes::resolve::HolesAnalysis;
+use crate::analysis::holes::HolesAnalysis;
 use crate::analysis::path::PathAnalysis;
 use crate::analysis::runner::Runner;
 use crate::analysis::{AnalysisData, AnalysisResult};
 use crate::error::StudyError;
 use crate::file::resolve::Study;
-use crate::live::posture::{ToolTarget, is_same};
 use crate::pose::At;
+
+/// A target of the tool in the terms of the core.
+pub(super) struct ToolTarget {
+    pub at: At,
+    pub normal: Unit<Vector3<f64>>,
+    /// Wrenches on the tool, base, one a case.
+    pub cases: Vec<Wrench>,
+    /// The pose of the arm there in the answer, of a path and of holes.
+    pub pose: Option<AnsweredPose>,
+}
 
 /// The pose of the arm at a point in the answer.
 pub(super) struct AnsweredPose {
@@ -40,6 +50,14 @@ impl AnsweredPose {
         let joints = self.joints.as_ref()?;
         self.link_offsets.as_deref().filter(|_| is_same(joints, q))
     }
+}
+
+/// Positions (rad, m) that are the same posture, whatever was computed on the way there.
+const SAME_POSTURE: f64 = 1e-6;
+
+/// Whether these positions (rad, m) are the same posture.
+fn is_same(a: &[f64], b: &[f64]) -> bool {
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() < SAME_POSTURE)
 }
 
 /// Point `index` of a path of this study, which may have been evaluated; the point must exist.

@@ -14,6 +14,8 @@
 //! | `along` | the pose and the load at a point of a path, or at a hole |
 //! | `arm` | the worst and best points, and the arm there |
 //! | `scene` | what can be drawn in space |
+//! | `scale` | the levels of the colour scale |
+//! | `lines` | the lines of equal deviation of a map |
 //! | `meshes` | the meshes of the robot, if its file names them |
 //! | `file_kind` | the probable kind of a file |
 //!
@@ -33,9 +35,11 @@ mod along;
 mod answered;
 mod arm;
 mod file_kind;
+mod lines;
 mod meshes;
 mod outline;
 mod posture;
+mod scale;
 mod scene;
 mod tables;
 mod values;
@@ -46,6 +50,7 @@ pub use answered::{
 };
 pub use arm::{ExtremesAnswer, Follow, PoseAtTarget, PoseRequest};
 pub use file_kind::{FileKind, kind_of};
+pub use lines::{LevelAnswer, LinesAnswer};
 pub use meshes::{DrawnMesh, mesh_bytes};
 pub use outline::{ChangedAnswer, ChangedValue, OutlineAnswer, OutlinedAnalysis, changed, outline};
 pub use posture::{
@@ -55,7 +60,7 @@ pub use posture::{
 pub use scene::{BoxInScene, PlateInScene, PointsInScene, SceneAnswer, SectionInScene, scene};
 pub use tables::{TablesAnswer, ValueLocation, tables};
 pub use values::{ValuesAnswer, values};
-pub use view::{ViewAnswer, view};
+pub use view::{ViewAnswer, ViewQuestion, view};
 
 use std::path::Path;
 

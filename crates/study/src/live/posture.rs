@@ -26,7 +26,7 @@ use crate::error::StudyError;
 use crate::file::resolve::Study;
 use crate::input::setting::Setting;
 use crate::joint_unit::{JointUnit, joint_positions};
-use crate::live::along::{AnsweredPose, at_hole, on_path};
+use crate::live::along::{ToolTarget, at_hole, on_path};
 use crate::live::meshes::{DrawnMesh, Shapes};
 use crate::live::{EditedAnalysis, StudyText};
 use crate::number::without_rounding;
@@ -158,16 +158,6 @@ pub struct CaseAnswer {
     pub permissible_along_load_n: Option<f64>,
     /// Force that meets the tolerance in any direction.
     pub permissible_any_direction_n: Option<f64>,
-}
-
-/// A target of the tool in the terms of the core.
-pub(super) struct ToolTarget {
-    pub at: At,
-    pub normal: Unit<Vector3<f64>>,
-    /// Wrenches on the tool, base, one a case.
-    pub cases: Vec<Wrench>,
-    /// The pose of the arm there in the answer, of a path and of holes.
-    pub pose: Option<AnsweredPose>,
 }
 
 /// Every posture at a target of this analysis.
@@ -389,14 +379,6 @@ fn deviations(
         })
     };
     cases.iter().map(of).collect()
-}
-
-/// Positions (rad, m) that are the same posture, whatever was computed on the way there.
-const SAME_POSTURE: f64 = 1e-6;
-
-/// Whether these positions (rad, m) are the same posture.
-pub(super) fn is_same(a: &[f64], b: &[f64]) -> bool {
-    a.iter().zip(b).all(|(a, b)| (a - b).abs() < SAME_POSTURE)
 }
 
 /// The arm at these joint positions (rad, m).

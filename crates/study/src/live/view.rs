@@ -9,10 +9,26 @@ use crate::answer::{StudyAnswer, answer};
 use crate::error::StudyError;
 use crate::live::arm::{ExtremesAnswer, PoseAtTarget, PoseRequest, extremes_of, pose_at_target, target_of};
 use crate::live::outline::{analyses, changed_text};
+use crate::live::scale::{checked, levels_of};
 use crate::live::scene::scene_of;
 use crate::live::values::values_of;
-use crate::live::{ChangedValue, OutlinedAnalysis, SceneAnswer, StudyText, ValuesAnswer};
+use crate::live::{ChangedValue, LinesAnswer, OutlinedAnalysis, SceneAnswer, StudyText, ValuesAnswer};
 use crate::run::run;
+
+/// What is shown.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ViewQuestion<'a> {
+    /// The analysis; the first if `None`.
+    pub analysis: Option<&'a str>,
+    /// Changes of the text, made first.
+    pub changes: &'a [ChangedValue],
+    /// The pose of the arm.
+    pub arm: Option<&'a PoseRequest>,
+    /// The levels of the colour scale, um, rising; chosen for the deviations if `None`.
+    pub levels_um: Option<&'a [f64]>,
+    /// Whether maps have lines at these levels, in addition to those at the tolerance.
+    pub lines: bool,
+}
 
 /// Everything shown of one analysis.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -29,40 +45,51 @@ pub struct ViewAnswer {
     pub answer: StudyAnswer,
     /// Its worst and best points: of sections those of each, else of one.
     pub extremes: Vec<ExtremesAnswer>,
+    /// The levels of its colour scale, from end to end; `null` if no point has a deviation.
+    pub levels_um: Option<Vec<f64>>,
+    /// Lines of equal deviation, one entry a map.
+    pub lines: Vec<LinesAnswer>,
     /// The arm at the requested point; `null` if none was requested, and if there is no such point.
     pub arm: Option<PoseAtTarget>,
 }
 
-/// Everything shown of this analysis, or of the first, after these changes, and the arm at the requested point.
+/// Everything shown of one analysis after the changes, and the arm at the requested point.
 ///
 /// # Errors
 /// A change that cannot be made; every problem of the changed text that concerns the analysis; no analysis of that
-/// name; cancelled by the watch.
+/// name; levels that are no scale; cancelled by the watch.
 pub fn view(
     text: StudyText<'_>,
-    analysis: Option<&str>,
-    changes: &[ChangedValue],
-    request: Option<&PoseRequest>,
+    question: &ViewQuestion<'_>,
     watch: Watch<'_>,
 ) -> Result<ViewAnswer, StudyError> {
-    let new = changed_text(text, analysis, changes)?;
+    let fixed = question.levels_um.map(checked).transpose()?;
+    let new = changed_text(text, question.analysis, question.changes)?;
     let text = StudyText {
         bytes: new.as_bytes(),
         ..text
     };
-    let edited = text.one_analysis(analysis)?;
+    let edited = text.one_analysis(question.analysis)?;
     let done = run(&edited.study, watch)?;
     let answer = answer(&edited.study, &done);
     let extremes = extremes_of(&answer, &done);
-    let target = request.and_then(|request| target_of(request, &answer, &extremes));
+    let target = question
+        .arm
+        .and_then(|request| target_of(request, &answer, &extremes));
     let arm = match target {
         Some((at, case)) => pose_at_target(&edited, at, case, done.first(), watch)?,
         None => None,
     };
+    let values = values_of(&edited)?;
+    let levels_um = fixed.or_else(|| levels_of(done.first()?, values.tolerance_um));
+    let with_lines = levels_um.as_deref().filter(|_| question.lines);
+    let lines_of = |map| LinesAnswer::of(map, with_lines.unwrap_or_default());
     Ok(ViewAnswer {
         analyses: analyses(&edited.parsed),
         scene: scene_of(&edited, &done)?,
-        values: values_of(&edited)?,
+        values,
+        lines: answer.maps.iter().map(lines_of).collect(),
+        levels_um,
         answer,
         extremes,
         arm,

@@ -21,10 +21,11 @@ use armill_report::{
 
 use crate::StudyError;
 use crate::analysis::cells::columns;
+use crate::analysis::picture::Picture;
 use crate::budget::answer::{BudgetAnswer, PartAnswer, WithoutLoadAnswer};
 use crate::budget::combine::CombinedCurves;
 use crate::file_names::slug;
-use crate::output::{Picture, picture_files, write_pictures};
+use crate::output::picture_files::{picture_files, write_pictures};
 
 /// The table.
 const TABLE: &str = "budget.csv";

@@ -14,18 +14,24 @@
 //! .armill-files           which of these files armill made
 //! ```
 //!
-//! `NAME` is the [`slug`] of the analysis's name. [`folder`]: writes many files at once; `tables`, `pictures`, `arm`,
-//! [`budget`], [`report`]: their contents.
+//! `NAME` is the [`slug`] of the analysis's name. `options`: what is to be written; [`folder`]: writes many files at
+//! once; `picture_files`: the files of a picture; `tables`, `pictures`, `arm`, [`budget`], [`report`]: contents of files.
 
 mod arm;
 pub mod budget;
 pub mod folder;
+mod options;
+mod picture_files;
 mod pictures;
 pub mod report;
 mod tables;
 
 pub use crate::analysis::picture::Picture;
 pub use arm::{arm_drawing, posture_drawing};
+pub use options::{Csv, Opening, OutputOptions, Pictures, StudyResults};
+#[cfg(feature = "png")]
+pub use picture_files::png;
+pub use picture_files::{picture_files, save_pictures, write_pictures};
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -40,75 +46,6 @@ use crate::answer::StudyAnswer;
 use crate::error::StudyError;
 use crate::file::resolve::Study;
 use crate::file_names::slug;
-
-/// A study with its results.
-#[derive(Clone, Copy, Debug)]
-pub struct StudyResults<'a> {
-    /// The study.
-    pub study: &'a Study,
-    /// The result of each analysis, in the order of the study.
-    pub done: &'a [AnalysisResult<'a>],
-    /// The answer from these.
-    pub answer: &'a StudyAnswer,
-}
-
-/// What to write in addition to `result.json`, Parquet and VTK.
-#[derive(Clone, Copy, Debug)]
-pub struct OutputOptions<'a> {
-    /// Whether there are pictures and a report.
-    pub pictures: Pictures,
-    /// Which analyses get a CSV.
-    pub csv: Csv,
-    /// First chapter of the report, if the study was changed before it was run.
-    pub opening: Option<&'a Opening>,
-}
-
-/// The first chapter of a report: the search that preceded the run, and its result.
-#[derive(Clone, Debug)]
-pub struct Opening {
-    /// Its heading.
-    pub heading: &'static str,
-    /// The result, a sentence each.
-    pub sentences: Vec<String>,
-    /// Pictures of the search.
-    pub pictures: Vec<Picture>,
-}
-
-impl OutputOptions<'static> {
-    /// The default of a run.
-    pub const USUAL: OutputOptions<'static> = OutputOptions {
-        pictures: Pictures::Drawn,
-        csv: Csv::MapsAndPaths,
-        opening: None,
-    };
-    /// No pictures, no report.
-    pub const TABLES: OutputOptions<'static> = OutputOptions {
-        pictures: Pictures::None,
-        ..OutputOptions::USUAL
-    };
-}
-
-/// Which analyses get a CSV; Parquet has the same columns and a third of the size or less.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Csv {
-    /// Maps and paths, which are often opened in a spreadsheet.
-    MapsAndPaths,
-    /// Series and volumes too.
-    Every,
-}
-
-/// Whether pictures are drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Pictures {
-    /// Pictures and the report.
-    Drawn,
-    /// Tables only.
-    None,
-}
-
-/// Pixels of a raster picture for each of its own: sharp in print.
-#[cfg(feature = "png")]
-const PNG_SCALE: f64 = 2.0;
 
 /// Whether the tables, report and answer of this study may be written into `out`, before any work is done.
 ///
@@ -217,36 +154,9 @@ fn names(study: &Study, drawn: &[Picture], requested: OutputOptions) -> Vec<Stri
         .collect()
 }
 
-/// The files of a picture.
-pub fn picture_files(picture: &Picture) -> impl Iterator<Item = String> {
-    let png = cfg!(feature = "png").then(|| format!("{}.png", picture.name));
-    std::iter::once(format!("{}.svg", picture.name)).chain(png)
-}
-
-/// Writes every picture.
-///
-/// # Errors
-/// A picture that cannot be drawn, a file that cannot be written.
-pub fn save_pictures(drawn: &[Picture], files: &folder::Folder<'_>) -> Result<(), StudyError> {
-    drawn.par_iter().with_max_len(1).try_for_each(|picture| {
-        #[cfg(feature = "png")]
-        files.save(&format!("{}.png", picture.name), &png(&picture.svg)?)?;
-        files.save(&format!("{}.svg", picture.name), picture.svg.as_bytes())
-    })
-}
-
 /// The pictures of every analysis, in the order of the report.
 pub fn pictures(results: StudyResults<'_>) -> Vec<Picture> {
     pictures::draw(results)
-}
-
-/// A picture in pixels, as it is written in addition to its SVG.
-///
-/// # Errors
-/// A picture that cannot become pixels.
-#[cfg(feature = "png")]
-pub fn png(svg: &str) -> Result<Vec<u8>, StudyError> {
-    Ok(armill_report::raster::png(svg, PNG_SCALE)?)
 }
 
 /// The points of one analysis with their columns.
@@ -263,19 +173,6 @@ pub fn points_table(study: &Study, done: &AnalysisResult<'_>) -> Result<Table, S
 /// A table that cannot be made, which would be a fault of armill.
 pub fn table_csv(study: &Study, done: &AnalysisResult<'_>) -> Result<Vec<u8>, StudyError> {
     Ok(csv::write(&points_table(study, done)?))
-}
-
-/// Writes pictures that are not those of an analysis into `out`.
-///
-/// # Errors
-/// A file cannot be written; a picture cannot be drawn in pixels.
-pub fn write_pictures(pictures: &[Picture], out: &ResultFolder) -> Result<(), StudyError> {
-    for picture in pictures {
-        #[cfg(feature = "png")]
-        out.write(&format!("{}.png", picture.name), &png(&picture.svg)?)?;
-        out.write(&format!("{}.svg", picture.name), picture.svg.as_bytes())?;
-    }
-    Ok(())
 }
 
 /// The answer as JSON, one line.

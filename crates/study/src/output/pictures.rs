@@ -19,7 +19,7 @@ use crate::analysis::{self, AnalysisData, AnalysisResult, Subject};
 use crate::answer::{HolesAnswer, MapAnswer, PathAnswer};
 use crate::file::resolve::Study;
 use crate::input::setting::Setting;
-use crate::output::StudyResults;
+use crate::output::options::StudyResults;
 
 /// The pictures of every analysis, in order.
 pub(super) fn draw(results: StudyResults<'_>) -> Vec<Picture> {

@@ -7,7 +7,7 @@ use armill_formats::table::vtk::{Image, PointArray, PointValues, PolyData, write
 use armill_formats::table::{Table, csv};
 use rayon::prelude::*;
 
-use super::Csv;
+use super::options::Csv;
 use crate::analysis::path::process_limits;
 use crate::analysis::rows::{Layout, Rows, of_points, of_reached};
 use crate::analysis::{Analysis, AnalysisData, AnalysisResult, Subject, columns};

@@ -7,11 +7,10 @@
 
 mod text;
 
-use armill_core::units::to_um;
 use std::path::PathBuf;
 
 use armill_measure::ballbar::{
-    BallbarAnalysis, TaughtAnswer, TaughtCircle, analyse, answer, before, output, points_within, sagitta,
+    BallbarAnalysis, TaughtAnswer, TaughtCircle, analyse, answer, before, output, points_within,
     taught_program, teach,
 };
 use armill_programs::Written;
@@ -20,8 +19,8 @@ use armill_study::measured::circular_test::read;
 use armill_study::studies;
 
 use super::program::{self, save};
-use crate::Outcome;
 use crate::arguments::BallbarArguments;
+use crate::outcome::Outcome;
 use crate::terminal::{print, say};
 
 /// Reads, analyses, writes the requested files and prints the result.
@@ -106,15 +105,6 @@ fn taught(
     };
     let place = arguments.placement()?;
     let study = studies::find(study)?.read()?;
-    let mut written = taught_program(&study, &circle, &place, &requested)?;
-    let sagitta = sagitta(radius, points);
-    if sagitta > requested.within {
-        written.notes.push(format!(
-            "linear moves between {points} points deviate by {:.1} um from the circle; {} points are within {} um",
-            to_um(sagitta),
-            points_within(radius, requested.within),
-            arguments.program.within_um
-        ));
-    }
+    let written = taught_program(&study, &circle, &place, &requested)?;
     Ok(Some((given, circle, Some((folder, written)))))
 }

@@ -13,9 +13,9 @@ use armill_study::input::quantities::pose_mm_deg;
 use armill_study::pendant::{PendantAnswer, PendantQuestion, check};
 use armill_study::{StudyError, robots};
 
-use crate::Outcome;
 use crate::arguments::RobotsCheckArguments;
 use crate::arguments::numbers::{above_zero, three_or_six};
+use crate::outcome::Outcome;
 use crate::terminal::print;
 
 /// Compares the file with the readings and prints the verdict.

@@ -10,8 +10,8 @@ use armill_formats::robot::{RobotDescription, armill};
 use armill_study::robot_answers::ImportedRobot;
 use armill_study::{StudyError, library, robots};
 
-use crate::Outcome;
 use crate::arguments::ImportArguments;
+use crate::outcome::Outcome;
 use crate::terminal::{print, say};
 
 /// Reads the foreign file, writes it in the format of armill, and reads the result again as a check.

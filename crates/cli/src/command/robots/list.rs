@@ -3,8 +3,8 @@
 use armill_study::StudyError;
 use armill_study::robot_answers::{RobotRow, library_rows};
 
-use crate::Outcome;
 use crate::arguments::RobotsArguments;
+use crate::outcome::Outcome;
 use crate::terminal::{Align, columns, print};
 
 /// Prints the library; all its robots are read for this.

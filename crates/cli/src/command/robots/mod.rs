@@ -12,8 +12,8 @@ mod structure;
 
 use armill_study::StudyError;
 
-use crate::Outcome;
 use crate::arguments::{RobotsAction, RobotsArguments};
+use crate::outcome::Outcome;
 
 /// Selects by the subcommand, otherwise by whether a name is given.
 pub(crate) fn run(arguments: &RobotsArguments) -> Result<Outcome, StudyError> {

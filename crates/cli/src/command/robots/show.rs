@@ -10,9 +10,9 @@ use armill_study::robot_answers::{RobotDetails, chain};
 use armill_study::{StudyError, robots};
 
 use super::structure;
-use crate::Outcome;
 use crate::arguments::RobotsArguments;
 use crate::command::drawing;
+use crate::outcome::Outcome;
 use crate::terminal::print;
 
 /// Prints all data of the robot `name`; the drawing, if any, is written first.

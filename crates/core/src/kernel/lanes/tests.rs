@@ -2,10 +2,10 @@
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
-use super::by_block::{FOUR, Second, SolvedBlock, fill};
-use super::geometry::{Arm, CosineLimits, aim};
+use super::by_block::{FOUR, SolvedBlock};
+use super::geometry::{Arm, CosineLimits, Second, aim};
 use super::load::Flexibility;
-use super::numbers::{Alone, BLOCK, Fused, Plain, Vector};
+use super::numbers::{Alone, BLOCK, Fused, Plain, Vector, fill};
 use super::solve::{Links, Screws, Solved};
 use super::*;
 use crate::arms;

@@ -1,3 +1,5 @@
+use nalgebra::{Point3, Unit, Vector3};
+
 use super::*;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 

@@ -5,8 +5,8 @@
 //! [`fixed_joint`], a search for any other chain, and rails. A [`Finder`] solves one pose after
 //! the other; [`postures`] gives all properties of the postures of one. Each posture is verified by forward kinematics.
 //!
-//! `finder` runs them, `starts` and `descent` are the search. The closed forms share `lines` (axes in space),
-//! `roots`, `two_links` and `three_turns`.
+//! `finder` runs them, `verify` checks their solutions, `starts` and `descent` are the search. The closed forms share
+//! `lines` (axes in space), `roots`, `two_links` and `three_turns`.
 
 pub mod closed_form;
 mod descent;
@@ -21,6 +21,7 @@ mod starts;
 pub mod three_parallel;
 mod three_turns;
 pub(crate) mod two_links;
+mod verify;
 
 pub use closed_form::ClosedForm;
 pub(crate) use finder::name as name_of;
@@ -30,6 +31,7 @@ pub use kind::Inverse;
 pub use ortho_parallel::OrthoParallel;
 pub use spherical_wrist::SphericalWrist;
 pub use three_parallel::ThreeParallel;
+pub use verify::verify;
 
 use nalgebra::UnitQuaternion;
 
@@ -38,12 +40,7 @@ use super::jacobian::screws_at;
 use super::model::Robot;
 use super::posture::Posture;
 use super::unreachable::Unreachable;
-use crate::frame::{Isometry, turn_between};
-
-/// Greatest distance between the forward kinematics of a solution and the requested pose, m and rad.
-///
-/// The closed form is accurate to 1e-15 of the arm's length; a thousand times its worst is an inconsistent geometry.
-const VERIFIED: f64 = 1e-9;
+use crate::frame::Isometry;
 
 /// The tool on the flange, with the joint positions before the pose and at home.
 #[derive(Clone, Copy, Debug)]
@@ -102,22 +99,6 @@ pub fn postures(
         }
     };
     Ok(finder.all(&requested)?.iter().map(&mut posture).collect())
-}
-
-/// Verifies that these frames have the flange at the requested pose, within 1e-9 m and rad.
-///
-/// # Errors
-/// [`Unreachable::Unverified`] with the distance missed.
-pub fn verify(frames: &Frames, base_from_flange: &Isometry) -> Result<(), Unreachable> {
-    let reached = &frames.base_from_flange;
-    let away = reached.translation.vector - base_from_flange.translation.vector;
-    let requested = base_from_flange.rotation.to_rotation_matrix();
-    let turned = turn_between(reached.rotation.matrix(), requested.matrix());
-    if away.norm() < VERIFIED && turned.norm() < VERIFIED {
-        Ok(())
-    } else {
-        Err(Unreachable::Unverified { by: away.norm() })
-    }
 }
 
 /// The posture of a robot at these joint positions, whatever its chain.

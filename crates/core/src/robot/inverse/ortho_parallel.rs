@@ -131,7 +131,7 @@ impl OrthoParallel {
     /// singularity that they are near.
     ///
     /// At the wrist singularity joint 4 stays at `kept` (chain position, rad), or joints 4 and 6 share the turn evenly.
-    /// Not checked: forward kinematics (see [`super::verify`]).
+    /// Not checked: forward kinematics (see [`verify`](fn@super::verify)).
     ///
     /// # Errors
     /// The wrist centre is out of reach of this branch.

@@ -123,7 +123,7 @@ impl SphericalWrist {
     /// two of the wrist each. Joints that a singularity leaves free keep their positions in `kept` (chain positions,
     /// rad); without, the first is at zero and the outer two of the wrist share the turn evenly.
     ///
-    /// Not checked: forward kinematics (see [`super::verify`]). Of an arm that is not exact they are starting values.
+    /// Not checked: forward kinematics (see [`verify`](fn@super::verify)). Of an arm that is not exact they are starting values.
     pub fn chain_positions(&self, base_from_flange: &Isometry, kept: Option<&[f64; 6]>) -> Vec<[f64; 6]> {
         let moved = base_from_flange * self.flange_from_base_at_zero;
         let x = if self.reversed { moved.inverse() } else { moved };

@@ -127,7 +127,7 @@ impl ThreeParallel {
     ///
     /// Where axis 6 is parallel to axes 2, 3 and 4, joint 6 stays at `kept` (chain position, rad), or at zero; if the
     /// arm cannot reach the pose then, where its hand points away from the shoulder, or towards it.
-    /// Not checked: forward kinematics (see [`super::verify`]).
+    /// Not checked: forward kinematics (see [`verify`](fn@super::verify)).
     ///
     /// # Errors
     /// Axis 4 or the wrist centre is out of reach of this branch.

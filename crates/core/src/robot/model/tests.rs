@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::*;
 use crate::arms;
 use crate::robot::joint::{Coupling, Limits, Sign};
-use crate::robot::{Attachment, Axis, Mass, Spring};
+use crate::robot::{Amount, Attachment, Axis, Mass, Spring};
 
 /// A revolute joint, a slide and another revolute joint.
 fn motions() -> Vec<Motion> {

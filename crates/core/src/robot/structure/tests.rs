@@ -108,14 +108,14 @@ fn backlash_is_within_its_range() {
 fn refused(change: impl FnOnce(&mut Structure)) -> String {
     let mut changed = sound();
     change(&mut changed);
-    changed.check(&arms::ALL[0]).unwrap_err().to_string()
+    changed.check(arms::ALL[0].chain()).unwrap_err().to_string()
 }
 
 #[test]
 fn a_valid_structure_is_accepted_and_so_is_an_empty_one() {
-    assert_eq!(sound().check(&arms::ALL[0]), Ok(()));
+    assert_eq!(sound().check(arms::ALL[0].chain()), Ok(()));
     assert_eq!(Structure::default(), Structure::EMPTY);
-    assert_eq!(Structure::EMPTY.check(&arms::ALL[0]), Ok(()));
+    assert_eq!(Structure::EMPTY.check(arms::ALL[0].chain()), Ok(()));
 }
 
 #[test]
@@ -152,7 +152,7 @@ fn parts_are_attached_to_existing_joints() {
     );
     let mut last = sound();
     (last.springs[0].attachment, last.masses[0].attachment) = (at(5), at(5));
-    assert_eq!(last.check(&arms::ALL[0]), Ok(()));
+    assert_eq!(last.check(arms::ALL[0].chain()), Ok(()));
 }
 
 #[test]
@@ -161,7 +161,7 @@ fn a_rail_has_springs_and_masses_but_no_torque_curve_and_no_compensator() {
     let on = |change: fn(&mut Structure)| {
         let mut structure = Structure::EMPTY;
         change(&mut structure);
-        structure.check(&railed)
+        structure.check(railed.chain())
     };
     assert_eq!(
         on(|s| {
@@ -204,7 +204,7 @@ fn spring_compliances_range_from_zero_to_the_softest_in_a_finite_direction() {
     );
     let mut ends = sound();
     (ends.springs[0].compliance.value, ends.springs[1].compliance.value) = (0.0, SOFTEST);
-    assert_eq!(ends.check(&arms::ALL[0]), Ok(()));
+    assert_eq!(ends.check(arms::ALL[0].chain()), Ok(()));
 }
 
 #[test]
@@ -243,7 +243,7 @@ fn a_compensator_has_lengths_and_a_spring_that_never_shrinks_to_zero() {
         arm_radius: 0.69 - 0.001_001,
         ..compensator()
     });
-    assert_eq!(near.check(&arms::ALL[0]), Ok(()));
+    assert_eq!(near.check(arms::ALL[0].chain()), Ok(()));
 }
 
 #[test]
@@ -271,5 +271,5 @@ fn a_covariance_is_symmetric_not_negative_and_of_compliances_that_exist() {
     let mut covariance = DMatrix::identity(3, 3) * 1e-14;
     covariance[(0, 1)] = 5e-21;
     printed.covariance = Some(covariance);
-    assert_eq!(printed.check(&arms::ALL[0]), Ok(()));
+    assert_eq!(printed.check(arms::ALL[0].chain()), Ok(()));
 }

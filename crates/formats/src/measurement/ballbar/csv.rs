@@ -29,7 +29,7 @@ use armill_core::units::from_deg;
 
 use super::columns::{Column, Columns, HEADER_HINT};
 use super::remarks::Remarks;
-use super::{BallbarReadOptions, BallbarRuns, direction_of};
+use super::runs::{BallbarReadOptions, BallbarRuns, direction_of};
 use crate::document::lines::is_remark;
 use crate::document::lines::{Line, Lines};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};

@@ -11,7 +11,7 @@
 //!
 //! Other comment lines are ignored.
 
-use super::{BallbarReadOptions, direction_of};
+use super::runs::{BallbarReadOptions, direction_of};
 use armill_core::measure::ballbar::Direction;
 use armill_core::units::{from_deg, from_mm};
 

@@ -1,6 +1,8 @@
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
+use armill_core::measure::ballbar::Direction;
+
 use super::*;
 
 /// Rows of a turn, every 5 degrees, with deviations of `12.5 + k` um.

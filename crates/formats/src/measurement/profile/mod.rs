@@ -1,5 +1,6 @@
 //! Points of a round profile, as coordinate measuring machines and roundness instruments write them.
 //!
+//! - `length_unit`: units of lengths; `measured`: what is read from a file, and what must be given in addition to it.
 //! - [`columns`](mod@columns): quantity and unit of a column, and the point of a row.
 //! - `table`: tables whose column names state their units.
 //! - `plain`: points in rows without a header, such as those of NIST.
@@ -9,91 +10,19 @@
 //! comment begins a file without a header. All lengths are returned in m.
 
 pub mod columns;
+mod length_unit;
+mod measured;
 mod plain;
 mod qif;
 mod table;
 
 use std::io::BufRead;
 
-use armill_core::nalgebra::{Point2, Point3};
-
 use self::columns::COLUMNS_HINT;
-pub use self::columns::LengthUnit;
+pub use self::length_unit::LengthUnit;
+pub use self::measured::{Format, MeasuredProfile, Points, ProfileReadOptions};
 use crate::document::lines::Lines;
 use crate::document::{Problem, Problems, unreadable};
-
-/// Format of a file of points.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
-    /// A table with named columns.
-    Table,
-    /// Rows of numbers without a header.
-    Plain,
-}
-
-impl Format {
-    /// Its name, for messages.
-    pub fn name(self) -> &'static str {
-        match self {
-            Format::Table => "table",
-            Format::Plain => "rows without header",
-        }
-    }
-}
-
-/// Values that the file does not give.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct ProfileReadOptions {
-    /// The radius to which deviations refer, mm.
-    pub radius_mm: Option<f64>,
-    /// The radius to use if the file has deviations and no other radius is known, mm.
-    pub else_radius_mm: Option<f64>,
-    /// The unit of rows without a header.
-    pub unit: Option<LengthUnit>,
-}
-
-/// Points, m.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Points {
-    /// In the plane of the profile.
-    Plane(Vec<Point2<f64>>),
-    /// In space, near a plane.
-    Space(Vec<Point3<f64>>),
-}
-
-/// Content of a file of points.
-#[derive(Clone, Debug, PartialEq)]
-pub struct MeasuredProfile {
-    /// Its format.
-    pub format: Format,
-    /// The points, in order.
-    pub points: Points,
-    /// Line of each point, from 1.
-    pub lines: Vec<usize>,
-    /// Ignored columns.
-    pub unused: Vec<String>,
-}
-
-/// Maximum number of points: an hour of an instrument that takes 10 000 per second.
-const MOST_POINTS: usize = 20_000_000;
-
-impl Points {
-    /// Number of points.
-    pub fn count(&self) -> usize {
-        match self {
-            Points::Plane(points) => points.len(),
-            Points::Space(points) => points.len(),
-        }
-    }
-
-    /// Adds a point with as many coordinates as the others.
-    fn push(&mut self, [x, y, z]: [f64; 3]) {
-        match self {
-            Points::Plane(points) => points.push(Point2::new(x, y)),
-            Points::Space(points) => points.push(Point3::new(x, y, z)),
-        }
-    }
-}
 
 /// Reads the profile in `reader`. `path` is the file name shown in problems.
 ///

@@ -12,8 +12,8 @@
 use std::io::BufRead;
 
 use super::columns::Layout;
-use super::table::too_many;
-use super::{Format, MOST_POINTS, MeasuredProfile, Points, ProfileReadOptions};
+use super::length_unit::LengthUnit;
+use super::measured::{Format, MOST_POINTS, MeasuredProfile, Points, ProfileReadOptions, too_many};
 use crate::document::lines::{Line, Lines};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
 use crate::table::sheet::number;
@@ -30,7 +30,7 @@ pub(super) fn read(
 ) -> Result<MeasuredProfile, Problems> {
     let path = &lines.name().to_owned();
     let mut problems = Vec::new();
-    let factor = requested.unit.map_or(1.0, super::LengthUnit::factor);
+    let factor = requested.unit.map_or(1.0, LengthUnit::factor);
     if requested.unit.is_none() {
         let message = "the unit of these numbers is not given";
         problems.push(line.problem(path, 0..line.text.len(), message, UNIT_HINT));
@@ -165,7 +165,6 @@ const ROWS_HINT: &str =
 mod tests {
     use armill_core::nalgebra::{Point2, Point3};
 
-    use super::super::LengthUnit;
     use super::*;
 
     fn read_in(unit: Option<LengthUnit>, text: &str) -> Result<MeasuredProfile, String> {

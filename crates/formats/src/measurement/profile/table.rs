@@ -12,7 +12,7 @@
 use std::io::BufRead;
 
 use super::columns::{COLUMNS_HINT, Column, Layout, Quantity, named};
-use super::{Format, MOST_POINTS, MeasuredProfile, Points, ProfileReadOptions};
+use super::measured::{Format, MOST_POINTS, MeasuredProfile, Points, ProfileReadOptions, too_many};
 use crate::document::lines::{Line, Lines};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
 use crate::table::sheet::{is_blank_row, named_columns, number, row_cells, separator_of};
@@ -65,17 +65,6 @@ pub(super) fn read(
         return Err(Problem::of_file(path, "the file has no points", COLUMNS_HINT).into());
     }
     Ok(measured)
-}
-
-/// A problem of the first line beyond the maximum.
-pub(super) fn too_many(path: &str, line: &Line) -> Problem {
-    let message = format!("more than {MOST_POINTS} points");
-    line.problem(
-        path,
-        0..line.text.len(),
-        message,
-        "keep every tenth point, for example",
-    )
 }
 
 /// Meaning of the columns of a file.

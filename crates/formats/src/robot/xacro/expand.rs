@@ -11,7 +11,7 @@ use xacro_rs::extensions::ExtensionHandler;
 use xacro_rs::{XacroError, XacroProcessor};
 
 use super::flatten::{Flat, escaped};
-use super::{growth, load_yaml, packages};
+use super::{growth, load_yaml, packages, values};
 use crate::document::{Problem, Problems, Source};
 use crate::xml;
 
@@ -46,7 +46,7 @@ pub(super) fn expand(main: &Source, path: &Path, flat: &Flat) -> Result<String, 
     let document = xml::parse(&source)?;
     let root = document.root_element();
     let at_call = |message: String| Problems::from(placed(main, included, &message));
-    let data = load_yaml::data(&flat.calls, &growth::values(root)).map_err(at_call)?;
+    let data = load_yaml::data(&flat.calls, &values::values(root)).map_err(at_call)?;
     if let Some(message) = growth::refusal(root, &data) {
         return Err(placed(main, included, &message).into());
     }

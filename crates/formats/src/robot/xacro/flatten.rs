@@ -15,8 +15,9 @@ use std::path::{Path, PathBuf};
 
 use roxmltree::Node;
 
+use super::elements::{DIRECTIVES, is_plain, is_xacro};
 use super::load_yaml::{self, Call};
-use super::{DIRECTIVES, packages};
+use super::packages;
 use crate::document::{Problem, Problems, Source};
 use crate::input;
 use crate::xml;
@@ -339,18 +340,6 @@ impl Writer<'_> {
         let prefix = if takes_prefix { " prefix=\"\"" } else { "" };
         Ok(format!("<xacro:{}{prefix}/>", found.name))
     }
-}
-
-/// Whether this is an element of xacro, whatever prefix the file gives it.
-pub(super) fn is_xacro(node: Node<'_, '_>) -> bool {
-    node.tag_name()
-        .namespace()
-        .is_some_and(|uri| uri.contains("xacro"))
-}
-
-/// Whether this is an element of URDF itself, of this name.
-fn is_plain(node: Node<'_, '_>, name: &str) -> bool {
-    node.is_element() && node.tag_name().name() == name && !is_xacro(node)
 }
 
 /// Text for an attribute or between tags.

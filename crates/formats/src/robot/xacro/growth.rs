@@ -23,14 +23,12 @@ use std::collections::BTreeMap;
 
 use roxmltree::Node;
 
-use super::DIRECTIVES;
-use super::flatten::is_xacro;
+use super::elements::{DIRECTIVES, is_xacro};
 use super::load_yaml::Data;
+use super::values::{LONGEST_VALUE, parameters, values};
 
 /// More text than this is not a robot: what a macro of ROS-Industrial expands to has 10 kB without meshes.
 const MOST_BYTES: u64 = 1 << 20;
-/// A longer value is neither a name nor a list of numbers.
-pub(super) const LONGEST_VALUE: u64 = 64 << 10;
 /// A longer expression was not written by hand; the evaluator recurses for each character.
 const LONGEST_EXPRESSION: usize = 2000;
 /// Digits of a number, sign and exponent included.
@@ -127,41 +125,6 @@ fn words(text: &str) -> impl Iterator<Item = &str> {
         .filter(|word| !word.is_empty())
 }
 
-/// All texts that the files give each property, argument and parameter, by its name.
-pub(super) type Values<'a> = BTreeMap<&'a str, Vec<&'a str>>;
-
-/// The texts that each name is given anywhere; an empty one for a parameter without default.
-pub(super) fn values<'a>(root: Node<'a, '_>) -> Values<'a> {
-    let mut values: Values<'_> = BTreeMap::new();
-    for node in root.descendants().filter(|node| is_xacro(*node)) {
-        match node.tag_name().name() {
-            "property" | "arg" => {
-                let given = ["value", "default"].into_iter();
-                let given = given.filter_map(|of| node.attribute(of));
-                values
-                    .entry(node.attribute("name").unwrap_or_default())
-                    .or_default()
-                    .extend(given);
-            }
-            "macro" => {
-                for (name, default) in parameters(node.attribute("params").unwrap_or_default()) {
-                    values.entry(name).or_default().push(default);
-                }
-            }
-            name if DIRECTIVES.contains(&name) => {}
-            _ => {
-                for attribute in node.attributes() {
-                    values
-                        .entry(attribute.name())
-                        .or_default()
-                        .push(attribute.value());
-                }
-            }
-        }
-    }
-    values
-}
-
 /// How long a value can be, by the name of its property, argument or parameter.
 struct Lengths<'a>(BTreeMap<&'a str, u64>);
 
@@ -211,32 +174,6 @@ impl<'a> Lengths<'a> {
         let named = words(text).filter_map(|word| self.0.get(word));
         named.fold(own + numbers, |sum, length| sum.saturating_add(*length))
     }
-}
-
-/// Each parameter of a macro with its default.
-///
-/// Separated by blanks outside of quotes and brackets: `a b:=1 *block c:='x y'`. The default is empty where there is
-/// none.
-fn parameters(text: &str) -> Vec<(&str, &str)> {
-    let mut quote = None;
-    let mut depth = 0_usize;
-    let ends = |c: char| {
-        match (quote, c) {
-            (Some(open), _) if open == c => quote = None,
-            (Some(_), _) => {}
-            (None, '\'' | '"') => quote = Some(c),
-            (None, '{' | '(') => depth += 1,
-            (None, '}' | ')') => depth = depth.saturating_sub(1),
-            _ => {}
-        }
-        c.is_whitespace() && quote.is_none() && depth == 0
-    };
-    let all = text.split(ends).filter(|one| !one.is_empty());
-    all.map(|one| match one.split_once('=') {
-        Some((name, default)) => (name.trim_end_matches(':'), default),
-        None => (one, ""),
-    })
-    .collect()
 }
 
 /// How many bytes macros and blocks can come to, by name, as far as levels have been followed.

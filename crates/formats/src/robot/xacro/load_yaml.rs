@@ -27,8 +27,8 @@ use std::path::{Path, PathBuf};
 
 use saphyr_parser::{Event, Parser, ScalarStyle, Tag};
 
-use super::growth::{LONGEST_VALUE, Values};
 use super::packages;
+use super::values::{LONGEST_VALUE, Values};
 use crate::input;
 
 /// A larger file is not a parameter file of a robot.

@@ -4,16 +4,18 @@
 //! includes are searched next to it and in the packages around it; missing files of colours, materials and
 //! simulation are remarks. `$(env ...)` is not evaluated.
 //!
-//! In reading order: `packages` (where included files may be), `flatten` (one text of all files; what links look like
-//! and weigh is dropped, so that nothing of it can fail), `load_yaml` (data of YAML files, checked before it is used),
-//! `growth` (refuses macros that could grow without bound), `expand` (macros and expressions, evaluated by the crate
-//! `xacro-rs`).
+//! In reading order: `packages` (where included files may be), `elements` (which elements are of xacro), `flatten` (one
+//! text of all files; what links look like and weigh is dropped, so that nothing of it can fail), `values` (what each
+//! name is given anywhere), `load_yaml` (data of YAML files, checked before it is used), `growth` (refuses macros that
+//! could grow without bound), `expand` (macros and expressions, evaluated by the crate `xacro-rs`).
 
+mod elements;
 mod expand;
 mod flatten;
 mod growth;
 mod load_yaml;
 mod packages;
+mod values;
 
 use std::path::Path;
 
@@ -21,19 +23,6 @@ pub use self::expand::EXPANDER;
 use super::description::RobotDescription;
 use super::urdf;
 use crate::document::{Problems, Source};
-
-/// Elements of xacro that call no macro; `call` calls the one that its attribute names.
-const DIRECTIVES: [&str; 9] = [
-    "property",
-    "arg",
-    "macro",
-    "if",
-    "unless",
-    "insert_block",
-    "include",
-    "element",
-    "attribute",
-];
 
 /// The robot of this xacro text, which was read from `path`, with its flange at the link `tip`, or at the end of the
 /// longest chain; `id` is the robot's name in results.

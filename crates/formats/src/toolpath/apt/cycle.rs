@@ -17,27 +17,13 @@
 use armill_core::nalgebra::{Point3, Unit, Vector3};
 use armill_core::path::{Course, Move, Pace};
 
-use super::Dialect;
-use super::modal::{Feed, Interpreter};
+use super::modal::Interpreter;
+use super::options::Dialect;
+use super::settings::{Cycle, Feed};
 use super::statement::Statement;
 
 /// No hole has more pecks.
 const MOST_PECKS: f64 = 1000.0;
-
-/// A cycle that is active until CYCLE/OFF; lengths in m.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Cycle {
-    /// Below the point, against the tool axis; not negative.
-    depth: f64,
-    /// Above the point: from here on it cuts.
-    rapid_to: f64,
-    /// Above the point: height of the moves between holes; not below `rapid_to`.
-    retract_to: f64,
-    /// `None`: that of FEDRAT.
-    feed: Option<Feed>,
-    /// First peck and those that follow.
-    pecks: Option<[f64; 2]>,
-}
 
 /// The parameters of a CYCLE, in its own units.
 #[derive(Default)]

@@ -8,56 +8,31 @@
 //! those of the first MSYS (NX), in the only ones there are otherwise. Cutter compensation is ignored: the points
 //! are used unchanged.
 //!
-//! In reading order: `statement` splits lines; `modal` stores modal settings; `words` evaluates each word,
-//! `systems` and `tool` do so for frames and cutters, `motion` and `cycle` for what moves.
+//! In reading order: `options` says what may be given in addition to a file; `statement` splits lines; `modal` stores
+//! modal settings (`settings`: those of several values); `words` evaluates each word, `systems` and `tool` do so for frames and cutters, `motion` and `cycle` for what moves.
 //!
 //! Source: ISO 4343, ISO 3592; how both programs write, read in their files.
 
 mod cycle;
 mod modal;
 mod motion;
+mod options;
+mod settings;
 mod statement;
 mod systems;
 mod tool;
 mod words;
 
-use std::fmt;
 use std::io::BufRead;
 
 use armill_core::path::Step;
 
 use self::modal::Interpreter;
+pub use self::options::{AptReadOptions, Dialect};
 use self::statement::Statements;
+use super::Summary;
 use super::format::Format;
-use super::{LengthUnit, Summary};
 use crate::document::{MOST_PROBLEMS, Problems};
-
-/// Whose cutter locations these are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Dialect {
-    /// SolidWorks CAM: a GOTO without axis means 0,0,1.
-    SolidWorks,
-    /// Siemens NX: a GOTO without axis means the axis before.
-    Nx,
-}
-
-impl fmt::Display for Dialect {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Dialect::SolidWorks => "SolidWorks CAM",
-            Dialect::Nx => "Siemens NX",
-        })
-    }
-}
-
-/// Options for a file that does not give these values.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct AptReadOptions {
-    /// The unit of a file without UNITS line; a file that has one keeps it.
-    pub unit: Option<LengthUnit>,
-    /// The dialect, whatever the file looks like.
-    pub dialect: Option<Dialect>,
-}
 
 /// Reads the cutter locations in `reader`, and gives `out` their steps one by one; `path` is what problems show.
 ///

@@ -16,11 +16,11 @@ use armill_core::frame::Isometry;
 use armill_core::nalgebra::{Point3, Unit, UnitQuaternion, Vector3};
 use armill_core::path::{Move, Operation, Step};
 
-use super::cycle::Cycle;
-use super::motion::Circle;
+use super::options::{AptReadOptions, Dialect};
+use super::settings::{Circle, Cycle, Feed};
 use super::statement::{Parameter, Statement};
-use super::{AptReadOptions, Dialect, LengthUnit};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
+use crate::toolpath::LengthUnit;
 use crate::toolpath::direction::LARGEST;
 use crate::toolpath::notes::Notes;
 
@@ -28,15 +28,6 @@ use crate::toolpath::notes::Notes;
 const MOST_WORDS: usize = 1000;
 /// Longer words are cut where they are counted, in characters.
 const LONGEST_WORD: usize = 120;
-
-/// Unit of the feed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Feed {
-    /// m/s
-    Speed(f64),
-    /// m for each turn of the spindle.
-    PerTurn(f64),
-}
 
 /// Follows a program word by word.
 pub(super) struct Interpreter<'a> {

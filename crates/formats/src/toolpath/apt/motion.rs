@@ -10,10 +10,10 @@ use armill_core::nalgebra::{Point3, Unit, Vector3};
 use armill_core::path::{Arc, Course, Move, Pace};
 use armill_core::units::{to_deg, to_mm};
 
-use super::Dialect;
-use super::modal::{Feed, Interpreter};
+use super::modal::Interpreter;
+use super::options::Dialect;
+use super::settings::{Circle, Feed};
 use super::statement::Statement;
-use crate::document::Problem;
 use crate::toolpath::direction::direction;
 
 /// Points no farther apart are the same, m: programs write six decimals of mm, old ones four.
@@ -28,21 +28,6 @@ const MOST_TURNS: f64 = 10_000.0;
 
 /// A tool axis, where one is written.
 type WrittenAxis = Option<Unit<Vector3<f64>>>;
-
-/// What a CIRCLE says, until the GOTO that ends it.
-#[derive(Clone, Debug)]
-pub(super) struct Circle {
-    /// In the frame of the path, m; any point of the axis will do.
-    centre: Point3<f64>,
-    /// The arc turns by the right hand about it; frame of the path.
-    axis: Unit<Vector3<f64>>,
-    /// m, where it is written.
-    radius: Option<f64>,
-    /// Turns of a helix, where they are written.
-    turns: Option<f64>,
-    /// Problem to report if no GOTO follows.
-    pub without_end: Problem,
-}
 
 impl Interpreter<'_> {
     /// GOTO, FROM and GOHOME; the latter two in rapid.

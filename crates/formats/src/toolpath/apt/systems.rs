@@ -12,8 +12,8 @@
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::{Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 
-use super::Dialect;
 use super::modal::Interpreter;
+use super::options::Dialect;
 use super::statement::Statement;
 
 /// Axes of a system are perpendicular and of length 1 within this: four decimals.

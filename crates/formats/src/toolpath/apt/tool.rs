@@ -9,8 +9,8 @@
 //!
 //! Each begins an operation. Lengths stay in the unit of the file until a move needs them.
 
-use super::Dialect;
 use super::modal::Interpreter;
+use super::options::Dialect;
 use super::statement::Statement;
 
 impl Interpreter<'_> {

@@ -16,9 +16,11 @@
 
 use std::f64::consts::TAU;
 
-use super::modal::{Feed, Interpreter};
+use super::modal::Interpreter;
+use super::options::Dialect;
+use super::settings::Feed;
 use super::statement::Statement;
-use super::{Dialect, LengthUnit};
+use crate::toolpath::LengthUnit;
 
 /// Words that say nothing about where the tip goes and how fast.
 pub(super) const IGNORED: &[&str] = &[

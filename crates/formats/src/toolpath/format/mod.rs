@@ -6,11 +6,13 @@
 //! | cutter locations | `GOTO/`, `TOOL PATH/`, `UNITS/`, `PARTNO`, ... | `.apt`, `.aptsource`, `.cl`, `.cls`, `.clsf`, `.cldata` |
 //! | table | a first line of names with `x`, `y` and `z` | `.csv`, `.tsv` |
 //! | G-code | lines of letters with numbers: `N10 G1 X5` | `.nc`, `.ngc`, `.gcode`, `.tap`, `.cnc`, `.mpf`, `.eia`, `.iso`, `.min` |
-//! | program of a robot | lines that only its language has | those of its [`Language`] |
+//! | program of a robot | lines that only its language has | those of its [`Language`](crate::language::Language) |
 //!
 //! The path of a robot program depends on its robot: it is only recognised here, and read by the
-//! crate `armill-programs`. `known_by`: what lines of a program show.
+//! crate `armill-programs`. `kind`: the formats, and how that of a file is recognised; `known_by`: what lines of a
+//! program show.
 
+mod kind;
 mod known_by;
 
 use std::io::{BufRead, Cursor, Read};
@@ -18,25 +20,10 @@ use std::path::Path;
 
 use armill_core::path::Step;
 
-use self::known_by::{Robots, is_apt, is_gcode, is_header, robot_language};
+pub use self::kind::{Format, HEAD_BYTES};
 use super::gcode::{self, Lookup, Rotaries, ToolTable};
 use super::{LengthUnit, Summary, apt, csv};
-use crate::document::lines::is_remark;
 use crate::document::{Problem, Problems};
-use crate::language::Language;
-
-/// A kind of tool path file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
-    /// G-code.
-    Gcode,
-    /// Cutter locations: APT-CL, CLDATA, CLSF.
-    Apt,
-    /// A table of points.
-    Csv,
-    /// A program of a robot.
-    Robot(Language),
-}
 
 /// Options for a program that does not give these values.
 #[derive(Clone, Default)]
@@ -54,11 +41,6 @@ pub struct ToolpathReadOptions<'a> {
     /// G-code: most lines of loops and subroutines; see [`gcode::GcodeReadOptions`].
     pub most_repeated_lines: Option<usize>,
 }
-
-/// Number of bytes used to recognise the format.
-pub const HEAD_BYTES: u64 = 256 * 1024;
-/// Maximum number of lines that are searched for the format.
-const MOST_LINES: usize = 2000;
 
 /// Reads the program in `reader`, and gives `out` its steps one by one; `path` is what problems show.
 ///
@@ -103,85 +85,6 @@ pub fn read(
             "a robot program gives a path only with its robot: use `armill_programs::read`, then `follow`",
         )
         .into()),
-    }
-}
-
-impl Format {
-    /// Its name in results.
-    pub fn name(self) -> &'static str {
-        match self {
-            Format::Gcode => "gcode",
-            Format::Apt => "apt",
-            Format::Csv => "csv",
-            Format::Robot(language) => language.name(),
-        }
-    }
-
-    /// The format of the file `path` that begins with `text`: its first 256 KiB, or all of it.
-    ///
-    /// Looked for in this order: a line of any robot language, a word of cutter locations, a line of names, a line of
-    /// G-code; then the ending.
-    ///
-    /// # Errors
-    /// A robot program in an unsupported language, and a file whose format cannot be recognised from content or name.
-    pub fn of(path: &Path, text: &str) -> Result<Format, Problems> {
-        let refused = |message: String, hint: &str| {
-            let path = path.display().to_string();
-            Err(Problems::from(Problem::of_file(&path, message, hint)))
-        };
-        if text.contains('\0') {
-            return refused(
-                "this is not text".to_owned(),
-                "save it as UTF-8 text; cutter locations in binary are not read",
-            );
-        }
-        let text = text.trim_start_matches('\u{feff}');
-        let lines = || {
-            text.split(['\n', '\r'])
-                .map(str::trim)
-                .filter(|line| !line.is_empty())
-                .take(MOST_LINES)
-        };
-        let ending = path
-            .extension()
-            .and_then(|ending| ending.to_str())
-            .map(str::to_lowercase)
-            .unwrap_or_default();
-        let of_ending = Language::of_ending(&ending);
-        match lines().find_map(robot_language) {
-            // The moves of VAL3 are spelled as those of URScript; the endings of its files are its own.
-            Some(Robots::Read(_)) if of_ending == Some(Language::Val3) => {
-                return Ok(Format::Robot(Language::Val3));
-            }
-            Some(Robots::Read(language)) => return Ok(Format::Robot(language)),
-            Some(Robots::Other(language)) => {
-                let hint = "its language is not supported: give the path as the CAM system writes it, as cutter \
-                    locations (APT, \
-                    CLSF), G-code or CSV";
-                return refused(format!("this is a robot program ({language})"), hint);
-            }
-            None => {}
-        }
-        if lines().any(is_apt) {
-            return Ok(Format::Apt);
-        }
-        if lines().find(|line| !is_remark(line)).is_some_and(is_header) {
-            return Ok(Format::Csv);
-        }
-        if lines().any(is_gcode) {
-            return Ok(Format::Gcode);
-        }
-        match (ending.as_str(), of_ending) {
-            (_, Some(language)) => Ok(Format::Robot(language)),
-            ("apt" | "aptsource" | "cl" | "cls" | "clsf" | "cldata", _) => Ok(Format::Apt),
-            ("csv" | "tsv", _) => Ok(Format::Csv),
-            ("nc" | "ngc" | "gcode" | "tap" | "cnc" | "mpf" | "eia" | "iso" | "min", _) => Ok(Format::Gcode),
-            _ => refused(
-                "neither content nor file name identifies the format of this tool path".to_owned(),
-                "supported: G-code, cutter locations (APT, CLSF), CSV and robot programs (KRL, RAPID, INFORM, TP, \
-                 URScript, VAL3); use the file ending of the format, such as `.nc`, `.apt`, `.csv` or `.src`",
-            ),
-        }
     }
 }
 

@@ -1,4 +1,5 @@
 use super::*;
+use crate::language::Language;
 
 fn of(name: &str, text: &str) -> Result<Format, String> {
     Format::of(Path::new(name), text).map_err(|problems| problems.to_string())

@@ -1,8 +1,13 @@
 //! The contour that the cutter follows: its pieces, their direction and their curvature.
 
+use std::f64::consts::TAU;
+
 use armill_core::nalgebra::{Point2, Vector2};
 
 use super::canonical::{Canonical, Sense};
+
+/// Ends nearer than this angle, rad, are the same: rounding of computed ends, 1e-6 mm on a radius of 1 m.
+const SAME_END: f64 = 1e-9;
 
 /// A piece of the contour.
 #[derive(Clone, Copy, Debug)]
@@ -50,4 +55,31 @@ impl Stretch {
 /// A vector turned by 90 deg to the left.
 pub(super) fn left_of(t: Vector2<f64>) -> Vector2<f64> {
     Vector2::new(-t.y, t.x)
+}
+
+/// The angle from one radius to another in this sense, above zero, at most a turn.
+pub(super) fn sweep(from: Vector2<f64>, to: Vector2<f64>, sense: Sense) -> f64 {
+    let angle = from.perp(&to).atan2(from.dot(&to));
+    let angle = angle * f64::from(sense.sign());
+    match angle {
+        angle if angle.abs() < SAME_END => TAU,
+        angle if angle < 0.0 => angle + TAU,
+        angle => angle,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use super::*;
+
+    #[test]
+    fn a_sweep_has_the_programmed_direction() {
+        let (x, y) = (Vector2::x(), Vector2::y());
+        assert_eq!(sweep(x, y, Sense::Counterclockwise), PI / 2.0);
+        assert_eq!(sweep(x, y, Sense::Clockwise), 1.5 * PI);
+        assert_eq!(sweep(x, x, Sense::Counterclockwise), TAU);
+        assert_eq!(sweep(x, x, Sense::Clockwise), TAU);
+    }
 }

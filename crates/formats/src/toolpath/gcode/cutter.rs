@@ -19,8 +19,7 @@ use std::f64::consts::TAU;
 use armill_core::nalgebra::{Point2, Vector2};
 
 use super::canonical::{ArcFeed, Canonical, Plane, Sense};
-use super::contour::{Contour, ContourMove, Stretch, left_of};
-use super::motion::sweep;
+use super::contour::{Contour, ContourMove, Stretch, left_of, sweep};
 use super::refusal::Refusal;
 
 /// Directions closer than this, rad, go on straight: the gap or overlap is `r` times that, below a thousandth of `r`.

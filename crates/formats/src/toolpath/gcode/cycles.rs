@@ -24,7 +24,7 @@ use super::block::{Block, shown};
 use super::canonical::{Axes, Canonical, PathControl};
 use super::cutter::Out;
 use super::groups;
-use super::machine::{FeedMode, Machine};
+use super::machine::{Cycle, FeedMode, Machine};
 use super::read_options::Warning;
 use super::refusal::{Excess, Refusal};
 
@@ -34,28 +34,6 @@ const PECK_GAP: [f64; 2] = [0.254, 0.010];
 const MOST_REPEATS: f64 = 100_000.0;
 /// Steps of one hole.
 const MOST_PECKS: f64 = 100_000.0;
-
-/// Words that later blocks of a cycle need not repeat, as they were written.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Cycle {
-    /// R.
-    clear: f64,
-    /// X, Y or Z across the plane.
-    bottom: f64,
-    /// Q of G73 and G83.
-    step: Option<f64>,
-    /// P, s.
-    dwell: Option<f64>,
-}
-
-impl Cycle {
-    /// Counts lengths in another unit, of which `by` make one of the old.
-    pub fn scale(&mut self, by: f64) {
-        self.clear *= by;
-        self.bottom *= by;
-        self.step = self.step.map(|step| step * by);
-    }
-}
 
 /// How a stroke is made.
 type Straight = fn(Axes) -> Canonical;

@@ -19,13 +19,13 @@ use super::canonical::Canonical;
 use super::execute::Outcome;
 use super::expression::{Name, Values};
 use super::flow::{Body, Keyword, OWord, o_word};
+use super::labels::Labels;
 use super::lines::{Line, Lines};
 use super::machine::Machine;
 use super::messages;
 use super::parameters::{self, Parameters};
 use super::read_options::{GcodeReadOptions, Warning};
 use super::refusal::{Excess, Fault, Refusal};
-use super::subroutines::Labels;
 use crate::toolpath::notes::Notes;
 
 /// Maximum number of problems reported for one program.

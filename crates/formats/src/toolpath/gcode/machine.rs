@@ -1,4 +1,4 @@
-//! The modal state: modes, offsets, position; and the relation of program and machine coordinates.
+//! The modal state: modes, words of a cycle, offsets, position; and the relation of program and machine coordinates.
 //!
 //! `m = g5x + length + Rz(turn) (p + g92)`, where `Rz` turns X and Y alone.
 //!
@@ -15,7 +15,6 @@
 
 use super::canonical::{Axes, Canonical, PathControl, Plane};
 use super::cutter::{Cutter, Out};
-use super::cycles::Cycle;
 use super::expression::Values;
 use super::parameters::{self, Parameters};
 use super::read_options::{GcodeReadOptions, Warning};
@@ -35,6 +34,28 @@ pub(super) enum FeedMode {
     PerMinute,
     /// G95: units a turn of the spindle.
     PerRevolution,
+}
+
+/// Words that later blocks of a cycle need not repeat, as they were written.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Cycle {
+    /// R.
+    pub clear: f64,
+    /// X, Y or Z across the plane.
+    pub bottom: f64,
+    /// Q of G73 and G83.
+    pub step: Option<f64>,
+    /// P, s.
+    pub dwell: Option<f64>,
+}
+
+impl Cycle {
+    /// Counts lengths in another unit, of which `by` make one of the old.
+    pub fn scale(&mut self, by: f64) {
+        self.clear *= by;
+        self.bottom *= by;
+        self.step = self.step.map(|step| step * by);
+    }
 }
 
 /// The state of the interpreter.

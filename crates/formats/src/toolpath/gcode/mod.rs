@@ -6,9 +6,9 @@
 //! of the part, and a table carries that frame with it.
 //!
 //! In reading order: `lines` and `block` take a program apart (`expression`, `groups`, `messages`); `interpreter` goes
-//! through it (`flow`, `walk`, `subroutines`); `execute` does a block upon the `machine` (`parameters`, `offsets`,
-//! `motion`, `cycles`, `contour`, `cutter`) as [`canonical`] calls, or says its [`refusal`]; `steps` makes the path of
-//! them, by [`rotaries`]. [`tools`] and [`read_options`] are inputs in addition to the program.
+//! through it (`flow`, `walk`, `subroutines`, `labels`); `execute` does a block upon the `machine` (`parameters`,
+//! `offsets`, `motion`, `cycles`, `contour`, `cutter`) as [`canonical`] calls, or says its [`refusal`]; `steps` makes the
+//! path of them, by [`rotaries`]. [`tools`] and [`read_options`] are inputs in addition to the program.
 //!
 //! Source: LinuxCNC documentation, G codes and O codes; Kramer, Proctor, Messina, The NIST RS274NGC Interpreter,
 //! NISTIR 6556 (2000). Witness: the interpreter tests of LinuxCNC.
@@ -21,6 +21,7 @@ mod execute;
 mod expression;
 mod flow;
 mod groups;
+mod labels;
 mod lines;
 mod machine;
 mod messages;

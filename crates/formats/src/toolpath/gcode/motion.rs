@@ -17,7 +17,7 @@ use armill_core::nalgebra::{Point2, Vector2, Vector3, center};
 
 use super::block::{Block, shown, within};
 use super::canonical::{ArcFeed, Axes, Canonical, Sense};
-use super::contour::{Contour, ContourMove};
+use super::contour::{Contour, ContourMove, sweep};
 use super::cutter::Out;
 use super::groups;
 use super::machine::{FeedMode, Machine};
@@ -35,8 +35,6 @@ const RADII_RELATIVE: f64 = 1e-3;
 const MOST_TURNS: f64 = 10_000.0;
 /// Range of the length of a tool axis given as a vector: beyond it digits are lost.
 const VECTOR_LENGTHS: RangeInclusive<f64> = 1e-6..=1e6;
-/// Ends nearer than this angle, rad, are the same: rounding of computed ends, 1e-6 mm on a radius of 1 m.
-const SAME_END: f64 = 1e-9;
 
 impl Machine {
     /// Where the axis words of a block lead.
@@ -279,17 +277,6 @@ fn length(from: &Axes, to: &Axes) -> f64 {
     }
 }
 
-/// The angle from one radius to another in this sense, above zero, at most a turn.
-pub(super) fn sweep(from: Vector2<f64>, to: Vector2<f64>, sense: Sense) -> f64 {
-    let angle = from.perp(&to).atan2(from.dot(&to));
-    let angle = angle * f64::from(sense.sign());
-    match angle {
-        angle if angle.abs() < SAME_END => TAU,
-        angle if angle < 0.0 => angle + TAU,
-        angle => angle,
-    }
-}
-
 /// The centre of an arc by its radius; see the equation above.
 ///
 /// # Errors
@@ -321,15 +308,6 @@ mod tests {
     use std::f64::consts::PI;
 
     use super::*;
-
-    #[test]
-    fn a_sweep_has_the_programmed_direction() {
-        let (x, y) = (Vector2::x(), Vector2::y());
-        assert_eq!(sweep(x, y, Sense::Counterclockwise), PI / 2.0);
-        assert_eq!(sweep(x, y, Sense::Clockwise), 1.5 * PI);
-        assert_eq!(sweep(x, x, Sense::Counterclockwise), TAU);
-        assert_eq!(sweep(x, x, Sense::Clockwise), TAU);
-    }
 
     #[test]
     fn a_radius_above_zero_makes_the_shorter_arc() {

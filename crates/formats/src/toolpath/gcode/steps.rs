@@ -18,7 +18,7 @@ use armill_core::path::{Arc, Course, Move, Operation, Pace, Step};
 use armill_core::units::from_deg;
 
 use super::canonical::{ArcFeed, Axes, Canonical};
-use super::motion::sweep;
+use super::contour::sweep;
 use super::parameters;
 use super::read_options::{GcodeReadOptions, Warning};
 use super::refusal::Refusal;

@@ -4,7 +4,6 @@
 //! (`GcodeReadOptions`), then, for M98, among labels in the following lines. A file may contain `o<name> sub` as a
 //! program does, or be the body itself.
 
-use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use super::execute::NumberedCall;
@@ -12,22 +11,6 @@ use super::flow::{Body, Keyword};
 use super::interpreter::{Flow, Interpreter, MOST_KEPT_BYTES};
 use super::lines::{Line, Lines};
 use super::refusal::Refusal;
-
-/// Positions of labels of M98 in lines that were read ahead: no line is searched twice.
-#[derive(Debug, Default)]
-pub(super) struct Labels {
-    /// Lines of each, in order.
-    lines: BTreeMap<String, Vec<u32>>,
-    /// The last line that was looked at.
-    seen: u32,
-}
-
-impl Labels {
-    /// How many of the lines from `next` on were looked at.
-    fn unseen(&self, next: u32) -> usize {
-        (self.seen + 1).saturating_sub(next) as usize
-    }
-}
 
 impl Interpreter<'_> {
     /// A subroutine of the program or of another file.
@@ -67,19 +50,11 @@ impl Interpreter<'_> {
         let coming = lines.look_ahead(MOST_KEPT_BYTES).ok()?;
         let next = coming.front()?.number;
         for line in coming.range(self.labels.unseen(next)..) {
-            if let Ok(Some(word)) = self.o_word_of(line)
-                && word.keyword == Keyword::Label
-            {
-                self.labels.lines.entry(word.label).or_default().push(line.number);
-            }
-            self.labels.seen = line.number;
+            let word = self.o_word_of(line).ok().flatten();
+            let label = word.filter(|word| word.keyword == Keyword::Label);
+            self.labels.see(line.number, label.map(|word| word.label));
         }
-        let label = *self
-            .labels
-            .lines
-            .get(name)?
-            .iter()
-            .find(|label| **label >= next)?;
+        let label = self.labels.first(name, next)?;
         let mut body = Body::default();
         for line in coming.range((label - next) as usize + 1..) {
             self.keep(line, call)?;

@@ -20,7 +20,7 @@ use armill_core::workpiece::Plane;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::analysis::holes::resolve::HolesAnalysis;
+use crate::analysis::holes::HolesAnalysis;
 use crate::analysis::map::answer::CountsAnswer;
 use crate::analysis::path::PathSource;
 use crate::analysis::point::{PointAnswer, ReachedPoint, SettingAnswer};

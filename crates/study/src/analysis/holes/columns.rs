@@ -6,9 +6,9 @@ use armill_core::robot::Robot;
 use armill_core::robot::jacobian::wrist_bend;
 use armill_core::units::{to_deg, to_um};
 
-use crate::analysis::columns::Numbers;
+use crate::analysis::holes::HolesAnalysis;
 use crate::analysis::holes::answer::error;
-use crate::analysis::holes::resolve::HolesAnalysis;
+use crate::analysis::numbers::Numbers;
 use crate::analysis::quantity::{self, Quantity};
 
 /// Number, line, turn and bend, and the deviation in the axes of each hole.

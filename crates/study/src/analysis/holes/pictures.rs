@@ -12,8 +12,8 @@ use armill_core::robot::{BranchPattern, Robot};
 use armill_core::units::{to_mm, to_um};
 use armill_report::{AxisLabels, ColourScale, HoleMap, HoleMark};
 
+use crate::analysis::holes::HolesAnalysis;
 use crate::analysis::holes::answer::HolesAnswer;
-use crate::analysis::holes::resolve::HolesAnalysis;
 use crate::analysis::picture::{Picture, share_bar, shares, subtitle};
 use crate::input::setting::Setting;
 

@@ -24,8 +24,10 @@ use armill_formats::input;
 use armill_formats::toolpath::format::{self, Format, ToolpathReadOptions};
 
 use crate::StudyError;
+use crate::analysis::holes::HolesAnalysis;
 use crate::analysis::holes::table::HolesTable;
-use crate::analysis::path::program::{FILE_HINT, ProgramTable, SpinName};
+use crate::analysis::path::program_file::FILE_HINT;
+use crate::analysis::path::program_table::{ProgramTable, SpinName};
 use crate::analysis::path::robot_program::RobotInCell;
 use crate::analysis::path::{LoadSource, PathAnalysis, PathSource, program, put_on};
 use crate::analysis::resolve::Resolver;
@@ -33,26 +35,6 @@ use crate::input::posture_search::{ComponentName, SearchTable};
 use crate::input::problem_log::ProblemLog;
 use crate::input::quantities::pose_mm_deg;
 use crate::input::setting::Setting;
-
-/// Holes with their load.
-#[derive(Clone, Debug)]
-pub struct HolesAnalysis {
-    /// Their positions as separate points, and the load there.
-    pub path: PathAnalysis,
-    /// Spins and branches that are tried at each.
-    pub search: PostureSearch,
-}
-
-impl HolesAnalysis {
-    /// Permitted branches, in words: `best` if all are.
-    pub fn branch(&self) -> String {
-        let open = self.search.branches;
-        match open == armill_core::robot::BranchPattern::default() {
-            true => "best".to_owned(),
-            false => open.to_string(),
-        }
-    }
-}
 
 /// Holes that a study may list.
 const MOST_HOLES: usize = 100_000;

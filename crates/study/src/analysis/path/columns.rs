@@ -4,7 +4,7 @@
 use armill_core::path::{Pace, Parts, Track};
 use armill_core::units::{to_deg, to_mm, to_um};
 
-use crate::analysis::columns::Numbers;
+use crate::analysis::numbers::Numbers;
 use crate::analysis::path::run::PathResult;
 use crate::analysis::quantity::{self, Quantity};
 

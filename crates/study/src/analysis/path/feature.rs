@@ -4,7 +4,6 @@ use armill_core::path::{FeatureKind, PathPoint};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::analysis::path::program::ProgramTable;
 use crate::input::problem_log::ProblemLog;
 
 /// A range of lines of the program that makes a feature.
@@ -58,9 +57,13 @@ impl FeatureName {
 /// Whether every feature has points of the program; reports those that have none.
 ///
 /// Lines are those of the program, counted from 1, both ends included.
-pub fn features_have_points(log: &mut ProblemLog<'_>, table: &ProgramTable, points: &[PathPoint]) -> bool {
+pub fn features_have_points(
+    log: &mut ProblemLog<'_>,
+    features: &[FeatureTable],
+    points: &[PathPoint],
+) -> bool {
     let mut all = true;
-    for (index, feature) in table.feature.iter().enumerate() {
+    for (index, feature) in features.iter().enumerate() {
         let [first, last] = feature.lines;
         if points.iter().any(|point| (first..=last).contains(&point.line)) {
             continue;

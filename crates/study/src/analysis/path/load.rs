@@ -24,7 +24,7 @@ use crate::analysis::path::cut::CutTable;
 use crate::analysis::path::drill::DrillTable;
 use crate::analysis::path::measured::{MeasuredTable, SynchroniseName};
 use crate::analysis::path::{PathAnalysis, PathSource, cut, drill, measured};
-use crate::analysis::resolve::Common;
+use crate::analysis::study_tables::StudyTables;
 use crate::analysis::table::{AnalysisKind, AnalysisTable};
 use crate::input::problem_log::ProblemLog;
 use crate::input::tables::LoadTable;
@@ -44,7 +44,7 @@ pub enum LoadSource<'a> {
 
 impl<'a> LoadSource<'a> {
     /// The load in this analysis: what it brings itself, else the cut of the study (along a path), else its load.
-    pub fn of(common: &'a Common<'a>, analysis: &'a AnalysisTable) -> Option<LoadSource<'a>> {
+    pub fn of(common: &'a StudyTables<'a>, analysis: &'a AnalysisTable) -> Option<LoadSource<'a>> {
         if analysis.kind == AnalysisKind::Holes {
             let own = drill(analysis).or(analysis.load.as_ref().map(LoadSource::Load));
             return own.or(common.load.map(LoadSource::Load));

@@ -3,20 +3,19 @@
 use std::io::BufReader;
 use std::path::Path;
 
-use armill_core::path::PathBuilder;
+use armill_core::path::{PathBuilder, SampledPath};
 use armill_formats::input;
-use armill_formats::toolpath::LengthUnit;
 use armill_formats::toolpath::apt::Dialect;
 use armill_formats::toolpath::format::{self, ToolpathReadOptions};
 use armill_formats::toolpath::gcode::ToolTable;
+use armill_formats::toolpath::{LengthUnit, Summary};
 
 use crate::StudyError;
-use crate::analysis::path::program::{
-    DialectName, FILE_HINT, MOST_POINTS, ProgramFile, ProgramTable, ReadProgram, RotariesName, UnitName,
-};
+use crate::analysis::path::program_file::{FILE_HINT, MOST_POINTS, ProgramFile};
+use crate::analysis::path::program_table::{DialectName, ProgramTable, RotariesName, UnitName};
 use crate::input::problem_log::ProblemLog;
 
-/// The points of the program; `None` if it has problems, reported at their keys.
+/// The points of the program, and its data; `None` if it has problems, reported at their keys.
 ///
 /// # Errors
 /// The problems of its file.
@@ -24,7 +23,7 @@ pub fn read(
     log: &mut ProblemLog<'_>,
     table: &ProgramTable,
     file: &ProgramFile<'_>,
-) -> Result<Option<ReadProgram>, StudyError> {
+) -> Result<Option<(SampledPath, Summary)>, StudyError> {
     let of_robots = [
         (
             "frame_mm_deg",
@@ -94,11 +93,7 @@ pub fn read(
         builder.take(step);
     })?;
     match builder.finish() {
-        Ok(path) => Ok(Some(ReadProgram {
-            path,
-            summary,
-            robot: None,
-        })),
+        Ok(path) => Ok(Some((path, summary))),
         Err(error) => {
             file.too_many(log, error);
             Ok(None)

@@ -5,8 +5,8 @@
 //! program.file                              part_from_path_mm_deg, tool_axis, spin
 //! ```
 //!
-//! `shape` and [`program`] (`machine_program`, [`robot_program`]) give its points, [`feature`] marks stretches of them;
-//! `load` puts on the load: given cases, a [`cut`], a [`drill`], or [`measured`] forces; `shape_tables`: the tables of
+//! `shape` and [`program`] (its keys [`program_table`], its file `program_file`, then `machine_program` or
+//! [`robot_program`]) give its points, [`feature`] marks stretches of them; `load` puts on the load: given cases, a [`cut`], a [`drill`], or [`measured`] forces; `shape_tables`: the tables of
 //! shapes. [`resolve`](mod@resolve) joins these, [`run`] evaluates the path. [`answer`], [`sentence`], [`warnings`] are
 //! its answer; [`columns`], [`pictures`] (with [`point_groups`], `turns`, [`process_limits`]) and [`report`] its files.
 
@@ -22,6 +22,8 @@ pub mod pictures;
 pub mod point_groups;
 pub mod process_limits;
 pub mod program;
+pub(crate) mod program_file;
+pub mod program_table;
 pub mod report;
 pub mod resolve;
 pub mod robot_program;

@@ -21,7 +21,8 @@ use armill_programs::{
 };
 
 use crate::StudyError;
-use crate::analysis::path::program::{FILE_HINT, MOST_POINTS, ProgramFile, ProgramTable, ReadProgram};
+use crate::analysis::path::program_file::{FILE_HINT, MOST_POINTS, ProgramFile};
+use crate::analysis::path::program_table::ProgramTable;
 use crate::input::problem_log::ProblemLog;
 use crate::input::quantities::pose_mm_deg;
 use crate::input::setting::Setting;
@@ -93,7 +94,7 @@ pub fn read(
     language: Language,
     file: &ProgramFile<'_>,
     robot: Option<RobotInCell<'_>>,
-) -> Result<Option<ReadProgram>, StudyError> {
+) -> Result<Option<(SampledPath, RobotPath)>, StudyError> {
     let others = [
         ("unit", table.unit.is_some()),
         ("dialect", table.dialect.is_some()),
@@ -134,16 +135,13 @@ pub fn read(
             return Ok(None);
         }
     };
-    Ok(Some(ReadProgram {
-        path,
-        summary: followed.summary(&program),
-        robot: Some(Box::new(RobotPath {
-            program,
-            followed,
-            spans,
-            cell,
-        })),
-    }))
+    let robot_path = RobotPath {
+        program,
+        followed,
+        spans,
+        cell,
+    };
+    Ok(Some((path, robot_path)))
 }
 
 /// The texts of the program at `path`, the main one first; `None` if a file cannot be read, reported at its key.

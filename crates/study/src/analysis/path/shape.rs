@@ -7,7 +7,7 @@ use armill_core::nalgebra::{Point2, Vector2};
 use armill_core::path::{SampledPath, Shape};
 use armill_core::units::from_mm;
 
-use crate::analysis::path::program::MOST_POINTS;
+use crate::analysis::path::program_file::MOST_POINTS;
 use crate::analysis::table::AnalysisTable;
 use crate::input::problem_log::ProblemLog;
 use crate::input::quantities::{self, positive};

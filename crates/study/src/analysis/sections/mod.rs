@@ -7,7 +7,7 @@ pub mod resolve;
 
 use armill_core::map::PlaneMap;
 
-use crate::analysis::Sheet;
+use crate::analysis::sheet::Sheet;
 
 /// One plane of a series.
 #[derive(Clone, Debug)]

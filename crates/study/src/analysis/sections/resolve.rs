@@ -2,9 +2,9 @@
 
 use armill_core::workpiece::Grid;
 
-use crate::analysis::Sheet;
 use crate::analysis::path::load::LoadSource;
 use crate::analysis::resolve::Resolver;
+use crate::analysis::sheet::Sheet;
 use crate::input::problem_log::ProblemLog;
 use crate::input::tables::PlaneTable;
 

@@ -14,7 +14,7 @@ use crate::analysis::cells::input;
 use crate::analysis::path::{Cut, PathAnalysis};
 use crate::answer::{StudyAnswer, sources_of_cut};
 use crate::file::resolve::Study;
-use crate::output::report::inputs::{THE_STUDY, place};
+use crate::output::report::sources::{THE_STUDY, place};
 
 /// The rows of every cut of the study; of equal ones the first. Where several differ each row names its program.
 pub(super) fn rows(study: &Study, answer: &StudyAnswer) -> Vec<Input> {

@@ -10,6 +10,7 @@ use crate::answer::{SettingAnswer, StudyAnswer};
 use crate::file::resolve::Study;
 use crate::joint_unit::JointUnit;
 use crate::output::report::cut;
+use crate::output::report::sources::{THE_STUDY, place};
 
 /// Robot and compliances, load or cut, tolerance, tool, stiffness model.
 pub(super) fn rows(study: &Study, answer: &StudyAnswer) -> Vec<Input> {
@@ -37,15 +38,6 @@ pub(super) fn rows(study: &Study, answer: &StudyAnswer) -> Vec<Input> {
 const LONG: usize = 40;
 /// The text that replaces it.
 const AS_ABOVE: &str = "as above";
-
-/// The description and the publication of a source, by its key; the key itself if it is not listed.
-pub(super) fn place(answer: &StudyAnswer, key: &str) -> String {
-    let found = answer.sources.iter().find(|source| source.key == key);
-    found.map_or_else(
-        || key.to_owned(),
-        |source| format!("{} ({})", source.what, source.place),
-    )
-}
 
 /// Robot and chain, then the compliance of each joint with its uncertainty.
 fn robot(study: &Study, answer: &StudyAnswer) -> Vec<Input> {
@@ -88,9 +80,6 @@ fn forces(setting: &SettingAnswer) -> Vec<Input> {
     };
     setting.cases_n.iter().enumerate().map(force).collect()
 }
-
-/// Source of the values given by the user.
-pub(super) const THE_STUDY: &str = "the study";
 
 /// Tolerance, tool, stiffness model and frame.
 fn others(answer: &StudyAnswer, setting: &SettingAnswer) -> Vec<Input> {

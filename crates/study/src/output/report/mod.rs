@@ -2,10 +2,12 @@
 //!
 //! It contains its pictures and needs no other file.
 //!
-//! The chapters of the kinds of analysis are theirs; those of the study: `statements`, `inputs` with `cut`.
+//! The chapters of the kinds of analysis are theirs; those of the study: `statements`, `inputs` with `cut`
+//! (`sources`: where their numbers come from).
 
 mod cut;
 mod inputs;
+mod sources;
 mod statements;
 
 use armill_report::html::Report;
@@ -14,7 +16,7 @@ use crate::analysis;
 use crate::analysis::picture::Picture;
 use crate::answer::StudyAnswer;
 use crate::file::resolve::Study;
-use crate::output::Opening;
+use crate::output::options::Opening;
 
 /// The whole page: chapters only for the analyses of the study, pictures in the order given.
 pub(super) fn html(

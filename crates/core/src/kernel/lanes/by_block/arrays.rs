@@ -47,6 +47,11 @@ impl<T> Poses<'_, T> {
     }
 }
 
+/// Whether all poses have one orientation.
+pub(super) fn is_still<T>(poses: &Poses<'_, T>) -> bool {
+    matches!(poses, Poses::Still { .. })
+}
+
 /// The one length of these arrays.
 pub(super) fn length<T>(arrays: &[&[T]]) -> usize {
     let count = arrays[0].len();

@@ -1,10 +1,10 @@
 //! A question prepared for many poses.
 
-use super::arrays::{Arrays, Envelopes, Poses, length};
-use super::steps::{FOUR, Second, fill, is_still, signs};
+use super::arrays::{Arrays, Envelopes, Poses, is_still, length};
+use super::posture_signs::{FOUR, signs};
 use crate::kernel::Question;
-use crate::kernel::lanes::geometry::{Aims, Prepared};
-use crate::kernel::lanes::numbers::{BLOCK, Backend, Plane, Planes, Precision, planes};
+use crate::kernel::lanes::geometry::{Aims, Prepared, Second};
+use crate::kernel::lanes::numbers::{BLOCK, Backend, Plane, Planes, Precision, fill, planes};
 use crate::kernel::lanes::solve::{Forward, POSE, Positions, Postures, SCREWS};
 use crate::robot::Branch;
 use crate::robot::inverse::OrthoParallel;

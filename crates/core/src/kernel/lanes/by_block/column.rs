@@ -3,8 +3,9 @@
 use nalgebra::Vector3;
 
 use super::batch::{Batch, Scratch};
-use super::steps::{FOUR, Second};
+use super::posture_signs::FOUR;
 use crate::frame::Isometry;
+use crate::kernel::lanes::geometry::Second;
 use crate::kernel::lanes::numbers::{Plane, Planes};
 use crate::spatial::Wrench;
 

@@ -1,13 +1,15 @@
 //! All stages for many poses, one block after the other.
 //!
-//! In reading order: `arrays` (input and output), `batch` (entry point: a prepared question), `steps` (its stages,
-//! each on the current block); `aimed` and `points` (whole answers), `column` (every posture under one load).
+//! In reading order: `arrays` (input and output), `posture_signs` (the four postures), `batch` (entry point: a prepared
+//! question), `steps` (its stages, each on the current block); `aimed` and `points` (whole answers), `column` (every
+//! posture under one load).
 
 mod aimed;
 mod arrays;
 mod batch;
 mod column;
 mod points;
+mod posture_signs;
 mod steps;
 
 pub use arrays::{Arrays, Envelopes, Poses};
@@ -17,6 +19,4 @@ pub use batch::Batch;
 pub(super) use aimed::SolvedBlock;
 pub(super) use batch::Scratch;
 pub(in crate::kernel) use points::{POINTS, Points};
-#[cfg(test)]
-pub(super) use steps::fill;
-pub(super) use steps::{FOUR, Second};
+pub(super) use posture_signs::FOUR;

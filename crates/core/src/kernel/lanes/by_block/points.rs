@@ -4,10 +4,10 @@ use nalgebra::Vector3;
 
 use super::aimed::SolvedBlock;
 use super::batch::Batch;
-use super::steps::{FOUR, Second};
+use super::posture_signs::FOUR;
 use crate::frame::Isometry;
 use crate::kernel::answer::{AT_LIMIT, Evaluation};
-use crate::kernel::lanes::geometry::UNLIMITED;
+use crate::kernel::lanes::geometry::{Second, UNLIMITED};
 use crate::kernel::lanes::load::{OneCase, Shares, Worst};
 use crate::kernel::lanes::numbers::{BLOCK, Backend, Plane, Planes, planes};
 use crate::kernel::lanes::solve::{FindStances, Preference, Stances, flag};

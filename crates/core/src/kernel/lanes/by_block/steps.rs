@@ -6,36 +6,11 @@ use nalgebra::Vector3;
 
 use super::arrays::Poses;
 use super::batch::{Batch, Scratch};
-use crate::kernel::lanes::geometry::{Aims, CosineLimits, Orientations, Places, aim_still};
+use super::posture_signs::FOUR;
+use crate::kernel::lanes::geometry::{Aims, CosineLimits, Orientations, Places, Second, aim_still};
 use crate::kernel::lanes::load::{Compliances, Largest, Rows};
-use crate::kernel::lanes::numbers::{BLOCK, Backend, Plane, Planes, Precision, planes};
+use crate::kernel::lanes::numbers::{BLOCK, Backend, Plane, Planes, Precision, fill, planes};
 use crate::kernel::lanes::solve::{LimitsByCosines, LimitsByPositions, Position, Postures, Reach, Solve};
-use crate::robot::{Branch, Elbow, Shoulder};
-
-/// Which axis 5 an aim contains.
-#[derive(Clone, Copy)]
-pub(in crate::kernel::lanes) enum Second {
-    /// With joint 6 at zero: positions want it.
-    AtZero,
-    /// With joint 6 in the middle of its range: required for limits as cosines.
-    InTheMiddle,
-}
-
-/// Signs of shoulder and elbow.
-pub(super) fn signs(branch: Branch) -> [f64; 2] {
-    [
-        if branch.shoulder == Shoulder::Front {
-            1.0
-        } else {
-            -1.0
-        },
-        if branch.elbow == Elbow::Up { 1.0 } else { -1.0 },
-    ]
-}
-
-/// Shoulder and elbow signs of the four postures that differ in more than the wrist's flip, in the order of
-/// [`Branch::ALL`].
-pub(in crate::kernel::lanes) const FOUR: [[f64; 2]; 4] = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];
 
 impl<T: Precision> Batch<T> {
     /// Fills the block's aims with the poses from `first` on and returns their number; the remaining lanes repeat the
@@ -343,18 +318,5 @@ fn limit_by_cosines<T: Precision, const STILL: bool>(
             aims,
             postures,
         }),
-    }
-}
-
-pub(super) fn is_still<T>(poses: &Poses<'_, T>) -> bool {
-    matches!(poses, Poses::Still { .. })
-}
-
-/// Copies the first values into a plane; the remaining lanes repeat the last one.
-pub(in crate::kernel::lanes) fn fill<T: Copy>(plane: &mut Plane<T>, from: &[T]) {
-    let used = from.len().min(BLOCK);
-    plane[..used].copy_from_slice(&from[..used]);
-    if let Some(last) = from.last() {
-        plane[used..].fill(*last);
     }
 }

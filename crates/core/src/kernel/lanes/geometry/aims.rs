@@ -33,6 +33,15 @@ pub(in crate::kernel::lanes) fn aim<R: Real, const STILL: bool>(aims: &Aims<R::F
     }
 }
 
+/// Which axis 5 an aim contains.
+#[derive(Clone, Copy)]
+pub(in crate::kernel::lanes) enum Second {
+    /// With joint 6 at zero: positions want it.
+    AtZero,
+    /// With joint 6 in the middle of its range: required for limits as cosines.
+    InTheMiddle,
+}
+
 /// Base positions of the TCP into the arm's axes; `TURNED` where these are not those of the base.
 pub(in crate::kernel::lanes) struct Places<'a, T, const TURNED: bool> {
     pub prepared: &'a Prepared,

@@ -9,7 +9,7 @@ mod base_axes;
 mod cosine_limits;
 mod prepared;
 
-pub(super) use aims::{Aim, Aims, Orientations, Places, aim, aim_still};
+pub(super) use aims::{Aim, Aims, Orientations, Places, Second, aim, aim_still};
 pub(super) use arm::{Arm, UNLIMITED};
 pub(super) use base_axes::BaseAxes;
 pub(super) use cosine_limits::CosineLimits;

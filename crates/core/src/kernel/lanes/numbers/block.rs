@@ -36,3 +36,12 @@ pub(in crate::kernel::lanes) fn put<R: Real>(planes: &mut [Plane<R::Float>], i: 
     planes[1][i] = v.y.store();
     planes[2][i] = v.z.store();
 }
+
+/// Copies the first values into a plane; the remaining lanes repeat the last one.
+pub(in crate::kernel::lanes) fn fill<T: Copy>(plane: &mut Plane<T>, from: &[T]) {
+    let used = from.len().min(BLOCK);
+    plane[..used].copy_from_slice(&from[..used]);
+    if let Some(last) = from.last() {
+        plane[used..].fill(*last);
+    }
+}

@@ -14,7 +14,7 @@ pub use real::{Float, Real};
 
 pub(super) use angle::{atan2, sin_cos};
 pub(super) use backend::Work;
-pub(super) use block::{BLOCK, Plane, Planes, planes, put, vector};
+pub(super) use block::{BLOCK, Plane, Planes, fill, planes, put, vector};
 pub(super) use real::lanes_of;
 #[cfg(test)]
 pub(super) use real::{Alone, Fused, Plain};

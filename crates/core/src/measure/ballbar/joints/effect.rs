@@ -14,7 +14,8 @@ use nalgebra::Vector3;
 
 use super::super::profile::wrapped;
 use super::super::run::Direction;
-use super::circle::{Followed, between, between_numbers};
+use super::along::{between, between_numbers};
+use super::circle::Followed;
 use super::reversal::JointReversal;
 use crate::robot::{Backlash, BacklashSide};
 use crate::source::backlash::{along, link_offset};

@@ -18,7 +18,7 @@
 
 use nalgebra::{DMatrix, DVector, SVD};
 
-use super::super::parts::fit::Samples;
+use super::super::parts::samples::Samples;
 use super::super::parts::trust;
 use super::super::run::{CircularTest, Direction, Run, RunError};
 use super::circle::Followed;

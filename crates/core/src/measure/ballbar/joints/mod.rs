@@ -4,13 +4,14 @@
 //! dr(a, s) = smooth(a) + sum over joints of  n(a) . s_i(a) u_i(a, s; b_i)        s: direction, u_i: link minus motor
 //! ```
 //!
-//! In reading order: [`circle`] (a circle in the cell, and the arm that follows it), [`reversal`] (angles where joints
-//! reverse), [`effect`] (effect of a backlash on the radius), `nuisance` (parts of the radius that are not backlash),
-//! [`fit`](mod@fit) (all joints at once, from any number of circles, and which of them are not identifiable), [`plan`]
-//! (circles that make them identifiable).
+//! In reading order: `along` (a joint along a circle), [`reversal`] (angles where joints reverse), [`circle`] (a circle
+//! in the cell, and the arm that follows it), [`effect`] (effect of a backlash on the radius), `nuisance` (parts of the
+//! radius that are not backlash), [`fit`](mod@fit) (all joints at once, from any number of circles, and which of them
+//! are not identifiable), [`plan`] (circles that make them identifiable).
 //!
 //! Theory, and limits of the method: `docs/theory/joint-backlash.md`.
 
+mod along;
 pub mod circle;
 pub mod effect;
 pub mod fit;

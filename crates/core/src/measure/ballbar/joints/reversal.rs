@@ -8,7 +8,7 @@
 
 use std::f64::consts::TAU;
 
-use super::circle::{JointAlong, between_numbers};
+use super::along::{JointAlong, between_numbers};
 
 /// A reversal of a joint.
 #[derive(Clone, Copy, Debug, PartialEq)]

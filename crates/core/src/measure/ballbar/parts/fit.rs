@@ -12,11 +12,11 @@
 //! radius. Of each such set the last term is left out, so that the first is the sum. A single term in its set has no
 //! effect on the test: a reversal in a gap.
 
-use nalgebra::{DMatrix, DVector, Vector2};
+use nalgebra::{DMatrix, DVector};
 
-use super::super::centre::least_squares_centre;
 use super::super::profile::Profile;
-use super::super::run::{CircularTest, Direction};
+use super::super::run::CircularTest;
+use super::samples::Samples;
 use super::term::{Axis, ON_STEP, Reversal, Term, Wave};
 use super::trust::covariance;
 use crate::identify::Spread;
@@ -75,18 +75,6 @@ impl Parts {
     }
 }
 
-/// The samples of all profiles that are used, run by run.
-pub(in super::super) struct Samples {
-    /// Angle (rad) and direction.
-    pub at: Vec<(f64, Direction)>,
-    /// Radial deviation without the second-order effect of the offset, m.
-    pub deviation: DVector<f64>,
-    /// First sample of each run, and the end of the last one.
-    pub begins: Vec<usize>,
-    /// Number of runs of each circle; one circle, of one test.
-    pub runs: Vec<usize>,
-}
-
 /// The parts of the test with options `requested`; `None` where there are fewer samples than terms, or for a period of
 /// no length.
 pub fn parts(test: &CircularTest, requested: &PartsOptions) -> Option<Parts> {
@@ -140,52 +128,6 @@ pub(super) fn rest_without_cyclic(
     let values = solved(&rows, &samples.deviation, &spread);
     let rest = &samples.deviation - &rows * &values;
     Some((samples, rows, rest))
-}
-
-impl Samples {
-    pub(in super::super) fn of(test: &CircularTest, reversals: &[Reversal]) -> Samples {
-        let offset = least_squares_centre(test).map_or_else(Vector2::zeros, |centre| centre.offset);
-        let radius = test.radius();
-        // |R n + e| without R and e . n.
-        let second_order = |angle: f64| {
-            let n = Vector2::new(angle.cos(), angle.sin());
-            (n * radius + offset).norm() - radius - offset.dot(&n)
-        };
-        let on_step = |angle: f64| {
-            let mut steps = reversals.iter().flat_map(|reversal| &reversal.steps);
-            steps.any(|step| step.is_at(angle))
-        };
-        let (mut at, mut deviation, mut begins) = (Vec::new(), Vec::new(), vec![0]);
-        for run in test.runs() {
-            for (angle, dr) in Profile::of(run).samples().filter(|(angle, _)| !on_step(*angle)) {
-                at.push((angle, run.direction()));
-                deviation.push(dr - second_order(angle));
-            }
-            begins.push(at.len());
-        }
-        Samples {
-            at,
-            deviation: deviation.into(),
-            runs: vec![begins.len() - 1],
-            begins,
-        }
-    }
-
-    /// Those of several circles, one after the other.
-    pub(in super::super) fn joined(circles: &[Samples]) -> Samples {
-        let (mut at, mut deviation, mut begins) = (Vec::new(), Vec::new(), vec![0]);
-        for circle in circles {
-            begins.extend(circle.begins[1..].iter().map(|begin| at.len() + begin));
-            at.extend_from_slice(&circle.at);
-            deviation.extend_from_slice(circle.deviation.as_slice());
-        }
-        Samples {
-            at,
-            deviation: deviation.into(),
-            begins,
-            runs: circles.iter().flat_map(|circle| circle.runs.clone()).collect(),
-        }
-    }
 }
 
 /// Reversals with no step that a run has samples on both sides of.

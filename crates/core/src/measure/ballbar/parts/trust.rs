@@ -13,7 +13,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::super::run::Direction;
-use super::fit::Samples;
+use super::samples::Samples;
 
 /// Covariance of the values of the columns of `rows`, from the residuals and the inverse of their normal matrix; the
 /// degrees of freedom are those of this many samples.

@@ -19,9 +19,15 @@ use super::super::unreachable::Unreachable;
 use super::closed_form::ClosedForm;
 use super::descent::{Descent, Goal};
 use super::kind::Inverse;
-use super::verify;
+use super::verify::verify;
 use crate::frame::Isometry;
-use search::{MOST, SAME, THOROUGH};
+
+/// Maximum number of postures of one pose: a general arm of six revolute joints has up to 16.
+const MOST: usize = 16;
+/// Starts without a new posture that end a search.
+const THOROUGH: usize = 48;
+/// Two postures nearer than this (rad, m) are one.
+const SAME: f64 = 1e-4;
 
 /// The requested flange pose, with the joint positions before it and at home.
 #[derive(Clone, Copy, Debug)]

@@ -6,20 +6,14 @@ use super::super::super::unreachable::Unreachable;
 use super::super::descent::Goal;
 use super::super::kind::ENOUGH;
 use super::super::starts::spread;
-use super::{Finder, InverseSolution, InverseTarget, nearer};
+use super::{Finder, InverseSolution, InverseTarget, SAME, nearer};
 use crate::frame::Isometry;
 
-/// Maximum number of postures of one pose: a general arm of six revolute joints has up to 16.
-pub(super) const MOST: usize = 16;
 /// Postures after which a search ends, to take the nearest of them: redundant and singular poses have infinitely many.
 const PLENTY: usize = 32;
-/// Starts without a new posture that end a search; and those after a closed form.
-pub(super) const THOROUGH: usize = 48;
-pub(super) const SHORT: usize = 8;
 /// Maximum number of starts of a search.
 const MOST_STARTS: usize = 400;
-/// Two postures nearer than this (rad, m) are one; redundant joints converge less accurately.
-pub(super) const SAME: f64 = 1e-4;
+/// [`SAME`] of redundant joints, which converge less accurately.
 const SAME_REDUNDANT: f64 = 1e-2;
 /// A posture that moved farther than this (rad, m) from the pose before is not its continuation.
 const JUMP: f64 = 0.5;

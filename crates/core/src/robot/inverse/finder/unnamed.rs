@@ -7,14 +7,15 @@ use super::super::descent::Goal;
 use super::super::fixed_joint::FixedJoint;
 use super::super::lines::sense_of;
 use super::super::spherical_wrist::SphericalWrist;
-use super::search::{SAME, SHORT};
-use super::{Finder, InverseTarget};
+use super::{Finder, InverseTarget, SAME};
 use crate::frame::Isometry;
 
 /// Steps (rad) by which the fixed joint leaves home where no posture is within the limits there: 5 deg.
 const STEP: f64 = PI / 36.0;
 /// Halvings of the last step: the joint is then within 1e-5 rad of the first valid position.
 const HALVINGS: u32 = 13;
+/// Starts without a new posture that end a search after a closed form.
+const SHORT: usize = 8;
 
 /// A pose for an arm with one fixed joint.
 struct FixedJointTarget<'a> {

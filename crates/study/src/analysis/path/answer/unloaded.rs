@@ -19,7 +19,7 @@ pub struct UnloadedAnswer {
     /// Every joint with backlash.
     pub joints: Vec<JointBacklash>,
     /// Whether the arm differs from the nominal model of its controller.
-    pub measured_arm: bool,
+    pub calibrated_robot: bool,
 }
 
 /// The backlash of one joint.
@@ -72,7 +72,7 @@ impl UnloadedAnswer {
                     .fold(0.0, f64::max),
             ),
             joints: play.collect(),
-            measured_arm: model.actual.is_some(),
+            calibrated_robot: model.actual.is_some(),
         })
     }
 }

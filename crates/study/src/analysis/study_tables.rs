@@ -1,0 +1,26 @@
+//! What a study gives to every analysis.
+
+use crate::analysis::path::cut::CutTable;
+use crate::input::stiffness::StiffnessTables;
+use crate::input::tables::{LoadTable, PlaneTable, PostureTable, ToolTable};
+
+/// What the study gives to every analysis, as written.
+#[derive(Clone, Copy, Debug)]
+pub struct StudyTables<'a> {
+    /// Reference frame of coordinates.
+    pub base: Option<&'a str>,
+    /// The tool.
+    pub tool: Option<&'a ToolTable>,
+    /// The plane.
+    pub plane: &'a PlaneTable,
+    /// The load.
+    pub load: Option<&'a LoadTable>,
+    /// The cut.
+    pub cut: Option<&'a CutTable>,
+    /// The posture.
+    pub posture: Option<&'a PostureTable>,
+    /// The tolerance.
+    pub tolerance_um: f64,
+    /// Parts of the stiffness model.
+    pub stiffness: StiffnessTables<'a>,
+}
