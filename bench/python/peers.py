@@ -4,12 +4,14 @@ usage: python peers.py FOLDER [--quick]. Rows go to stdout. A peer with a result
 error; one that cannot be loaded is reported in a line that begins with `skipped`.
 """
 
+import functools
 import importlib.metadata
 import pathlib
 import sys
 
 ROUNDS, QUICK_ROUNDS = 15, 3
 CHECKED = 1000
+REPEATED = 40  # runs in a row: a processor takes milliseconds to change its clock for wide vectors
 FEW = 20_000  # poses for a peer that makes a Python object of every posture
 ALLOWED = 1e-6  # relative, or rad
 
@@ -94,15 +96,25 @@ def of_numba(folder):
     import with_numba as w
 
     e, who, threads = columns(folder), named("numba"), numba.get_num_threads()
-    expected, out = read(folder, "dev.f64", 1)[:, 0], np.empty(e.shape[1])
+    blocks, expected = w.blocked(e), read(folder, "dev.f64", 1)[:, 0]
     note = 'fastmath, error_model="numpy"; poses as columns; tool along axis 6, all constants compiled in'
     rows = []
     for kind, work in (("trigonometry", w.dev), ("trig-free", w.dev_without_trigonometry)):
-        for count, run in zip((1, threads), w.in_blocks(work)):
-            run(e, out)
-            agree(f"{who}, {kind}, {count} threads", relative(out, expected))
-            rows.append((f"{who}, {kind}", "dev", out.size, note, lambda run=run: run(e, out), count))
+        shape = (blocks.shape[0], blocks.shape[2])
+        for count, run, given, out in (
+            (1, work, e, np.empty(e.shape[1])),
+            (threads, w.on_all_threads(work), blocks, np.empty(shape)),
+        ):
+            run(given, out)
+            agree(f"{who}, {kind}, {count} threads", relative(out.reshape(-1), expected))
+            job = functools.partial(repeatedly, run, given, out)
+            rows.append((f"{who}, {kind}", "dev", REPEATED * out.size, note, job, count))
     return rows
+
+
+def repeatedly(run, *given):
+    for _ in range(REPEATED):
+        run(*given)
 
 
 def of_eaik(folder):

@@ -16,9 +16,9 @@ use crate::clock::Candidate;
 use crate::work::{C66, DEV, DEV8, IK8};
 use crate::workload::Pose;
 
-/// How often the poses are gone through in a round: a few milliseconds would measure how long a processor takes to
-/// change its clock for wide vectors.
-const REPEATED: usize = 10;
+/// How often the poses are gone through in a round: ten milliseconds would measure how long a processor takes to change
+/// its clock for wide vectors.
+const REPEATED: usize = 40;
 /// Poses whose results share memory: whole blocks of the kernel.
 const TOGETHER: usize = 240;
 const BRANCH: Branch = Branch::ALL[0];
@@ -141,11 +141,13 @@ fn on_threads<'a>(
 ) -> Candidate<'a> {
     /// Enough for a hand-over between threads to cost nothing.
     const SHARE: usize = 20_000;
+    /// A processor that slept while the other candidates worked takes milliseconds to wake.
+    const LONG: usize = 4 * REPEATED;
     let threads = pool.current_num_threads();
     let batch = batch::<f64>(question, backend);
     let run = move || {
         pool.install(|| {
-            let starts = (0..REPEATED * places.len()).into_par_iter().step_by(SHARE);
+            let starts = (0..LONG * places.len()).into_par_iter().step_by(SHARE);
             starts.for_each_init(
                 || (batch.clone(), Envelopes::default()),
                 |(batch, out), first| {
@@ -158,7 +160,7 @@ fn on_threads<'a>(
             );
         });
     };
-    Candidate::new("armill lanes f64", DEV, REPEATED * places.len(), run)
+    Candidate::new("armill lanes f64", DEV, LONG * places.len(), run)
         .threads(threads)
         .note(NOTE)
 }

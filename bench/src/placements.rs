@@ -81,7 +81,14 @@ impl Places {
         });
         Places {
             placements: placements.collect(),
-            path: on_part(LoadedTrack { track: &track, load: &load }, Component::InPlane, &all),
+            path: on_part(
+                LoadedTrack {
+                    track: &track,
+                    load: &load,
+                },
+                Component::InPlane,
+                &all,
+            ),
         }
     }
 }

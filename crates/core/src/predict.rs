@@ -5,12 +5,13 @@
 //!
 //! ```text
 //! pose -> posture -> screws s_i        load -> wrench w
-//! deviation = elastic(s_i, c_i, w) + gravity(s_i, c_i, masses) + geometric + thermal + backlash(s_i, b_i)
+//! deviation = elastic(s_i, c_i, w) + gravity(s_i, c_i, masses) + geometric + thermal + backlash(s_i, b_i, links, w)
 //! ```
 //!
 //! `c_i` is the compliance of joint i (rad/(N m)), `b_i` its backlash from one side to the other (rad). The posture is
-//! in `arm_state`. `links` are the positions of the links within their backlash (rad, or m for prismatic joints); they
-//! are written here where they are unknown. Repeatability adds uncertainty only.
+//! in `arm_state`. `links`: where in its backlash each link rests (rad, or m for prismatic joints); where the caller does
+//! not know it, it is decided from the load and written here. Shares are displacements: they add up to the deviation.
+//! Repeatability adds uncertainty only.
 //!
 //! Maps, holes and single poses use the whole sum. Searches for placements and for the posture of a path use load and
 //! gravity only. Along a path geometry, thermal growth and backlash are added in a second step
@@ -55,12 +56,12 @@ pub(crate) fn deviation_of(
     arm_state.settle(links, &by_load.linear, wrench);
     Ok(match links.positions() {
         None => by_load,
-        Some(links) => by_load + geometry_and_backlash(arm_state, links, wrench),
+        Some(links) => by_load + unloaded(arm_state, links, wrench),
     })
 }
 
 /// Deviation by geometry, thermal growth and backlash; the `links` are at these positions within their backlash,
 /// rad (m).
-pub(crate) fn geometry_and_backlash(arm_state: &ArmState<'_>, links: &[f64], wrench: &Wrench) -> Twist {
+pub(crate) fn unloaded(arm_state: &ArmState<'_>, links: &[f64], wrench: &Wrench) -> Twist {
     arm_state.geometric() + arm_state.thermal() + arm_state.backlash(links, wrench)
 }

@@ -139,7 +139,8 @@ fn measured(options: &Options) -> Result<BenchRun, String> {
 
 /// armill as users get it, and the peers in Rust built for this processor; writes the poses for the others.
 fn rust(options: &Options, found: &mut BenchRun) -> Result<(), String> {
-    let mut command = bench_cargo(&["run", "--release", "--", WORKLOAD]);
+    let mut command = bench_cargo(&["run", "--release"]);
+    command.args(["--", WORKLOAD]);
     if options.only == Some(Only::Paths) {
         command.arg("--paths");
     }

@@ -26,8 +26,9 @@ const MOST_POINTS: usize = 3600;
 #[command(
     allow_negative_numbers = true,
     after_help = "\
-FILE is a CSV whose column names end in units (angle_deg,radius_dev_um,direction,run; `# radius_mm: 100` above), or
-Renishaw ball-bar results (.b5r), shown for comparison. All files are of one circle. Guide: docs/guide/ballbar.md
+A file is a CSV whose column names end in units (angle_deg,radius_dev_um,direction,run), with `# radius_mm: 100` above
+them, or a result file of a Renishaw ball-bar (.b5r), which is shown for comparison only. All files must be of the same
+circle. Guide: docs/guide/ballbar.md
 
 Examples:
   armill ballbar runs.csv
@@ -37,7 +38,7 @@ Examples:
   armill ballbar second.csv --before first.csv --json"
 )]
 pub(crate) struct BallbarArguments {
-    /// Runs of one circle
+    /// Measured runs of one circle
     #[arg(required = true)]
     pub files: Vec<PathBuf>,
     /// Nominal radius, if the files do not contain it
@@ -58,13 +59,13 @@ pub(crate) struct BallbarArguments {
     /// Centre from which radii are measured
     #[arg(long, value_name = "CENTRE", value_enum, default_value_t = CentreChoice::LeastSquares)]
     pub centre: CentreChoice,
-    /// Lobes per revolution that are fitted and reported
+    /// Highest lobe (per revolution) that is fitted and reported
     #[arg(long, value_name = "N", default_value_t = 6)]
     pub lobes: usize,
-    /// Search for a cyclic error along the axes: its period in mm, or `search`
-    #[arg(long, value_name = "MM|found")]
+    /// Fit a cyclic error along the axes: its period in mm, or `search` to find the period
+    #[arg(long, value_name = "MM|search")]
     pub cyclic: Option<String>,
-    /// An angle where another drive reverses, in both directions (repeatable)
+    /// Angle at which a further drive reverses, in both directions of travel (repeatable)
     #[arg(long, value_name = "DEG")]
     pub reversal_deg: Vec<f64>,
     /// The axes of the plane are not drive axes: no reversal at 0, 90, 180 and 270 deg
@@ -76,10 +77,10 @@ pub(crate) struct BallbarArguments {
     /// Files of the previous test, for comparison (repeatable)
     #[arg(long, value_name = "FILE")]
     pub before: Vec<PathBuf>,
-    /// Write the corrected points of the circle to this file instead
+    /// Write the corrected points of the circle to this file (CSV)
     #[arg(long, value_name = "FILE")]
     pub teach: Option<PathBuf>,
-    /// Number of corrected points [default: 72; in a program as many as --within-um requires]
+    /// Number of corrected points [default: 72; for a program, as many as --within-um requires]
     #[arg(long, value_name = "N")]
     pub points: Option<usize>,
     /// Highest lobe that the corrected circle compensates
@@ -94,10 +95,10 @@ pub(crate) struct BallbarArguments {
     /// Name of the circle in that study, if it has several
     #[arg(long, value_name = "NAME", requires = "study")]
     pub analysis: Option<String>,
-    /// Angle on the circle, from its +y' towards z', at which the files have angle 0
+    /// Angle on the circle, from its +y' towards z', that corresponds to angle 0 in the files
     #[arg(long, value_name = "DEG", default_value_t = 0.0, requires = "study")]
     pub zero_deg: f64,
-    /// Angles of the files increase from z' towards y'
+    /// Angles in the files increase from z' towards y'
     #[arg(long, requires = "study")]
     pub mirrored: bool,
     /// Write the result, tables, pictures and a report into this folder
@@ -105,7 +106,7 @@ pub(crate) struct BallbarArguments {
     pub out: Option<PathBuf>,
     #[command(flatten)]
     pub writing: WritingOptions,
-    /// Print as JSON on stdout
+    /// Print the result as JSON on stdout
     #[arg(long)]
     pub json: bool,
 }

@@ -21,12 +21,12 @@ Examples:
 pub(crate) struct BudgetArguments {
     /// Folder with a study.toml, the file itself, or the name of an example study
     pub study: PathBuf,
-    /// Folder for the table and the pictures (nothing is written if not given)
+    /// Folder for the table and the pictures [default: nothing is written]
     #[arg(long, value_name = "FOLDER")]
     pub out: Option<PathBuf>,
     #[command(flatten)]
     pub writing: WritingOptions,
-    /// Print the result and errors as JSON
+    /// Print the result as JSON on stdout
     #[arg(long)]
     pub json: bool,
 }

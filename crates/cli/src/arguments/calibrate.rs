@@ -12,7 +12,7 @@ use super::writing::WritingOptions;
 #[command(
     allow_negative_numbers = true,
     after_help = "\
-POSES has one row per pose: joint positions (q1_deg ...) and the measured point in tracker axes (x_mm, y_mm, z_mm).
+POSES_FILE has one row per pose: joint positions (q1_deg ...) and the measured point in tracker axes (x_mm, y_mm, z_mm).
 Guide: docs/guide/calibrate.md
 
 Examples:
@@ -28,16 +28,16 @@ pub(crate) struct CalibrateArguments {
     /// Parameters to identify
     #[arg(long, value_enum, default_value_t = UnknownsArgument::Geometry)]
     pub unknowns: UnknownsArgument,
-    /// Validate with other poses: a file, or a fraction of this one, such as 0.2
-    #[arg(long, value_name = "FILE|PART")]
+    /// Validate with other poses: a file, or a fraction of POSES_FILE that is set aside, such as 0.2
+    #[arg(long, value_name = "FILE|FRACTION")]
     pub validation: Option<String>,
-    /// The tracker and the measured point had the same position for the validation file
+    /// The validation file was measured with the same tracker position and the same point on the flange
     #[arg(long, requires = "validation")]
     pub same_set_up: bool,
-    /// Standard deviation of the lengths of robots of this type from nominal; with --prior-deg
+    /// Prior: standard deviation of the lengths from nominal for robots of this type (with --prior-deg)
     #[arg(long, value_name = "MM", requires = "prior_deg")]
     pub prior_mm: Option<f64>,
-    /// Standard deviation of their angles: parameters that the poses hardly determine stay near nominal
+    /// Prior: standard deviation of the angles (with --prior-mm); poorly determined parameters then stay near nominal
     #[arg(long, value_name = "DEG", requires = "prior_mm")]
     pub prior_deg: Option<f64>,
     #[command(flatten)]
@@ -48,12 +48,12 @@ pub(crate) struct CalibrateArguments {
     /// Write the residuals of all poses to this file (CSV)
     #[arg(long, value_name = "FILE")]
     pub residuals: Option<PathBuf>,
-    /// Draw the errors before and after calibration to this file (.svg, .png)
+    /// Write a drawing of the errors before and after calibration to this file (.svg, .png)
     #[arg(long, value_name = "FILE")]
     pub drawing: Option<PathBuf>,
     #[command(flatten)]
     pub writing: WritingOptions,
-    /// Print as JSON on stdout
+    /// Print the result as JSON on stdout
     #[arg(long)]
     pub json: bool,
 }

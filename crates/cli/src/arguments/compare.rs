@@ -12,12 +12,13 @@ Examples:
   armill compare cell-a cell-b                              two set-ups; analyses of the same name are compared
   armill compare cell --robot kuka/kr120r2500pro --robot yaskawa/mh50
   armill compare studies/* --out decision --json
-A robot given with --robot has its own compliances, or assumed ones by its payload; all else is that of the study.")]
+A robot given with --robot has its own compliances or, if they are not known, those assumed for its payload; all other
+inputs are those of the study.")]
 pub(crate) struct CompareArguments {
     /// Studies: folders with a study.toml, files, or names of example studies
     #[arg(required = true, value_name = "STUDY")]
     pub studies: Vec<PathBuf>,
-    /// A further cell with this robot in place of that of each study (repeatable): library name or robot file
+    /// Add, for each study, a cell with this robot in place of its own (repeatable): library name or robot file
     #[arg(long = "robot", value_name = "NAME")]
     pub robots: Vec<String>,
     /// Folder for the results [default: compare, next to the first study]

@@ -17,8 +17,8 @@ Examples:
   armill compensate cell --analysis ring --program ring.src --frame 3 --tool 2
   armill compensate cell --analysis ring --nominal --program first.src --feed-mm-per-min 1000
 The extension of --program selects the language: .src KUKA, .mod ABB, .jbi Yaskawa, .ls FANUC, .script UR, .pjx Staubli.
-For a path from a robot program (program = { file = \"part.src\" }), that program is written too, under its own name,
-with changed targets and all other bytes unchanged. A program alone does not define robot and load: put it into a study.
+For a path from a robot program (program = { file = \"part.src\" }), that program is also written, under its own name:
+only its targets are changed. A program alone does not define robot and load: refer to it in a study.
 The table NAME.commanded.csv can be used as `program.file` of a study, with spin = \"given\".")]
 pub(crate) struct CompensateArguments {
     /// Folder with a study.toml, the file itself, or the name of an example study
@@ -34,7 +34,7 @@ pub(crate) struct CompensateArguments {
     pub nominal: bool,
     #[command(flatten)]
     pub program: ProgramOptions,
-    /// Feed, if the path does not specify it
+    /// Feed, if the path does not specify one
     #[arg(long, value_name = "MM/MIN")]
     pub feed_mm_per_min: Option<f64>,
     #[command(flatten)]

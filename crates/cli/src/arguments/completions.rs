@@ -9,6 +9,6 @@ Examples:
   armill completions bash > /etc/bash_completion.d/armill
   armill completions fish > ~/.config/fish/completions/armill.fish")]
 pub(crate) struct CompletionsArguments {
-    /// Shell
+    /// Shell for which completions are printed
     pub shell: Shell,
 }

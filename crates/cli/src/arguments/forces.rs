@@ -30,13 +30,13 @@ pub(crate) struct ForcesArguments {
     /// Do not remove the drift
     #[arg(long, conflicts_with = "air_s")]
     pub no_drift: bool,
-    /// Low-pass filter: cut-off frequency
+    /// Cut-off frequency of the low-pass filter [default: no filter]
     #[arg(long, value_name = "F")]
     pub low_pass_hz: Option<f64>,
-    /// Spindle speed: report mean and extremes per revolution
+    /// Spindle speed, to report mean and extremes per revolution
     #[arg(long, value_name = "N")]
     pub spindle_rpm: Option<f64>,
-    /// Number of the cycle, from 1, for an export with several
+    /// Number of the cycle, from 1, for an export with several cycles
     #[arg(long, value_name = "N")]
     pub cycle: Option<usize>,
     /// Channel names of the forces in the export, and of the moments if present
@@ -58,7 +58,7 @@ pub(crate) struct ForcesArguments {
     pub out: Option<PathBuf>,
     #[command(flatten)]
     pub writing: WritingOptions,
-    /// Print as JSON on stdout
+    /// Print the result as JSON on stdout
     #[arg(long)]
     pub json: bool,
 }

@@ -16,8 +16,8 @@ use super::writing::WritingOptions;
     after_help = "\
 TESTS.csv has one row per test; column names end in units: joint positions (A1_deg or q1_deg ...), force on the tool in
 base axes (fx_n, fy_n, fz_n), displacement in base axes (dx_mm, dy_mm, dz_mm; empty where not measured).
-Springs: drives; bending (about the two axes perpendicular to each drive); base (the foundation); tool (holder and tool
-along the flange axes); lost-motion (backlash in drives). Guide: docs/guide/measure-stiffness.md
+Groups of --unknowns: drives; bending (about the two axes perpendicular to each drive); base (the foundation); tool
+(holder and tool, along the flange axes); lost-motion (backlash in drives). Guide: docs/guide/measure-stiffness.md
 
 Examples:
   armill identify --plan 20 --robot yaskawa/mh12 --tool-mm 0,0,150 --out tests.csv
@@ -33,22 +33,22 @@ pub(crate) struct IdentifyArguments {
     /// Springs to identify: groups joined by +
     #[arg(long, value_name = "GROUPS", default_value = "drives+bending+base")]
     pub unknowns: String,
-    /// Whether the points of force and measurement are as given in the tests
+    /// Where the force acts and the displacement is measured
     #[arg(long, value_enum, default_value_t = PointsArgument::Known)]
     pub points: PointsArgument,
-    /// Standard uncertainty of these points, if they are not known
+    /// Standard uncertainty of the positions of these points (with --points common or separate)
     #[arg(long, value_name = "U", default_value_t = 200.0)]
     pub point_u_mm: f64,
     /// Prior knowledge of the springs
     #[arg(long, value_enum, default_value_t = PriorArgument::Typical)]
     pub prior: PriorArgument,
-    /// Flange to the point where the force acts and the displacement is measured
+    /// Vector from the flange to the point where the force acts and the displacement is measured
     #[arg(long, value_name = "X,Y,Z", value_delimiter = ',', allow_hyphen_values = true)]
     pub tool_mm: Option<Vec<f64>>,
     /// Write the robot with its identified compliances (with --plan: the table) to this file
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Propose N tests instead
+    /// Propose N tests to carry out, instead of evaluating a table
     #[arg(long, value_name = "N", conflicts_with = "tests")]
     pub plan: Option<usize>,
     /// Force that you can apply (with --plan)
@@ -57,12 +57,12 @@ pub(crate) struct IdentifyArguments {
     /// Standard uncertainty of the displacement sensor (with --plan)
     #[arg(long, value_name = "U", default_value_t = 10.0)]
     pub gauge_um: f64,
-    /// Accept values that are implausible for a robot
+    /// Accept values that are implausible for a robot, after you have checked their units
     #[arg(long)]
     pub trust_units: bool,
     #[command(flatten)]
     pub writing: WritingOptions,
-    /// Print as JSON on stdout
+    /// Print the result as JSON on stdout
     #[arg(long)]
     pub json: bool,
 }
@@ -70,7 +70,7 @@ pub(crate) struct IdentifyArguments {
 /// Points where the force acts and the displacement is measured.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum PointsArgument {
-    /// As given in the tests
+    /// At the points given in the tests
     Known,
     /// Both offset by the same vector, which is identified
     Common,
@@ -81,7 +81,7 @@ pub(crate) enum PointsArgument {
 /// Prior knowledge of the springs.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum PriorArgument {
-    /// Compliances of robots are within some powers of ten; tests that fit badly have less weight
+    /// Compliances are typical of robots within a few powers of ten; tests that fit badly have less weight
     Typical,
     /// None: plain least squares, no negative compliance
     None,

@@ -78,7 +78,7 @@ pub(crate) struct Arguments {
 
 const EXAMPLES: &str = "\
 Examples:
-  armill run studies/mh12-groove            the study of the paper, with pictures and a report in its folder out/
+  armill run studies/mh12-groove            an example study; pictures and a report are in its folder out/
   armill new cell && armill run cell        your own study, from a commented study file
   armill pose yaskawa/mh12 --at-mm 1000,0,800 --wrench-n 3,5,5
 Lengths in mm, angles in degrees, forces in N, moments in N m; deviations are reported in micrometres.";
@@ -89,9 +89,9 @@ pub(crate) enum Command {
     Run(RunArguments),
     /// Check a study file without running it
     Check(CheckArguments),
-    /// Compare the same paths in several cells: robots or set-ups
+    /// Compare the same paths in several cells: different robots or set-ups
     Compare(CompareArguments),
-    /// Create a folder with a commented study that runs
+    /// Create a folder with a commented study that is ready to run
     New(NewArguments),
     /// List the robot library, show one robot, or import one
     Robots(RobotsArguments),
@@ -99,9 +99,9 @@ pub(crate) enum Command {
     Materials(MaterialsArguments),
     /// List all postures of one pose: joints, compliance, deviation
     Pose(Box<PoseArguments>),
-    /// Optimize the spin of the tool and the branch along the paths of a study
+    /// Optimise the spin of the tool and the branch along the paths of a study
     Posture(PostureArguments),
-    /// Optimize the placement of the part for the least deviation along a path
+    /// Optimise the placement of the part for the least deviation along a path
     Place(Box<PlaceArguments>),
     /// Recommend measures to bring a path within its tolerance: placement, spin, compensation, cut
     Advise(Box<AdviseArguments>),

@@ -8,8 +8,8 @@ use super::writing::WritingOptions;
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Files have one row per point (x_mm, y_mm, z_mm), in the order of time and in the same axes; a column `run` separates the
-runs of one file. Guide: docs/guide/calibrate.md
+Files have one row per point (x_mm, y_mm, z_mm), in time order and in the same axes; a column `run` separates several
+runs in one file. Guide: docs/guide/calibrate.md
 
 Examples:
   armill path-accuracy tracker.csv --commanded path.csv
@@ -24,12 +24,12 @@ pub(crate) struct PathAccuracyArguments {
     /// Write the results at every commanded point to this file (CSV)
     #[arg(long, value_name = "FILE")]
     pub points: Option<PathBuf>,
-    /// Draw accuracy and repeatability along the path to this file (.svg, .png)
+    /// Write a drawing of accuracy and repeatability along the path to this file (.svg, .png)
     #[arg(long, value_name = "FILE")]
     pub drawing: Option<PathBuf>,
     #[command(flatten)]
     pub writing: WritingOptions,
-    /// Print as JSON on stdout
+    /// Print the result as JSON on stdout
     #[arg(long)]
     pub json: bool,
 }

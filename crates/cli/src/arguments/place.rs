@@ -23,15 +23,15 @@ pub(crate) struct PlaceOptions {
     #[arg(long, value_name = "NAME")]
     pub analysis: Option<String>,
 
-    /// Range of x of the plane's centre [if nothing is given: 300 mm in each direction]
+    /// Range of the x coordinate of the plane's centre [default if no range is given: 300 mm in each direction]
     #[arg(long, value_name = "LEAST,GREATEST", value_parser = bounds, allow_hyphen_values = true)]
     pub x_mm: Option<[f64; 2]>,
 
-    /// Range of its y
+    /// Range of the y coordinate of the plane's centre
     #[arg(long, value_name = "LEAST,GREATEST", value_parser = bounds, allow_hyphen_values = true)]
     pub y_mm: Option<[f64; 2]>,
 
-    /// Range of its z
+    /// Range of the z coordinate of the plane's centre
     #[arg(long, value_name = "LEAST,GREATEST", value_parser = bounds, allow_hyphen_values = true)]
     pub z_mm: Option<[f64; 2]>,
 
@@ -39,7 +39,7 @@ pub(crate) struct PlaceOptions {
     #[arg(long, value_name = "LEAST,GREATEST", value_parser = bounds, allow_hyphen_values = true)]
     pub heading_deg: Option<[f64; 2]>,
 
-    /// Range of the tilt, as plane.tilt_deg
+    /// Range of the tilt, measured as plane.tilt_deg in the study
     #[arg(long, value_name = "LEAST,GREATEST", value_parser = bounds, allow_hyphen_values = true)]
     pub tilt_deg: Option<[f64; 2]>,
 
@@ -55,7 +55,7 @@ pub(crate) struct PlaceOptions {
     #[arg(long, value_name = "LEAST,GREATEST", value_parser = bounds, allow_hyphen_values = true)]
     pub rail_mm: Option<[f64; 2]>,
 
-    /// Permitted branches: words of a branch, or `any`
+    /// Permitted branches: words of a branch name, such as `front elbow-up`, or `any`
     #[arg(long, value_name = "WORDS")]
     pub branch: Option<String>,
 
@@ -67,7 +67,7 @@ pub(crate) struct PlaceOptions {
     #[arg(long)]
     pub component: Option<ComponentArgument>,
 
-    /// Margin of joints to their limits, of the elbow to stretched and of the wrist to straight [default: 0]
+    /// Margin of the joints from their limits, and of elbow and wrist from their straight positions [default: 0]
     #[arg(long, value_name = "DEG")]
     pub margin_deg: Option<f64>,
 
@@ -115,5 +115,5 @@ Examples:
   armill place cell --x-mm 700,1300 --y-mm -400,400
   armill place cell --x-mm 700,1300 --z-mm 400,1200 --tilt-deg -60,90 --branch any --spin-deg -180,180
   armill place cell --margin-deg 5 --objective mean --analysis rim
-The results are those of `armill run` with the path at the best placement, in the folder `place`, together with
+The results are those of `armill run` with the path at the best placement. They are written to the folder `place`, with
 placement.json. An interrupted search continues when the command is started again.";

@@ -17,9 +17,10 @@ use super::writing::WritingOptions;
     allow_negative_numbers = true,
     after_help = "\
 Joints have the signs and zeros of the robot file. Positions are relative to base_link unless --base is given.
---tool-mm is flange to TCP in the flange frame (z out of the flange), turns about the fixed axes x, y, z.
---tilt-deg puts the tool against the outward normal of a plane tilted from the vertical about base y:
-0 faces the robot (tool along +x, the default), 90 faces up (tool down).
+--tool-mm is flange to TCP in the flange frame (z out of the flange): X,Y,Z in mm and RX,RY,RZ in degrees, about the
+fixed axes x, y, z.
+--tilt-deg points the tool against the outward normal of a plane that is tilted from the vertical about base y.
+At 0 the plane faces the robot (tool along +x, the default), at 90 it faces up (tool down).
 
 Examples:
   armill pose yaskawa/mh12 --joints-deg 0,11.6,-27.8,0,39.4,0
@@ -61,7 +62,7 @@ pub(crate) struct PoseArguments {
         conflicts_with = "joints_deg"
     )]
     pub axis: Option<Vec<f64>>,
-    /// Spin of the tool about its axis; at 0 its second axis is as near as possible to base y
+    /// Spin of the tool about its axis; at 0 the y axis of the tool is as close as possible to base y
     #[arg(
         long,
         value_name = "S",
@@ -70,7 +71,7 @@ pub(crate) struct PoseArguments {
         conflicts_with = "joints_deg"
     )]
     pub spin_deg: Option<f64>,
-    /// Position of a rail (mm), preferred positions of redundant joints (deg), one per joint [default: middle of range]
+    /// Rail position (mm), preferred positions of redundant joints (deg), one value per joint [default: mid-range]
     #[arg(
         long,
         value_name = "A,B,...",
@@ -88,7 +89,7 @@ pub(crate) struct PoseArguments {
         allow_hyphen_values = true
     )]
     pub tool_mm: Option<Vec<f64>>,
-    /// Force and moment on the tool at the TCP, base axes, N and N m
+    /// Force (N) and moment (N m) on the tool at the TCP, in base axes
     #[arg(
         long,
         value_name = "FX,FY,FZ[,MX,MY,MZ]",
@@ -118,15 +119,15 @@ pub(crate) struct PoseArguments {
         allow_hyphen_values = true
     )]
     pub reference_joints_deg: Option<Vec<f64>>,
-    /// Draw the arm to this file (.svg, .png): the first posture within joint limits, the others faintly
+    /// Write a drawing of the arm to this file (.svg, .png): the first posture within joint limits, others faint
     #[arg(long, value_name = "FILE")]
     pub drawing: Option<PathBuf>,
-    /// Frame of the positions
+    /// Frame to which positions are relative
     #[arg(long, value_name = "FRAME", default_value = armill_study::BASE_LINK)]
     pub base: String,
     #[command(flatten)]
     pub writing: WritingOptions,
-    /// Print as JSON on stdout
+    /// Print the result as JSON on stdout
     #[arg(long)]
     pub json: bool,
 }

@@ -11,8 +11,8 @@ use super::robots::ROBOT_HELP;
 #[command(
     allow_negative_numbers = true,
     after_help = "\
-FILE has one row per visit: joint positions (q1_deg ...), the measured point in tracker axes (x_mm, y_mm, z_mm), and
-pose, direction, rx_deg ... if known. Guide: docs/guide/calibrate.md
+FILE has one row for each visit of a pose: joint positions (q1_deg ...), the measured point in tracker axes (x_mm, y_mm,
+z_mm) and, if known, the columns pose, direction, rx_deg ... Guide: docs/guide/calibrate.md
 
 Examples:
   armill pose-accuracy poses.csv --robot universal-robots/ur10
@@ -25,7 +25,7 @@ pub(crate) struct PoseAccuracyArguments {
     pub robot: String,
     #[command(flatten)]
     pub poses: PosesOptions,
-    /// Print as JSON on stdout
+    /// Print the result as JSON on stdout
     #[arg(long)]
     pub json: bool,
 }

@@ -5,16 +5,16 @@ use clap::{Args, ValueEnum};
 
 #[derive(Debug, Args)]
 pub(crate) struct PosesOptions {
-    /// Columns with other names: OURS=THEIRS, such as x_mm=Measured X, separated by commas
+    /// Columns with other names: expected=actual, such as "x_mm=Measured X", separated by commas
     #[arg(long, value_name = "MAP", value_delimiter = ',')]
     pub columns: Vec<Mapping>,
-    /// Use the measured orientations too (rx, ry, rz)
+    /// Also use the measured orientations (rx, ry, rz)
     #[arg(long)]
     pub turns: bool,
-    /// Axes of the measured rotations, x first [default: fixed]
+    /// Axes of the measured rotations, x first [default: fixed-xyz]
     #[arg(long, value_enum, requires = "turns")]
     pub turn_order: Option<TurnArgument>,
-    /// Weight of orientations: 1 rad equals this length (with --turns)
+    /// Weight of orientations: an error of 1 rad weighs as much as this length (with --turns)
     #[arg(long, value_name = "L", default_value_t = 250.0, requires = "turns")]
     pub turn_mm: f64,
     /// Approximate position of the measured point relative to the flange
@@ -27,6 +27,6 @@ pub(crate) struct PosesOptions {
 pub(crate) enum TurnArgument {
     /// About fixed axes
     FixedXyz,
-    /// About rotating axes
+    /// About axes that rotate with the measured body
     MovingXyz,
 }

@@ -33,15 +33,15 @@ pub(crate) struct PostureArguments {
     #[arg(long, value_name = "DEG")]
     pub step_deg: Option<f64>,
 
-    /// Greatest change of the spin along the path [default: 1]
+    /// Maximum change of the spin per length of the path [default: 1]
     #[arg(long, value_name = "DEG/MM")]
     pub turn_deg_per_mm: Option<f64>,
 
-    /// Least angle of the wrist from its straight position [default: 3]
+    /// Minimum angle of the wrist from its straight position [default: 3]
     #[arg(long, value_name = "DEG")]
     pub least_wrist_deg: Option<f64>,
 
-    /// Penalty for a reversal of a joint: additional deviation times length of the path [default: 0]
+    /// Penalty for each reversal of a joint, as deviation times path length [default: 0]
     #[arg(long, value_name = "UM*MM")]
     pub reversal_um_mm: Option<f64>,
 }
@@ -51,7 +51,7 @@ pub(crate) struct PostureArguments {
 pub(crate) enum ObjectiveArgument {
     /// The largest deviation along the path
     Worst,
-    /// The mean deviation of its points
+    /// The mean deviation along the path
     Mean,
     /// The deviation above the tolerance
     AboveTolerance,
@@ -93,6 +93,6 @@ Examples:
   armill posture cell                              any spin of the tool, in all branches
   armill posture cell --turns-deg -30,30 --objective mean
   armill posture cell --component cross-track --step-deg 2 --out best
-  armill posture cell --reversal-um-mm 200         fewer reversals: one equals 20 um more over 10 mm
-The results are those of `armill run` with the spins found; the table of a path has them as turn_deg. The picture
-NAME-turns.svg shows the deviation of every spin.";
+  armill posture cell --reversal-um-mm 200         fewer reversals: one weighs as much as 20 um over 10 mm
+The results are those of `armill run` with the best spins, which are in the column turn_deg of the table of each path.
+The picture NAME-turns.svg shows the deviation of every spin.";

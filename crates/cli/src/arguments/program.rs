@@ -15,13 +15,13 @@ pub(crate) struct ProgramOptions {
     /// Number of the tool on the controller
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub tool: u32,
-    /// Greatest distance of linear moves of the program from the path
+    /// Maximum distance between the linear moves of the program and the path
     #[arg(long, value_name = "UM", default_value_t = 5.0)]
     pub within_um: f64,
-    /// Height above the part at which each cut begins and ends
+    /// Height above the part from which the tool approaches each cut and to which it retracts
     #[arg(long, value_name = "MM", default_value_t = 50.0)]
     pub retract_mm: f64,
-    /// Blending distance at a point
+    /// Distance from a programmed point at which blending begins
     #[arg(long, value_name = "MM", default_value_t = 0.2)]
     pub blend_mm: f64,
 }

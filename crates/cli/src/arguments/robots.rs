@@ -42,16 +42,16 @@ pub(crate) struct RobotsArguments {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum RobotsAction {
-    /// Convert a URDF, xacro, OPW file, DH table, chain or library robot to a robot file of armill
+    /// Convert a URDF, xacro, OPW file, DH table, chain or library robot to an armill robot file
     Import(ImportArguments),
-    /// Check a robot file against poses read from its pendant: report which sign, zero or base differs
+    /// Check a robot file against poses read from the pendant: report which sign, zero or base differs
     Check(RobotsCheckArguments),
 }
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
 The extension selects the format: .urdf, .xacro, .xml; .yaml (OPW parameters); .dh, .csv (Denavit-Hartenberg table);
-.chain, .fsf (elementary motions). Comments in the robot file report what was assumed and what is missing.
+.chain, .fsf (elementary motions). Comments in the robot file state what was assumed and what is missing.
 
 Examples:
   armill robots import kr120.urdf --out kr120.toml
@@ -80,9 +80,11 @@ pub(crate) struct ImportArguments {
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
-A reading is joint positions, then the pose that the pendant shows for them: X,Y,Z in mm and the orientation
-kuka A,B,C; fanuc W,P,R; yaskawa and staubli Rx,Ry,Rz (deg); abb q1,q2,q3,q4; ur rotation vector (rad).
-Read two or three poses with every joint well away from 0 and 90 deg, base and world frame of the robot, tool 0.
+A reading is joint positions, `=`, and the pose that the pendant shows for them: X,Y,Z in mm and the orientation, which
+is A,B,C (kuka), W,P,R (fanuc) or Rx,Ry,Rz (yaskawa, staubli) in degrees, the quaternion q1,q2,q3,q4 (abb), or the
+rotation vector in rad (ur).
+Read two or three poses with every joint well away from 0 and 90 deg, in the base or world frame of the robot and with
+tool 0 selected.
 
 Examples:
   armill robots check yaskawa/mh12 --convention yaskawa --pose \"10,20,-30,40,50,60 = 991.88,224.90,203.74,96.64,-5.38,129.09\"")]
@@ -111,10 +113,10 @@ pub(crate) struct RobotsCheckArguments {
     /// Frame to which the readings are expected to be relative
     #[arg(long, value_name = "FRAME", default_value = armill_study::BASE_LINK)]
     pub base: String,
-    /// Distance within which a reading agrees
+    /// Maximum difference of the position at which a reading agrees
     #[arg(long, value_name = "D", default_value_t = 1.0, allow_hyphen_values = true)]
     pub within_mm: f64,
-    /// Angle within which a reading agrees
+    /// Maximum difference of the orientation at which a reading agrees
     #[arg(long, value_name = "A", default_value_t = 0.1, allow_hyphen_values = true)]
     pub within_deg: f64,
     /// Print as JSON on stdout

@@ -14,8 +14,8 @@ use super::writing::WritingOptions;
 #[command(
     allow_negative_numbers = true,
     after_help = "\
-FILE is a table whose column names end in units (x_mm,y_mm or x_mm,y_mm,z_mm or angle_deg,radius_mm), or rows of numbers
-with --unit. Guide: docs/guide/roundness.md
+A file is a table whose column names end in units (x_mm,y_mm or x_mm,y_mm,z_mm or angle_deg,radius_mm), or, with --unit,
+rows of numbers without column names. Guide: docs/guide/roundness.md
 
 Examples:
   armill roundness bore.csv
@@ -24,10 +24,10 @@ Examples:
   armill roundness cir2d1.ds --unit mm"
 )]
 pub(crate) struct RoundnessArguments {
-    /// Points of a profile, one file per profile
+    /// Points of the profiles, one file per profile
     #[arg(required = true)]
     pub files: Vec<PathBuf>,
-    /// Cut-off of the Gaussian filter, undulations per revolution [default: no filter]
+    /// Cut-off of the Gaussian filter in undulations per revolution [default: no filter]
     #[arg(long, value_name = "N")]
     pub upr: Option<u32>,
     /// Number of harmonics to report, from 1
@@ -44,7 +44,7 @@ pub(crate) struct RoundnessArguments {
     pub out: Option<PathBuf>,
     #[command(flatten)]
     pub writing: WritingOptions,
-    /// Print as JSON on stdout
+    /// Print the result as JSON on stdout
     #[arg(long)]
     pub json: bool,
 }

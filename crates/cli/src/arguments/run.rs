@@ -25,19 +25,19 @@ pub(crate) struct RunArguments {
 pub(crate) struct RunOptions {
     /// Folder with a study.toml, the file itself, or the name of an example study
     pub study: PathBuf,
-    /// Folder for the results [default: next to the study; out, posture, ... depending on the command]
+    /// Folder for the results [default: a folder next to the study, named by command: out, posture, ...]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Write tables only: no pictures, no report
     #[arg(long)]
     pub no_pictures: bool,
-    /// Write a CSV of series and volumes too, not only of maps and paths
+    /// Also write CSV files of series and volumes, not only of maps and paths
     #[arg(long)]
     pub csv: bool,
     /// Number of threads [default: all processors]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
-    /// Exit with 1 if the tolerance is not met at every point
+    /// Exit with code 1 unless every point is within the tolerance and inside the joint limits
     #[arg(long)]
     pub strict: bool,
     #[command(flatten)]

@@ -5,7 +5,7 @@ use clap::Args;
 
 #[derive(Clone, Copy, Debug, Args)]
 pub(crate) struct WritingOptions {
-    /// Replace files that armill did not write or that were changed since; never an input of the command
+    /// Overwrite files that armill did not write or that were changed since, but never an input of the command
     #[arg(long)]
     pub force: bool,
 }

@@ -24,7 +24,7 @@ pub(crate) fn run(arguments: &ServeArguments) -> Result<Outcome, StudyError> {
         say("warning: this armill was built without its page, and only serves the API under /api");
         say("help: in the source tree, with Node 20 or later: cargo xtask web, then build again");
     }
-    say("the page can only be opened on this machine; Ctrl-C ends it");
+    say("the page can only be opened on this machine; Ctrl-C stops it");
     server.run();
     Ok(Outcome::Fine)
 }

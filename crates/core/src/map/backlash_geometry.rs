@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use crate::kernel::Answers;
 use crate::path::{LoadedTrack, Track};
-use crate::predict::geometry_and_backlash;
+use crate::predict::unloaded;
 use crate::source::{Arm, ArmState, backlash};
 use crate::spatial::Wrench;
 
@@ -44,7 +44,7 @@ pub(super) fn add_backlash_and_geometry(
                 track.wrenches(load, index, wrenches);
                 let link_offsets = &link_offsets[index * joints..][..joints];
                 for (moved, wrench) in moved.iter_mut().zip(wrenches.iter()) {
-                    *moved = geometry_and_backlash(arm_state, link_offsets, wrench).linear;
+                    *moved = unloaded(arm_state, link_offsets, wrench).linear;
                 }
             });
         for index in 0..answers.points.len() {

@@ -88,7 +88,7 @@ const ALONG_TRACK: Origin = Origin {
 };
 const WITHOUT_LOAD: Origin = Origin {
     file: "core/src/predict.rs",
-    function: "geometry_and_backlash",
+    function: "unloaded",
     theory: Some("unloaded"),
     validation: None,
 };

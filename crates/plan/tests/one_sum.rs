@@ -6,7 +6,9 @@
 
 use std::path::Path;
 
+use armill_core::optimize::Compensation;
 use armill_core::watch::Watch;
+use armill_plan::compensate::compensate;
 use armill_study::live::{PoseTarget, PostureQuestion, StudyText, answer_json, postures};
 use serde_json::Value;
 
@@ -238,6 +240,24 @@ fn the_same_point_has_the_same_total_and_parts_on_every_surface() {
         );
     }
     assert_eq!(shown.answer.contributors, named);
+
+    // What compensation removes, and next to nothing is left.
+    std::fs::write(folder.path().join("study.toml"), STUDY).unwrap();
+    let study = armill_study::studies::find(folder.path())
+        .unwrap()
+        .read()
+        .unwrap();
+    let compensation = Compensation {
+        rest: 1e-9,
+        rounds: 20,
+    };
+    let paths = compensate(&study, Some("line"), compensation, Watch::NONE).unwrap();
+    let (before, after) = (&paths[0].given.before, &paths[0].given.after);
+    assert!(
+        (before.max_in_plane_um - map.in_plane).abs() < SAME * map.in_plane,
+        "{before:?}"
+    );
+    assert!(after.max_um < 1e-2 * before.max_um, "{after:?}");
 }
 
 #[test]
