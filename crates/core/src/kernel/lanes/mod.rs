@@ -52,6 +52,7 @@ mod load;
 mod numbers;
 mod placement;
 mod solve;
+mod whole;
 
 pub use by_block::{Arrays, Batch, Envelopes, Poses};
 pub use numbers::{Backend, Float, Precision, Real};

@@ -1,0 +1,101 @@
+//! The whole model in lanes: any chain at known joint positions, springs, masses, geometry, thermal growth.
+//!
+//! The same sum as `predict.rs`, a block of points at a time. Loops over parts are outside, loops over points inside:
+//! only the latter become vectors.
+//!
+//! In reading order: `chain` (frames of the links), `model` (constants of an arm and its parts), `parts` (screws and
+//! torques of gravity), `sum` (the displacements). [`WholeModel`] runs them.
+
+mod chain;
+mod model;
+mod parts;
+mod sum;
+
+use crate::kernel::lanes::numbers::{Backend, Plane, Planes, planes};
+use crate::source::Arm;
+use crate::spatial::Wrench;
+use chain::{FindFrames, FramePlanes};
+use model::ModelConstants;
+use parts::{FindParts, PartPlanes};
+use sum::{FindStill, OneWrench, StillPlanes};
+
+/// An arm with all parts of its model, and memory for a block of points; one per thread.
+#[derive(Clone, Debug)]
+pub(in crate::kernel) struct WholeModel {
+    model: ModelConstants,
+    backend: Backend,
+    frames: Vec<FramePlanes<f64>>,
+    actual: Vec<FramePlanes<f64>>,
+    parts: Vec<PartPlanes<f64>>,
+    still: Box<StillPlanes<f64>>,
+}
+
+impl WholeModel {
+    /// For this arm; none if it has a part that lanes do not know.
+    pub fn of(arm: &Arm<'_>, backend: Backend) -> Option<WholeModel> {
+        let model = ModelConstants::of(arm)?;
+        let frames = model.chain.joints() + 3;
+        Some(WholeModel {
+            frames: vec![FramePlanes::unknown(); frames],
+            actual: vec![FramePlanes::unknown(); if model.actual.is_some() { frames } else { 0 }],
+            parts: vec![PartPlanes::unknown(); model.parts.len()],
+            still: Box::new(StillPlanes {
+                gravity: planes(),
+                geometry: planes(),
+                thermal: planes(),
+            }),
+            model,
+            backend,
+        })
+    }
+
+    /// Puts the arm of each point at these joint positions, rad (m), one plane per joint.
+    pub fn set_joints(&mut self, joints: &[Plane<f64>]) {
+        let WholeModel {
+            model,
+            backend,
+            frames,
+            actual,
+            parts,
+            still,
+        } = self;
+        let flange_from_tool = &model.flange_from_tool;
+        backend.run(FindFrames {
+            chain: &model.chain,
+            flange_from_tool,
+            joints,
+            frames,
+        });
+        if let Some(chain) = &model.actual {
+            backend.run(FindFrames {
+                chain,
+                flange_from_tool,
+                joints,
+                frames: actual,
+            });
+        }
+        backend.run(FindParts { model, frames, parts });
+        backend.run(FindStill {
+            model,
+            frames,
+            actual: model.actual.as_ref().map(|_| actual.as_slice()),
+            parts,
+            still,
+        });
+    }
+
+    /// Displacement of the tool under `wrench` (at the TCP, base), m, base.
+    pub fn deviate(&self, wrench: &Wrench, deviation: &mut Planes<f64, 3>) {
+        self.backend.run(OneWrench {
+            model: &self.model,
+            parts: &self.parts,
+            still: &self.still,
+            force: wrench.force,
+            moment: wrench.moment,
+            deviation,
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests;
