@@ -2,8 +2,10 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::kernel::lanes::numbers::{BLOCK, Float, Plane, Planes, Real, Vector, Work, planes, put, sin_cos, vector};
 use crate::frame::Isometry;
+use crate::kernel::lanes::numbers::{
+    BLOCK, Float, Plane, Planes, Real, Vector, Work, planes, put, sin_cos, vector,
+};
 use crate::robot::{Motion, Robot};
 
 /// A frame in base at each point: its three axes, then its origin (m).
@@ -62,7 +64,10 @@ impl Displacement {
 
 impl ChainConstants {
     pub fn of(robot: &Robot) -> ChainConstants {
-        let displacement = |(translation, rotation)| Displacement { translation, rotation };
+        let displacement = |(translation, rotation)| Displacement {
+            translation,
+            rotation,
+        };
         let chain = robot.chain();
         let links = chain.links().iter().zip(robot.joints()).map(|(link, joint)| {
             let (axis, slides) = match link.motion {
@@ -152,7 +157,11 @@ pub(in crate::kernel::lanes) fn advance<R: Real>(frame: &mut FramePlanes<R::Floa
         let y = vector::<R>(&frame.axes[1], i);
         let z = vector::<R>(&frame.axes[2], i);
         let origin = vector::<R>(&frame.origin, i);
-        put(&mut frame.origin, i, x.mul_add(t.x, y.mul_add(t.y, z.mul_add(t.z, origin))));
+        put(
+            &mut frame.origin,
+            i,
+            x.mul_add(t.x, y.mul_add(t.y, z.mul_add(t.z, origin))),
+        );
     }
     let Some(rotation) = &by.rotation else { return };
     let columns = [
@@ -196,7 +205,9 @@ fn turn<R: Real>(
         let factor = R::of(*factor);
         for i in 0..BLOCK {
             R::step();
-            theta[i] = R::load(joints[*other][i]).mul_add(factor, R::load(theta[i])).store();
+            theta[i] = R::load(joints[*other][i])
+                .mul_add(factor, R::load(theta[i]))
+                .store();
         }
     }
     let (a, b) = ((link.axis + 1) % 3, (link.axis + 2) % 3);

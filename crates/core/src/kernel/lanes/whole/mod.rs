@@ -4,16 +4,21 @@
 //! only the latter become vectors.
 //!
 //! In reading order: `chain` (frames of the links), `model` (constants of an arm and its parts), `parts` (screws and
-//! torques of gravity), `sum` (the displacements). [`WholeModel`] runs them.
+//! torques of gravity), `sum` (the displacements), `answer` (the worst case, shares, uncertainty). [`WholeModel`] runs them.
 
+mod answer;
 mod chain;
 mod model;
 mod parts;
 mod sum;
 
-use crate::kernel::lanes::numbers::{Backend, Plane, Planes, planes};
+use nalgebra::Vector3;
+
+use crate::kernel::lanes::load::Worst;
+use crate::kernel::lanes::numbers::{BLOCK, Backend, Plane, Planes, planes};
 use crate::source::Arm;
 use crate::spatial::Wrench;
+use answer::{FindShares, TakeCase};
 use chain::{FindFrames, FramePlanes};
 use model::ModelConstants;
 use parts::{FindParts, PartPlanes};
@@ -28,6 +33,39 @@ pub(in crate::kernel) struct WholeModel {
     actual: Vec<FramePlanes<f64>>,
     parts: Vec<PartPlanes<f64>>,
     still: Box<StillPlanes<f64>>,
+    along: Planes<f64, 3>,
+    by_load: Plane<f64>,
+}
+
+/// The answers of a block.
+#[derive(Clone, Debug)]
+pub(in crate::kernel) struct WholeAnswers {
+    /// Deviation under each load case, m, base.
+    pub deviations: Vec<Planes<f64, 3>>,
+    pub worst: Worst<f64>,
+    /// Part of each contributor along the in-plane deviation of the worst case, m.
+    pub shares: Vec<Plane<f64>>,
+    /// Standard uncertainty of that deviation, m.
+    pub uncertainty: Plane<f64>,
+}
+
+impl WholeAnswers {
+    /// Memory for this many load cases and contributors.
+    pub fn with(cases: usize, contributors: usize) -> WholeAnswers {
+        WholeAnswers {
+            deviations: vec![planes(); cases],
+            worst: Worst {
+                in_plane: [0.0; BLOCK],
+                normal: [0.0; BLOCK],
+                full: [0.0; BLOCK],
+                case: [0.0; BLOCK],
+                components: planes(),
+                wrench: planes(),
+            },
+            shares: vec![[0.0; BLOCK]; contributors],
+            uncertainty: [0.0; BLOCK],
+        }
+    }
 }
 
 impl WholeModel {
@@ -42,8 +80,10 @@ impl WholeModel {
             still: Box::new(StillPlanes {
                 gravity: planes(),
                 geometry: planes(),
-                thermal: planes(),
+                lengths: planes(),
             }),
+            along: planes(),
+            by_load: [0.0; BLOCK],
             model,
             backend,
         })
@@ -58,6 +98,7 @@ impl WholeModel {
             actual,
             parts,
             still,
+            ..
         } = self;
         let flange_from_tool = &model.flange_from_tool;
         backend.run(FindFrames {
@@ -93,6 +134,40 @@ impl WholeModel {
             force: wrench.force,
             moment: wrench.moment,
             deviation,
+        });
+    }
+}
+
+impl WholeModel {
+    /// Number of contributors.
+    pub fn contributors(&self) -> usize {
+        self.model.contributors
+    }
+
+    /// Answers under these wrenches (at the TCP, base); `plane` is two directions across the normal, then the normal,
+    /// base.
+    pub fn answer(&mut self, cases: &[Wrench], plane: &[Vector3<f64>; 3], out: &mut WholeAnswers) {
+        for (case, (wrench, deviation)) in cases.iter().zip(&mut out.deviations).enumerate() {
+            self.deviate(wrench, deviation);
+            self.backend.run(TakeCase {
+                case,
+                force: wrench.force,
+                moment: wrench.moment,
+                plane,
+                deviation,
+                worst: &mut out.worst,
+            });
+        }
+        self.backend.run(FindShares {
+            model: &self.model,
+            parts: &self.parts,
+            still: &self.still,
+            plane,
+            worst: &out.worst,
+            along: &mut self.along,
+            by_load: &mut self.by_load,
+            shares: &mut out.shares,
+            uncertainty: &mut out.uncertainty,
         });
     }
 }

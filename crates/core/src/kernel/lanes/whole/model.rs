@@ -46,6 +46,10 @@ pub(in crate::kernel::lanes) struct ModelConstants {
     pub actual: Option<ChainConstants>,
     /// Relative growth of the links and its standard uncertainty.
     pub growth: Option<[f64; 2]>,
+    /// Fraction of the deviation by load and gravity that no compliance explains; standard deviation of the attained
+    /// position, m.
+    pub model_error: f64,
+    pub repeatability: f64,
     /// Number of contributors; index of the geometry and of thermal growth among them.
     pub contributors: usize,
     pub geometry: Option<usize>,
@@ -54,10 +58,16 @@ pub(in crate::kernel::lanes) struct ModelConstants {
 
 impl ModelConstants {
     /// The constants of `arm`; none if it has a part that lanes do not know: torque curves, a compensator, a covariance,
-    /// a load-dependent equilibrium.
+    /// a load-dependent equilibrium, backlash, a rail that grows.
     pub fn of(arm: &Arm<'_>) -> Option<ModelConstants> {
         let (robot, model) = (arm.robot, arm.model);
         let structure = &model.structure;
+        // The travel of a prismatic joint does not grow: not subtracted here.
+        let slides = (0..robot.joints().len()).any(|joint| robot.slides(joint));
+        let backlash = structure.joints_with_backlash().next().is_some();
+        if backlash || (slides && model.thermal.is_some()) {
+            return None;
+        }
         if !model.is_affine() || structure.compensator.is_some() || structure.covariance.is_some() {
             return None;
         }
@@ -75,21 +85,28 @@ impl ModelConstants {
             } else {
                 (Vector3::zeros(), unit)
             };
-            (Attachment::Joint(joint), Twist { linear, angular }, arm.compliance[joint])
+            (
+                Attachment::Joint(joint),
+                Twist { linear, angular },
+                arm.compliance[joint],
+            )
         });
         let springs = structure.springs.iter();
         let springs = springs.map(|spring| (spring.attachment, spring.direction, spring.compliance));
-        let parts = drives.chain(springs).enumerate().map(|(k, (attachment, direction, c))| {
-            Some(PartConstants {
-                rank: attachment.rank(joints),
-                linear: direction.linear,
-                angular: direction.angular,
-                compliance: c.value,
-                uncertainty: c.standard_uncertainty,
-                contributor: place(Contributor::At(attachment))?,
-                reference: at_reference.get(k).copied().unwrap_or_default(),
-            })
-        });
+        let parts = drives
+            .chain(springs)
+            .enumerate()
+            .map(|(k, (attachment, direction, c))| {
+                Some(PartConstants {
+                    rank: attachment.rank(joints),
+                    linear: direction.linear,
+                    angular: direction.angular,
+                    compliance: c.value,
+                    uncertainty: c.standard_uncertainty,
+                    contributor: place(Contributor::At(attachment))?,
+                    reference: at_reference.get(k).copied().unwrap_or_default(),
+                })
+            });
         Some(ModelConstants {
             flange_from_tool: Displacement::of(arm.flange_from_tool),
             parts: parts.collect::<Option<_>>()?,
@@ -108,6 +125,8 @@ impl ModelConstants {
             growth: model
                 .thermal
                 .map(|thermal| [thermal.growth, thermal.standard_uncertainty]),
+            model_error: structure.model_error,
+            repeatability: structure.repeatability,
             contributors: contributors.len(),
             geometry: place(Contributor::Geometry),
             thermal: place(Contributor::Thermal),
@@ -123,7 +142,11 @@ fn reference(arm: &Arm<'_>) -> Vec<[Vector3<f64>; 2]> {
     };
     let mut there = ArmState::new(*arm);
     there.set_joints(&gravity.reference);
-    let each = there.screws().iter().zip(there.gravity_torques()).zip(arm.compliances());
+    let each = there
+        .screws()
+        .iter()
+        .zip(there.gravity_torques())
+        .zip(arm.compliances());
     each.map(|((screw, torque), c)| [screw.linear * (c.value * torque), screw.linear * *torque])
         .collect()
 }

@@ -40,7 +40,10 @@ impl<T: Float> Work<T> for FindParts<'_, T> {
         while k < parts.len() {
             let constants = &model.parts[k];
             let frame = &frames[constants.rank];
-            let (along, about) = (Vector::<R>::of(&constants.linear), Vector::<R>::of(&constants.angular));
+            let (along, about) = (
+                Vector::<R>::of(&constants.linear),
+                Vector::<R>::of(&constants.angular),
+            );
             let part = &mut parts[k];
             for i in 0..BLOCK {
                 R::step();

@@ -14,7 +14,8 @@ pub(in crate::kernel::lanes) struct StillPlanes<T> {
     /// By gravity, relative to tool setting.
     pub gravity: Planes<T, 3>,
     pub geometry: Planes<T, 3>,
-    pub thermal: Planes<T, 3>,
+    /// The constant lengths from base to flange, which thermal growth multiplies.
+    pub lengths: Planes<T, 3>,
 }
 
 /// Fills [`StillPlanes`].
@@ -47,12 +48,19 @@ impl<T: Float> Work<T> for FindStill<'_, T> {
             let mut k = 0;
             while k < parts.len() {
                 let (constants, part) = (&model.parts[k], &parts[k]);
-                let (c, there) = (R::of(constants.compliance), Vector::<R>::of(&constants.reference[0]));
+                let (c, there) = (
+                    R::of(constants.compliance),
+                    Vector::<R>::of(&constants.reference[0]),
+                );
                 for i in 0..BLOCK {
                     R::step();
                     let so_far = vector::<R>(&still.gravity, i) - there;
                     let turned = c * R::load(part.weight[i]);
-                    put(&mut still.gravity, i, vector::<R>(&part.linear, i).mul_add(turned, so_far));
+                    put(
+                        &mut still.gravity,
+                        i,
+                        vector::<R>(&part.linear, i).mul_add(turned, so_far),
+                    );
                 }
                 k += 1;
             }
@@ -65,11 +73,10 @@ impl<T: Float> Work<T> for FindStill<'_, T> {
                 put(&mut still.geometry, i, away);
             }
         }
-        if let Some([growth, _]) = model.growth {
-            let growth = R::of(growth);
+        if model.growth.is_some() {
             for i in 0..BLOCK {
                 R::step();
-                put(&mut still.thermal, i, vector::<R>(&frames[tool - 1].origin, i).scaled(growth));
+                put(&mut still.lengths, i, vector::<R>(&frames[tool - 1].origin, i));
             }
         }
     }
@@ -122,11 +129,16 @@ impl<T: Float> Work<T> for OneWrench<'_, T> {
                 put(deviation, i, sum);
             }
         }
-        if model.thermal.is_some() {
+        if let Some([growth, _]) = model.growth {
+            let growth = R::of(growth);
             for i in 0..BLOCK {
                 R::step();
-                let sum = vector::<R>(deviation, i) + vector::<R>(&still.thermal, i);
-                put(deviation, i, sum);
+                let so_far = vector::<R>(deviation, i);
+                put(
+                    deviation,
+                    i,
+                    vector::<R>(&still.lengths, i).mul_add(growth, so_far),
+                );
             }
         }
     }

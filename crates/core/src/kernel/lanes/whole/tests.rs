@@ -1,10 +1,15 @@
-use nalgebra::{Point3, Vector3};
+use std::sync::Arc;
 
-use super::WholeModel;
+use nalgebra::{Point3, Unit, Vector3};
+
+use super::{WholeAnswers, WholeModel};
 use crate::arms;
+use crate::frame::both_across;
 use crate::kernel::lanes::numbers::{BLOCK, Backend, planes};
+use crate::kernel::{BranchChoice, Question, evaluate_posture};
+use crate::load::InputUncertainty;
 use crate::predict::deviation_of;
-use crate::robot::{Attachment, JointCompliance, Mass, Spring};
+use crate::robot::{Amount, Attachment, JointCompliance, Mass, Motion, Robot, Spring};
 use crate::source::stiffness_model::Gravity;
 use crate::source::thermal::ThermalGrowth;
 use crate::source::{Arm, ArmState, Links, StiffnessModel};
@@ -19,11 +24,20 @@ fn model(joints: usize) -> StiffnessModel {
     let mut model = StiffnessModel::DRIVES.clone();
     for joint in 0..joints {
         for axis in [Vector3::x(), Vector3::y()] {
-            model.structure.springs.push(Spring::about(Attachment::Joint(joint), axis, c));
+            model
+                .structure
+                .springs
+                .push(Spring::about(Attachment::Joint(joint), axis, c));
         }
     }
-    model.structure.springs.push(Spring::about(Attachment::Base, Vector3::y(), c));
-    model.structure.springs.push(Spring::along(Attachment::Tool, Vector3::x(), c));
+    model
+        .structure
+        .springs
+        .push(Spring::about(Attachment::Base, Vector3::y(), c));
+    model
+        .structure
+        .springs
+        .push(Spring::along(Attachment::Tool, Vector3::x(), c));
     model.structure.masses = [Attachment::Joint(1), Attachment::Joint(2), Attachment::Flange]
         .map(|attachment| Mass {
             attachment,
@@ -86,6 +100,95 @@ fn the_whole_model_in_lanes_is_that_of_the_plain_row() {
                 let found = Vector3::new(found[0][i], found[1][i], found[2][i]);
                 let away = (found - expected).norm() / expected.norm();
                 assert!(away < 1e-12, "{} {backend} {i}: {away:e}", robot.name());
+            }
+        }
+    }
+}
+
+/// The arm with its lengths a little longer.
+fn longer(robot: &Robot) -> Robot {
+    let mut motions = robot.chain().motions().to_vec();
+    for motion in &mut motions {
+        if let Motion::Along(_, Amount::Constant(length)) = motion {
+            *length *= 1.0005;
+        }
+    }
+    Robot::new("longer", motions, robot.joints().to_vec()).unwrap()
+}
+
+/// Witness: the plain row over the same cases, at the same joints.
+#[test]
+fn worst_case_shares_and_uncertainty_are_those_of_the_plain_row() {
+    let tool = arms::bent_tool();
+    let wrench = |x, y, z| Wrench {
+        force: Vector3::new(x, y, z),
+        moment: Vector3::new(0.1 * z, 0.2 * x, -0.3 * y),
+    };
+    let cases = [
+        wrench(60.0, -35.0, 20.0),
+        wrench(-20.0, 50.0, 30.0),
+        wrench(0.0, 0.0, -80.0),
+    ];
+    let normal = Unit::new_normalize(Vector3::new(0.2, -0.9, 0.3));
+    let [first, second] = both_across(&normal);
+    for robot in arms::ALL.iter() {
+        let dof = robot.joints().len();
+        let mut model = model(dof);
+        model.structure.repeatability = 4e-5;
+        model.structure.model_error = 0.09;
+        model.actual = Some(Arc::new(longer(robot)));
+        let compliance = vec![
+            JointCompliance {
+                value: 2e-6,
+                standard_uncertainty: 2e-7
+            };
+            dof
+        ];
+        let arm = Arm {
+            robot,
+            compliance: &compliance,
+            model: &model,
+            flange_from_tool: &tool,
+        };
+        let question = Question {
+            arm,
+            home: None,
+            cases: &cases,
+            uncertainty: InputUncertainty::NONE,
+            normal,
+            choice: BranchChoice::Best,
+        };
+        let mut stream = arms::Stream(5);
+        let q: Vec<Vec<f64>> = (0..BLOCK).map(|_| stream.joints(robot)).collect();
+        let joints: Vec<[f64; BLOCK]> = (0..dof)
+            .map(|joint| std::array::from_fn(|i| q[i][joint]))
+            .collect();
+        for backend in Backend::available() {
+            let mut lanes = WholeModel::of(&arm, backend).unwrap();
+            let mut found = WholeAnswers::with(cases.len(), lanes.contributors());
+            lanes.set_joints(&joints);
+            lanes.answer(&cases, &[first, second, normal.into_inner()], &mut found);
+            for (i, q) in q.iter().enumerate() {
+                let expected = evaluate_posture(&question, q, None);
+                let evaluation = expected.points[0].unwrap();
+                let close = |a: f64, b: f64, what: &str| {
+                    let away = (a - b).abs() / evaluation.full;
+                    assert!(away < 1e-12, "{} {backend} {i} {what}: {a:e} {b:e}", robot.name());
+                };
+                close(found.worst.in_plane[i], evaluation.in_plane, "in plane");
+                close(found.worst.normal[i], evaluation.normal, "normal");
+                close(found.worst.full[i], evaluation.full, "full");
+                close(found.uncertainty[i], evaluation.in_plane_uncertainty, "u");
+                assert_eq!(found.worst.case[i] as usize, evaluation.worst_case);
+                assert_eq!(found.shares.len(), expected.shares_at(0).len());
+                for (plane, share) in found.shares.iter().zip(expected.shares_at(0)) {
+                    close(plane[i], *share, "share");
+                }
+                for (planes, deviation) in found.deviations.iter().zip(expected.deviations_at(0)) {
+                    for axis in 0..3 {
+                        close(planes[axis][i], deviation[axis], "deviation");
+                    }
+                }
             }
         }
     }
