@@ -39,7 +39,7 @@ pub(in crate::kernel) struct WholeModel {
 
 /// The answers of a block.
 #[derive(Clone, Debug)]
-pub(in crate::kernel) struct WholeAnswers {
+pub(in crate::kernel::lanes) struct WholeAnswers {
     /// Deviation under each load case, m, base.
     pub deviations: Vec<Planes<f64, 3>>,
     pub worst: Worst<f64>,
@@ -90,7 +90,7 @@ impl WholeModel {
     }
 
     /// Puts the arm of each point at these joint positions, rad (m), one plane per joint.
-    pub fn set_joints(&mut self, joints: &[Plane<f64>]) {
+    pub(in crate::kernel::lanes) fn set_joints(&mut self, joints: &[Plane<f64>]) {
         let WholeModel {
             model,
             backend,
@@ -126,7 +126,7 @@ impl WholeModel {
     }
 
     /// Displacement of the tool under `wrench` (at the TCP, base), m, base.
-    pub fn deviate(&self, wrench: &Wrench, deviation: &mut Planes<f64, 3>) {
+    fn deviate(&self, wrench: &Wrench, deviation: &mut Planes<f64, 3>) {
         self.backend.run(OneWrench {
             model: &self.model,
             parts: &self.parts,
@@ -140,13 +140,18 @@ impl WholeModel {
 
 impl WholeModel {
     /// Number of contributors.
-    pub fn contributors(&self) -> usize {
+    pub(in crate::kernel::lanes) fn contributors(&self) -> usize {
         self.model.contributors
     }
 
-    /// Answers under these wrenches (at the TCP, base); `plane` is two directions across the normal, then the normal,
-    /// base.
-    pub fn answer(&mut self, cases: &[Wrench], plane: &[Vector3<f64>; 3], out: &mut WholeAnswers) {
+    /// Deviations under these wrenches (at the TCP, base) and the worst case; `plane` is two directions across the
+    /// normal, then the normal, base.
+    pub(in crate::kernel::lanes) fn envelope(
+        &mut self,
+        cases: &[Wrench],
+        plane: &[Vector3<f64>; 3],
+        out: &mut WholeAnswers,
+    ) {
         for (case, (wrench, deviation)) in cases.iter().zip(&mut out.deviations).enumerate() {
             self.deviate(wrench, deviation);
             self.backend.run(TakeCase {
@@ -158,6 +163,16 @@ impl WholeModel {
                 worst: &mut out.worst,
             });
         }
+    }
+
+    /// [`WholeModel::envelope`] with shares and uncertainty.
+    pub(in crate::kernel::lanes) fn answer(
+        &mut self,
+        cases: &[Wrench],
+        plane: &[Vector3<f64>; 3],
+        out: &mut WholeAnswers,
+    ) {
+        self.envelope(cases, plane, out);
         self.backend.run(FindShares {
             model: &self.model,
             parts: &self.parts,

@@ -4,16 +4,21 @@ use nalgebra::{Point3, Unit, Vector3};
 
 use super::{WholeAnswers, WholeModel};
 use crate::arms;
-use crate::frame::both_across;
+use crate::frame::{Isometry, both_across};
+use crate::kernel::answer::AnswerDetail;
+use crate::kernel::general::General;
 use crate::kernel::lanes::numbers::{BLOCK, Backend, planes};
-use crate::kernel::{BranchChoice, Question, evaluate_posture};
+use crate::kernel::{BranchChoice, Question, evaluate, evaluate_posture};
 use crate::load::InputUncertainty;
 use crate::predict::deviation_of;
+use crate::robot::forward::forward;
+use crate::robot::inverse::tool_on;
 use crate::robot::{Amount, Attachment, JointCompliance, Mass, Motion, Robot, Spring};
 use crate::source::stiffness_model::Gravity;
 use crate::source::thermal::ThermalGrowth;
 use crate::source::{Arm, ArmState, Links, StiffnessModel};
 use crate::spatial::Wrench;
+use crate::watch::Watch;
 
 /// Springs everywhere, masses, gravity and thermal growth.
 fn model(joints: usize) -> StiffnessModel {
@@ -192,4 +197,82 @@ fn worst_case_shares_and_uncertainty_are_those_of_the_plain_row() {
             }
         }
     }
+}
+
+/// Witness: the general solver, one point after the other.
+#[test]
+fn a_question_about_a_whole_model_has_the_answers_of_the_general_solver() {
+    let tool = arms::bent_tool();
+    let force = |x, y, z| Wrench::from_force(Vector3::new(x, y, z));
+    let cases = [force(60.0, -35.0, 20.0), force(-20.0, 50.0, 30.0)];
+    let (mut compared, mut in_all) = (0, 0);
+    for robot in arms::ALL.iter().filter(|robot| robot.ortho_parallel().is_some()) {
+        let dof = robot.joints().len();
+        let mut model = model(dof);
+        model.structure.repeatability = 4e-5;
+        model.actual = Some(Arc::new(longer(robot)));
+        let compliance = vec![
+            JointCompliance {
+                value: 2e-6,
+                standard_uncertainty: 2e-7
+            };
+            dof
+        ];
+        let arm = Arm {
+            robot,
+            compliance: &compliance,
+            model: &model,
+            flange_from_tool: &tool,
+        };
+        let mut stream = arms::Stream(23);
+        let poses: Vec<Isometry> = (0..3 * BLOCK + 7)
+            .map(|_| tool_on(&forward(robot, &stream.joints(robot)), &tool))
+            .collect();
+        for choice in [BranchChoice::Best, BranchChoice::Of(robot.nominal_branch())] {
+            let question = Question {
+                arm,
+                home: None,
+                cases: &cases,
+                uncertainty: InputUncertainty::NONE,
+                normal: -Vector3::x_axis(),
+                choice,
+            };
+            let found = evaluate(&question, poses.len(), |i| poses[i], Watch::NONE).unwrap();
+            let mut general = General::new(&question, AnswerDetail::Shares);
+            let (mut joints, mut deviations) = (vec![0.0; dof], vec![Vector3::zeros(); 2]);
+            let mut shares = vec![0.0; found.share_count];
+            for (i, pose) in poses.iter().enumerate() {
+                general.forget();
+                let expected = general.answer(&question, pose, None);
+                in_all += 1;
+                let (evaluation, expected) = match (&found.points[i], &expected) {
+                    (Ok(found), Ok(expected)) => (found, expected),
+                    (Err(_), Err(_)) => continue,
+                    (found, expected) => panic!("{} {i}: {found:?} {expected:?}", robot.name()),
+                };
+                compared += 1;
+                general.write(&mut joints, &mut deviations, &mut shares);
+                let close = |a: f64, b: f64, what: &str| {
+                    let away = (a - b).abs() / expected.full;
+                    assert!(away < 1e-9, "{} {choice:?} {i} {what}: {a:e} {b:e}", robot.name());
+                };
+                close(evaluation.in_plane, expected.in_plane, "in plane");
+                close(
+                    evaluation.in_plane_uncertainty,
+                    expected.in_plane_uncertainty,
+                    "u",
+                );
+                assert_eq!(evaluation.name, expected.name, "{} {i}", robot.name());
+                assert_eq!(evaluation.limit_joint, expected.limit_joint);
+                assert!((evaluation.limit_margin - expected.limit_margin).abs() < 1e-9);
+                for (a, b) in found.shares_at(i).iter().zip(&shares) {
+                    close(*a, *b, "share");
+                }
+                for (a, b) in found.joints_at(i).iter().zip(&joints) {
+                    assert!((a - b).abs() < 1e-9, "{} {i}: {a} {b}", robot.name());
+                }
+            }
+        }
+    }
+    assert!(compared * 2 > in_all, "{compared} of {in_all}");
 }
