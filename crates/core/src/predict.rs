@@ -16,8 +16,8 @@
 //! Maps, holes and single poses use the whole sum. Searches for placements and for the posture of a path use load and
 //! gravity only. Along a path geometry, thermal growth and backlash are added in a second step
 //! (`map/backlash_geometry.rs`), because friction decides from point to point at which side of its backlash each link
-//! rests. `kernel/lanes/load/deviation.rs` repeats the drives-only part for many points per instruction; it is tested
-//! against this function. [`elastic::predict`](crate::source::elastic::predict) is the simple model: joint drives only.
+//! rests. `kernel/lanes/load/deviation.rs` repeats the drives-only part for many points per instruction, and
+//! `kernel/lanes/whole/` all but backlash and what is not proportional to the load; both are tested against this function. [`elastic::predict`](crate::source::elastic::predict) is the simple model: joint drives only.
 //!
 //! Deviation: attained minus commanded position of the tool. Reference point: TCP. Basis: base. Unit: metres here,
 //! micrometres in the answers of `study`.

@@ -10,6 +10,10 @@ use crate::workpiece::Split;
 /// Tolerance (rad) at a limit: rounding of a joint that is at its limit.
 pub const AT_LIMIT: f64 = 1e-9;
 
+/// Envelopes that differ by less (relative) are equal, and the first posture is used. Two flips without names differ by
+/// rounding, which would otherwise select a different one at neighbouring points.
+pub(super) const ALIKE: f64 = 1e-9;
+
 /// Deviations that differ by less than this (relative) differ by rounding only.
 const SAME: f64 = 1e-10;
 

@@ -5,7 +5,7 @@
 
 use nalgebra::Vector3;
 
-use super::answer::{AnswerDetail, Evaluation};
+use super::answer::{ALIKE, AnswerDetail, Evaluation};
 use super::question::{BranchChoice, Question};
 use crate::frame::{Isometry, both_across};
 use crate::predict::deviation_of;
@@ -15,10 +15,6 @@ use crate::robot::{Overrun, PostureName, Unreachable};
 use crate::source::arm_state::LoadedPosture;
 use crate::source::{ArmState, Contributor, Links};
 use crate::spatial::Twist;
-
-/// Envelopes that differ by less (relative) are equal, and the first posture is used. Two flips without names differ by
-/// rounding, which would otherwise select a different one at neighbouring points.
-const ALIKE: f64 = 1e-9;
 
 /// Buffers for one point, reused from point to point.
 pub(super) struct General<'q> {

@@ -4,7 +4,7 @@
 
 use super::answer::{AnswerDetail, Slot, Slots};
 use super::general::General;
-use super::lanes::{POINTS, Points};
+use super::lanes::{Backend, POINTS, Points, WholeModel};
 use super::question::{BranchChoice, Question};
 use crate::frame::Isometry;
 use crate::watch::{Cancelled, Watch};
@@ -15,7 +15,7 @@ pub(super) const BLOCK: usize = POINTS;
 /// Buffers to answer a question, one per thread.
 pub(super) struct Solver<'q> {
     question: &'q Question<'q>,
-    /// For ortho-parallel arms whose only springs are the drives.
+    /// For ortho-parallel arms whose model lanes support.
     lanes: Option<Points<'q>>,
     general: General<'q>,
     poses: Vec<Isometry>,
@@ -48,10 +48,19 @@ impl<'q> Solver<'q> {
         Solver {
             question,
             order,
-            lanes: (model.is_drives_alone() && by_load_alone && question.uncertainty.is_none())
-                .then(|| question.arm.robot.ortho_parallel())
-                .flatten()
-                .map(|arm| Points::new(question, arm)),
+            lanes: question
+                .arm
+                .robot
+                .ortho_parallel()
+                .filter(|_| question.uncertainty.is_none())
+                .and_then(|arm| {
+                    if model.is_drives_alone() && by_load_alone {
+                        return Some(Points::new(question, arm, None));
+                    }
+                    let supported = detail == AnswerDetail::Shares || by_load_alone;
+                    let whole = WholeModel::of(&question.arm, Backend::fastest()).filter(|_| supported)?;
+                    Some(Points::new(question, arm, Some(whole)))
+                }),
             general: General::new(question, detail),
             poses: Vec::with_capacity(BLOCK),
             before: None,

@@ -150,6 +150,11 @@ impl Fixed {
         }
     }
 
+    /// Its translation, m, and its rotation; none where the axes stay parallel.
+    pub(crate) fn parts(&self) -> (Vector3<f64>, Option<Matrix3<f64>>) {
+        (self.translation, self.rotation)
+    }
+
     /// Applies the displacement to the frame with these axes (columns) and this origin.
     pub(super) fn advance(&self, axes: &mut Matrix3<f64>, origin: &mut Vector3<f64>) {
         *origin += *axes * self.translation;

@@ -4,7 +4,8 @@
 //! for each instruction set. In reading order: `numbers` (a number of one lane, planes, [`Backend`]: the instruction
 //! set); `geometry` (the arm, a prepared question, poses in the arm's axes); `solve` (postures, joint limits and
 //! positions, screws); `load` (compliance and deviations); `by_block` ([`Batch`]: entry point for many poses; whole
-//! answers for [`super::evaluate`]); `placement` (a path at placements of its part).
+//! answers for [`super::evaluate`]); `placement` (a path at placements of its part); `whole` (springs, masses, geometry and
+//! thermal growth of any chain at known joint positions).
 //!
 //! Theory and accuracy: `docs/theory/lanes.md`.
 //!
@@ -52,6 +53,7 @@ mod load;
 mod numbers;
 mod placement;
 mod solve;
+mod whole;
 
 pub use by_block::{Arrays, Batch, Envelopes, Poses};
 pub use numbers::{Backend, Float, Precision, Real};
@@ -59,6 +61,7 @@ pub use solve::flag;
 
 pub(super) use by_block::{POINTS, Points};
 pub(super) use placement::{PlacementPoints, Placer, Tallied};
+pub(super) use whole::WholeModel;
 
 #[cfg(test)]
 mod tests;

@@ -4,6 +4,7 @@ use super::super::tests::{NOMINAL, analysis, poses};
 use super::*;
 use crate::arms;
 use crate::kernel::Answers;
+use crate::robot::{Backlash, BacklashSide};
 use crate::source::StiffnessModel;
 
 /// The answers at these poses, with or without lanes.
@@ -77,15 +78,23 @@ fn lanes_and_single_points_agree_for_every_arm() {
 }
 
 #[test]
-fn only_drives_without_uncertainty_go_through_lanes() {
+fn what_lanes_do_not_know_goes_the_general_way() {
     let springy = super::super::tests::springy();
-    analysis(&arms::ALL[0], &springy, NOMINAL, |question| {
-        assert!(
-            Solver::new(question, Order::Any, AnswerDetail::Shares)
-                .lanes
-                .is_none()
-        );
-    });
+    let mut worn = springy.clone();
+    worn.structure.backlash = vec![
+        Some(Backlash {
+            gap: 1e-4,
+            standard_uncertainty: 0.0,
+            side: BacklashSide::Motion,
+        });
+        6
+    ];
+    for (model, in_lanes) in [(&springy, true), (&worn, false)] {
+        analysis(&arms::ALL[0], model, NOMINAL, |question| {
+            let solver = Solver::new(question, Order::Any, AnswerDetail::Shares);
+            assert_eq!(solver.lanes.is_some(), in_lanes);
+        });
+    }
     analysis(&arms::ALL[0], StiffnessModel::DRIVES, NOMINAL, |question| {
         let uncertain = Question {
             uncertainty: crate::load::InputUncertainty {

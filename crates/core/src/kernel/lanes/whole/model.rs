@@ -1,0 +1,152 @@
+//! The constants of an arm and of all parts of its model.
+
+use nalgebra::Vector3;
+
+use super::chain::{ChainConstants, Displacement};
+use crate::robot::Attachment;
+use crate::source::{Arm, ArmState, Contributor};
+use crate::spatial::Twist;
+
+/// A drive or spring.
+#[derive(Clone, Debug)]
+pub(in crate::kernel::lanes) struct PartConstants {
+    /// Rank of its attachment.
+    pub rank: usize,
+    /// Its motion in the frame of the attachment.
+    pub linear: Vector3<f64>,
+    pub angular: Vector3<f64>,
+    /// rad/(N m) or m/N.
+    pub compliance: f64,
+    pub uncertainty: f64,
+    /// Index of its contributor.
+    pub contributor: usize,
+    /// Displacement by gravity at tool setting, m, and the same per unit of compliance.
+    pub reference: [Vector3<f64>; 2],
+}
+
+/// A mass.
+#[derive(Clone, Debug)]
+pub(in crate::kernel::lanes) struct MassConstants {
+    pub rank: usize,
+    pub mass: f64,
+    pub centre: Vector3<f64>,
+}
+
+/// An arm whose parts lanes support.
+#[derive(Clone, Debug)]
+pub(in crate::kernel::lanes) struct ModelConstants {
+    pub chain: ChainConstants,
+    pub flange_from_tool: Displacement,
+    /// The drives, then the springs.
+    pub parts: Vec<PartConstants>,
+    pub masses: Vec<MassConstants>,
+    /// Of free fall, base, m/s^2; none where gravity is neglected.
+    pub acceleration: Option<Vector3<f64>>,
+    /// The calibrated arm.
+    pub actual: Option<ChainConstants>,
+    /// Relative growth of the links and its standard uncertainty.
+    pub growth: Option<[f64; 2]>,
+    /// Fraction of the deviation by load and gravity that no compliance explains; standard deviation of the attained
+    /// position, m.
+    pub model_error: f64,
+    pub repeatability: f64,
+    /// Number of contributors; index of the geometry and of thermal growth among them.
+    pub contributors: usize,
+    pub geometry: Option<usize>,
+    pub thermal: Option<usize>,
+}
+
+impl ModelConstants {
+    /// The constants of `arm`; none if it has a part that lanes do not know: torque curves, a compensator, a covariance,
+    /// a load-dependent equilibrium, backlash, a rail that grows.
+    pub fn of(arm: &Arm<'_>) -> Option<ModelConstants> {
+        let (robot, model) = (arm.robot, arm.model);
+        let structure = &model.structure;
+        // The travel of a prismatic joint does not grow: not subtracted here.
+        let slides = (0..robot.joints().len()).any(|joint| robot.slides(joint));
+        let backlash = structure.joints_with_backlash().next().is_some();
+        if backlash || (slides && model.thermal.is_some()) {
+            return None;
+        }
+        if !model.is_affine() || structure.compensator.is_some() || structure.covariance.is_some() {
+            return None;
+        }
+        let joints = robot.joints().len();
+        let contributors = model.contributors(joints);
+        let place = |wanted: Contributor| contributors.iter().position(|one| *one == wanted);
+        let gravity = model.gravity.as_ref().filter(|_| !structure.masses.is_empty());
+        let at_reference = reference(arm);
+        let chain = ChainConstants::of(robot);
+        let drives = (0..joints).map(|joint| {
+            let (axis, slides) = chain.axis(joint);
+            let unit = Vector3::from_fn(|k, _| f64::from(u8::from(k == axis)));
+            let (linear, angular) = if slides {
+                (unit, Vector3::zeros())
+            } else {
+                (Vector3::zeros(), unit)
+            };
+            (
+                Attachment::Joint(joint),
+                Twist { linear, angular },
+                arm.compliance[joint],
+            )
+        });
+        let springs = structure.springs.iter();
+        let springs = springs.map(|spring| (spring.attachment, spring.direction, spring.compliance));
+        let parts = drives
+            .chain(springs)
+            .enumerate()
+            .map(|(k, (attachment, direction, c))| {
+                Some(PartConstants {
+                    rank: attachment.rank(joints),
+                    linear: direction.linear,
+                    angular: direction.angular,
+                    compliance: c.value,
+                    uncertainty: c.standard_uncertainty,
+                    contributor: place(Contributor::At(attachment))?,
+                    reference: at_reference.get(k).copied().unwrap_or_default(),
+                })
+            });
+        Some(ModelConstants {
+            flange_from_tool: Displacement::of(arm.flange_from_tool),
+            parts: parts.collect::<Option<_>>()?,
+            masses: gravity.map_or(Vec::new(), |_| {
+                let masses = structure.masses.iter();
+                masses
+                    .map(|mass| MassConstants {
+                        rank: mass.attachment.rank(joints),
+                        mass: mass.mass,
+                        centre: mass.centre.coords,
+                    })
+                    .collect()
+            }),
+            acceleration: gravity.map(|gravity| gravity.acceleration),
+            actual: model.actual.as_deref().map(ChainConstants::of),
+            growth: model
+                .thermal
+                .map(|thermal| [thermal.growth, thermal.standard_uncertainty]),
+            model_error: structure.model_error,
+            repeatability: structure.repeatability,
+            contributors: contributors.len(),
+            geometry: place(Contributor::Geometry),
+            thermal: place(Contributor::Thermal),
+            chain,
+        })
+    }
+}
+
+/// Displacement by gravity at tool setting, part by part, and per unit of compliance; empty without gravity.
+fn reference(arm: &Arm<'_>) -> Vec<[Vector3<f64>; 2]> {
+    let Some(gravity) = arm.model.gravity.as_ref() else {
+        return Vec::new();
+    };
+    let mut there = ArmState::new(*arm);
+    there.set_joints(&gravity.reference);
+    let each = there
+        .screws()
+        .iter()
+        .zip(there.gravity_torques())
+        .zip(arm.compliances());
+    each.map(|((screw, torque), c)| [screw.linear * (c.value * torque), screw.linear * *torque])
+        .collect()
+}

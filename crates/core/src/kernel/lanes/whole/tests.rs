@@ -1,0 +1,278 @@
+use std::sync::Arc;
+
+use nalgebra::{Point3, Unit, Vector3};
+
+use super::{WholeAnswers, WholeModel};
+use crate::arms;
+use crate::frame::{Isometry, both_across};
+use crate::kernel::answer::AnswerDetail;
+use crate::kernel::general::General;
+use crate::kernel::lanes::numbers::{BLOCK, Backend, planes};
+use crate::kernel::{BranchChoice, Question, evaluate, evaluate_posture};
+use crate::load::InputUncertainty;
+use crate::predict::deviation_of;
+use crate::robot::forward::forward;
+use crate::robot::inverse::tool_on;
+use crate::robot::{Amount, Attachment, JointCompliance, Mass, Motion, Robot, Spring};
+use crate::source::stiffness_model::Gravity;
+use crate::source::thermal::ThermalGrowth;
+use crate::source::{Arm, ArmState, Links, StiffnessModel};
+use crate::spatial::Wrench;
+use crate::watch::Watch;
+
+/// Springs everywhere, masses, gravity and thermal growth.
+fn model(joints: usize) -> StiffnessModel {
+    let c = JointCompliance {
+        value: 3e-7,
+        standard_uncertainty: 1e-8,
+    };
+    let mut model = StiffnessModel::DRIVES.clone();
+    for joint in 0..joints {
+        for axis in [Vector3::x(), Vector3::y()] {
+            model
+                .structure
+                .springs
+                .push(Spring::about(Attachment::Joint(joint), axis, c));
+        }
+    }
+    model
+        .structure
+        .springs
+        .push(Spring::about(Attachment::Base, Vector3::y(), c));
+    model
+        .structure
+        .springs
+        .push(Spring::along(Attachment::Tool, Vector3::x(), c));
+    model.structure.masses = [Attachment::Joint(1), Attachment::Joint(2), Attachment::Flange]
+        .map(|attachment| Mass {
+            attachment,
+            mass: 30.0,
+            centre: Point3::new(0.1, 0.02, 0.2),
+        })
+        .to_vec();
+    model.gravity = Some(Gravity {
+        acceleration: Vector3::new(0.0, 0.0, -9.81),
+        reference: vec![0.2; joints],
+    });
+    model.thermal = Some(ThermalGrowth::new(12e-6, 8.0, 2.0));
+    model
+}
+
+/// Witness: the plain row of `predict.rs`.
+#[test]
+fn the_whole_model_in_lanes_is_that_of_the_plain_row() {
+    let tool = arms::bent_tool();
+    let wrench = Wrench {
+        force: Vector3::new(60.0, -35.0, 20.0),
+        moment: Vector3::new(1.0, 2.0, -3.0),
+    };
+    for robot in arms::ALL.iter() {
+        let model = model(robot.joints().len());
+        let compliance = vec![
+            JointCompliance {
+                value: 2e-6,
+                standard_uncertainty: 2e-7
+            };
+            robot.joints().len()
+        ];
+        let arm = Arm {
+            robot,
+            compliance: &compliance,
+            model: &model,
+            flange_from_tool: &tool,
+        };
+        let mut stream = arms::Stream(17);
+        let q: Vec<Vec<f64>> = (0..BLOCK).map(|_| stream.joints(robot)).collect();
+        let joints: Vec<[f64; BLOCK]> = (0..robot.joints().len())
+            .map(|joint| std::array::from_fn(|i| q[i][joint]))
+            .collect();
+        let mut plain = ArmState::new(arm);
+        let mut positions = vec![0.0; robot.joints().len()];
+        let expected: Vec<Vector3<f64>> = q
+            .iter()
+            .map(|q| {
+                plain.set_joints(q);
+                let mut links = Links::Farthest([Vector3::x(), Vector3::y()], &mut positions);
+                deviation_of(&mut plain, &wrench, &mut links).unwrap().linear
+            })
+            .collect();
+        for backend in Backend::available() {
+            let mut lanes = WholeModel::of(&arm, backend).unwrap();
+            lanes.set_joints(&joints);
+            let mut found = planes();
+            lanes.deviate(&wrench, &mut found);
+            for (i, expected) in expected.iter().enumerate() {
+                let found = Vector3::new(found[0][i], found[1][i], found[2][i]);
+                let away = (found - expected).norm() / expected.norm();
+                assert!(away < 1e-12, "{} {backend} {i}: {away:e}", robot.name());
+            }
+        }
+    }
+}
+
+/// The arm with its lengths a little longer.
+fn longer(robot: &Robot) -> Robot {
+    let mut motions = robot.chain().motions().to_vec();
+    for motion in &mut motions {
+        if let Motion::Along(_, Amount::Constant(length)) = motion {
+            *length *= 1.0005;
+        }
+    }
+    Robot::new("longer", motions, robot.joints().to_vec()).unwrap()
+}
+
+/// Witness: the plain row over the same cases, at the same joints.
+#[test]
+fn worst_case_shares_and_uncertainty_are_those_of_the_plain_row() {
+    let tool = arms::bent_tool();
+    let wrench = |x, y, z| Wrench {
+        force: Vector3::new(x, y, z),
+        moment: Vector3::new(0.1 * z, 0.2 * x, -0.3 * y),
+    };
+    let cases = [
+        wrench(60.0, -35.0, 20.0),
+        wrench(-20.0, 50.0, 30.0),
+        wrench(0.0, 0.0, -80.0),
+    ];
+    let normal = Unit::new_normalize(Vector3::new(0.2, -0.9, 0.3));
+    let [first, second] = both_across(&normal);
+    for robot in arms::ALL.iter() {
+        let dof = robot.joints().len();
+        let mut model = model(dof);
+        model.structure.repeatability = 4e-5;
+        model.structure.model_error = 0.09;
+        model.actual = Some(Arc::new(longer(robot)));
+        let compliance = vec![
+            JointCompliance {
+                value: 2e-6,
+                standard_uncertainty: 2e-7
+            };
+            dof
+        ];
+        let arm = Arm {
+            robot,
+            compliance: &compliance,
+            model: &model,
+            flange_from_tool: &tool,
+        };
+        let question = Question {
+            arm,
+            home: None,
+            cases: &cases,
+            uncertainty: InputUncertainty::NONE,
+            normal,
+            choice: BranchChoice::Best,
+        };
+        let mut stream = arms::Stream(5);
+        let q: Vec<Vec<f64>> = (0..BLOCK).map(|_| stream.joints(robot)).collect();
+        let joints: Vec<[f64; BLOCK]> = (0..dof)
+            .map(|joint| std::array::from_fn(|i| q[i][joint]))
+            .collect();
+        for backend in Backend::available() {
+            let mut lanes = WholeModel::of(&arm, backend).unwrap();
+            let mut found = WholeAnswers::with(cases.len(), lanes.contributors());
+            lanes.set_joints(&joints);
+            lanes.answer(&cases, &[first, second, normal.into_inner()], &mut found);
+            for (i, q) in q.iter().enumerate() {
+                let expected = evaluate_posture(&question, q, None);
+                let evaluation = expected.points[0].unwrap();
+                let close = |a: f64, b: f64, what: &str| {
+                    let away = (a - b).abs() / evaluation.full;
+                    assert!(away < 1e-12, "{} {backend} {i} {what}: {a:e} {b:e}", robot.name());
+                };
+                close(found.worst.in_plane[i], evaluation.in_plane, "in plane");
+                close(found.worst.normal[i], evaluation.normal, "normal");
+                close(found.worst.full[i], evaluation.full, "full");
+                close(found.uncertainty[i], evaluation.in_plane_uncertainty, "u");
+                assert_eq!(found.worst.case[i] as usize, evaluation.worst_case);
+                assert_eq!(found.shares.len(), expected.shares_at(0).len());
+                for (plane, share) in found.shares.iter().zip(expected.shares_at(0)) {
+                    close(plane[i], *share, "share");
+                }
+                for (planes, deviation) in found.deviations.iter().zip(expected.deviations_at(0)) {
+                    for axis in 0..3 {
+                        close(planes[axis][i], deviation[axis], "deviation");
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Witness: the general solver, one point after the other.
+#[test]
+fn a_question_about_a_whole_model_has_the_answers_of_the_general_solver() {
+    let tool = arms::bent_tool();
+    let force = |x, y, z| Wrench::from_force(Vector3::new(x, y, z));
+    let cases = [force(60.0, -35.0, 20.0), force(-20.0, 50.0, 30.0)];
+    let (mut compared, mut in_all) = (0, 0);
+    for robot in arms::ALL.iter().filter(|robot| robot.ortho_parallel().is_some()) {
+        let dof = robot.joints().len();
+        let mut model = model(dof);
+        model.structure.repeatability = 4e-5;
+        model.actual = Some(Arc::new(longer(robot)));
+        let compliance = vec![
+            JointCompliance {
+                value: 2e-6,
+                standard_uncertainty: 2e-7
+            };
+            dof
+        ];
+        let arm = Arm {
+            robot,
+            compliance: &compliance,
+            model: &model,
+            flange_from_tool: &tool,
+        };
+        let mut stream = arms::Stream(23);
+        let poses: Vec<Isometry> = (0..3 * BLOCK + 7)
+            .map(|_| tool_on(&forward(robot, &stream.joints(robot)), &tool))
+            .collect();
+        for choice in [BranchChoice::Best, BranchChoice::Of(robot.nominal_branch())] {
+            let question = Question {
+                arm,
+                home: None,
+                cases: &cases,
+                uncertainty: InputUncertainty::NONE,
+                normal: -Vector3::x_axis(),
+                choice,
+            };
+            let found = evaluate(&question, poses.len(), |i| poses[i], Watch::NONE).unwrap();
+            let mut general = General::new(&question, AnswerDetail::Shares);
+            let (mut joints, mut deviations) = (vec![0.0; dof], vec![Vector3::zeros(); 2]);
+            let mut shares = vec![0.0; found.share_count];
+            for (i, pose) in poses.iter().enumerate() {
+                general.forget();
+                let expected = general.answer(&question, pose, None);
+                in_all += 1;
+                let (evaluation, expected) = match (&found.points[i], &expected) {
+                    (Ok(found), Ok(expected)) => (found, expected),
+                    (Err(_), Err(_)) => continue,
+                    (found, expected) => panic!("{} {i}: {found:?} {expected:?}", robot.name()),
+                };
+                compared += 1;
+                general.write(&mut joints, &mut deviations, &mut shares);
+                let close = |a: f64, b: f64, what: &str| {
+                    let away = (a - b).abs() / expected.full;
+                    assert!(away < 1e-9, "{} {choice:?} {i} {what}: {a:e} {b:e}", robot.name());
+                };
+                close(evaluation.in_plane, expected.in_plane, "in plane");
+                close(
+                    evaluation.in_plane_uncertainty,
+                    expected.in_plane_uncertainty,
+                    "u",
+                );
+                assert_eq!(evaluation.name, expected.name, "{} {i}", robot.name());
+                assert_eq!(evaluation.limit_joint, expected.limit_joint);
+                assert!((evaluation.limit_margin - expected.limit_margin).abs() < 1e-9);
+                for (a, b) in found.shares_at(i).iter().zip(&shares) {
+                    close(*a, *b, "share");
+                }
+                for (a, b) in found.joints_at(i).iter().zip(&joints) {
+                    assert!((a - b).abs() < 1e-9, "{} {i}: {a} {b}", robot.name());
+                }
+            }
+        }
+    }
+    assert!(compared * 2 > in_all, "{compared} of {in_all}");
+}
