@@ -48,19 +48,14 @@ impl<'q> Solver<'q> {
         Solver {
             question,
             order,
-            lanes: question
-                .arm
-                .robot
-                .ortho_parallel()
-                .filter(|_| question.uncertainty.is_none())
-                .and_then(|arm| {
-                    if model.is_drives_alone() && by_load_alone {
-                        return Some(Points::new(question, arm, None));
-                    }
-                    let supported = detail == AnswerDetail::Shares || by_load_alone;
-                    let whole = WholeModel::of(&question.arm, Backend::fastest()).filter(|_| supported)?;
-                    Some(Points::new(question, arm, Some(whole)))
-                }),
+            lanes: question.arm.robot.ortho_parallel().and_then(|arm| {
+                if model.is_drives_alone() && by_load_alone && question.uncertainty.is_none() {
+                    return Some(Points::new(question, arm, None));
+                }
+                let supported = detail == AnswerDetail::Shares || by_load_alone;
+                let whole = WholeModel::of(&question.arm, Backend::fastest()).filter(|_| supported)?;
+                Some(Points::new(question, arm, Some(whole)))
+            }),
             general: General::new(question, detail),
             poses: Vec::with_capacity(BLOCK),
             before: None,

@@ -95,20 +95,6 @@ fn what_lanes_do_not_know_goes_the_general_way() {
             assert_eq!(solver.lanes.is_some(), in_lanes);
         });
     }
-    analysis(&arms::ALL[0], StiffnessModel::DRIVES, NOMINAL, |question| {
-        let uncertain = Question {
-            uncertainty: crate::load::InputUncertainty {
-                relative: 0.1,
-                ..question.uncertainty
-            },
-            ..*question
-        };
-        assert!(
-            Solver::new(&uncertain, Order::Any, AnswerDetail::Shares)
-                .lanes
-                .is_none()
-        );
-    });
     let railed = arms::other::on_rail(&arms::ALL[0]);
     analysis(&railed, StiffnessModel::DRIVES, NOMINAL, |question| {
         assert!(

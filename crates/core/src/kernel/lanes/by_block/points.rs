@@ -139,7 +139,7 @@ impl<'q> Points<'q> {
             stances.flip.clone_from(flip);
         }
         model.set_joints(&stances.joints);
-        model.answer(self.question.cases, plane, answers);
+        model.answer(self.question.cases, plane, &self.question.uncertainty, answers);
     }
 
     /// The answer at point `index` of the block; `None` where lanes cannot decide.

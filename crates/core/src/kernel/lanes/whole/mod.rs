@@ -4,10 +4,12 @@
 //! only the latter become vectors.
 //!
 //! In reading order: `chain` (frames of the links), `model` (constants of an arm and its parts), `parts` (screws and
-//! torques of gravity), `sum` (the displacements), `answer` (the worst case, shares, uncertainty). [`WholeModel`] runs them.
+//! torques of gravity), `sum` (the displacements), `answer` (the worst case, shares, uncertainty),
+//! `inputs` (uncertainty by load and tool). [`WholeModel`] runs them.
 
 mod answer;
 mod chain;
+mod inputs;
 mod model;
 mod parts;
 mod sum;
@@ -16,10 +18,12 @@ use nalgebra::Vector3;
 
 use crate::kernel::lanes::load::Worst;
 use crate::kernel::lanes::numbers::{BLOCK, Backend, Plane, Planes, planes};
+use crate::load::InputUncertainty;
 use crate::source::Arm;
 use crate::spatial::Wrench;
 use answer::{FindShares, TakeCase};
 use chain::{FindFrames, FramePlanes};
+use inputs::AddInputs;
 use model::ModelConstants;
 use parts::{FindParts, PartPlanes};
 use sum::{FindStill, OneWrench, StillPlanes};
@@ -165,11 +169,12 @@ impl WholeModel {
         }
     }
 
-    /// [`WholeModel::envelope`] with shares and uncertainty.
+    /// [`WholeModel::envelope`] with shares and uncertainty, that of load and tool included.
     pub(in crate::kernel::lanes) fn answer(
         &mut self,
         cases: &[Wrench],
         plane: &[Vector3<f64>; 3],
+        inputs: &InputUncertainty,
         out: &mut WholeAnswers,
     ) {
         self.envelope(cases, plane, out);
@@ -184,6 +189,17 @@ impl WholeModel {
             shares: &mut out.shares,
             uncertainty: &mut out.uncertainty,
         });
+        if !inputs.is_none() {
+            self.backend.run(AddInputs {
+                model: &self.model,
+                inputs,
+                frames: &self.frames,
+                parts: &self.parts,
+                worst: &out.worst,
+                along: &self.along,
+                uncertainty: &mut out.uncertainty,
+            });
+        }
     }
 }
 

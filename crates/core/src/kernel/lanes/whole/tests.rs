@@ -20,6 +20,17 @@ use crate::source::{Arm, ArmState, Links, StiffnessModel};
 use crate::spatial::Wrench;
 use crate::watch::Watch;
 
+/// Every input that may be uncertain.
+const UNCERTAIN: InputUncertainty = InputUncertainty {
+    relative: 0.12,
+    forces: [
+        Vector3::new(3.0, 0.0, 0.0),
+        Vector3::new(0.0, 2.0, 1.0),
+        Vector3::new(0.0, 0.0, 4.0),
+    ],
+    tool_length: 2e-4,
+};
+
 /// Springs everywhere, masses, gravity and thermal growth.
 fn model(joints: usize) -> StiffnessModel {
     let c = JointCompliance {
@@ -159,7 +170,7 @@ fn worst_case_shares_and_uncertainty_are_those_of_the_plain_row() {
             arm,
             home: None,
             cases: &cases,
-            uncertainty: InputUncertainty::NONE,
+            uncertainty: UNCERTAIN,
             normal,
             choice: BranchChoice::Best,
         };
@@ -172,7 +183,8 @@ fn worst_case_shares_and_uncertainty_are_those_of_the_plain_row() {
             let mut lanes = WholeModel::of(&arm, backend).unwrap();
             let mut found = WholeAnswers::with(cases.len(), lanes.contributors());
             lanes.set_joints(&joints);
-            lanes.answer(&cases, &[first, second, normal.into_inner()], &mut found);
+            let plane = [first, second, normal.into_inner()];
+            lanes.answer(&cases, &plane, &UNCERTAIN, &mut found);
             for (i, q) in q.iter().enumerate() {
                 let expected = evaluate_posture(&question, q, None);
                 let evaluation = expected.points[0].unwrap();
@@ -234,7 +246,7 @@ fn a_question_about_a_whole_model_has_the_answers_of_the_general_solver() {
                 arm,
                 home: None,
                 cases: &cases,
-                uncertainty: InputUncertainty::NONE,
+                uncertainty: UNCERTAIN,
                 normal: -Vector3::x_axis(),
                 choice,
             };
