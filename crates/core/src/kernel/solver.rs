@@ -2,11 +2,15 @@
 //!
 //! A block does not depend on other blocks, except along a path: every thread gives the same bits.
 
-use super::answer::{AnswerDetail, Slot, Slots};
+use nalgebra::Vector3;
+
+use super::answer::{AnswerDetail, Evaluation, Slot, Slots};
 use super::general::General;
-use super::lanes::{Backend, POINTS, Points, WholeModel};
+use super::lanes::{POINTS, Points, WholePoints};
 use super::question::{BranchChoice, Question};
 use crate::frame::Isometry;
+use crate::robot::inverse::whole_turns;
+use crate::robot::{Branch, Robot};
 use crate::watch::{Cancelled, Watch};
 
 /// Points in a block: one call of the lanes.
@@ -15,13 +19,83 @@ pub(super) const BLOCK: usize = POINTS;
 /// Buffers to answer a question, one per thread.
 pub(super) struct Solver<'q> {
     question: &'q Question<'q>,
-    /// For ortho-parallel arms whose model lanes support.
-    lanes: Option<Points<'q>>,
+    lanes: Option<Lanes<'q>>,
     general: General<'q>,
     poses: Vec<Isometry>,
     order: Order,
+    /// Whether joint positions follow those of the point before by whole turns.
+    follows: bool,
     /// Joint positions of the point before, if there is one.
     before: Option<Vec<f64>>,
+}
+
+/// The lanes of an arm and its model.
+enum Lanes<'q> {
+    /// An ortho-parallel arm, the drives alone.
+    Drives(Points<'q>),
+    /// An arm with named branches, and its whole model.
+    Whole(Box<WholePoints<'q>>),
+}
+
+impl<'q> Lanes<'q> {
+    /// None for arms and models that lanes do not know.
+    fn of(question: &'q Question<'q>, order: Order, detail: AnswerDetail) -> Option<Lanes<'q>> {
+        let (robot, model) = (question.arm.robot, question.arm.model);
+        let by_load_alone = detail == AnswerDetail::DeviationsAlone || !model.has_unloaded_deviation();
+        if let Some(arm) = robot.ortho_parallel()
+            && model.is_drives_alone()
+            && by_load_alone
+            && question.uncertainty.is_none()
+        {
+            return Some(Lanes::Drives(Points::new(question, arm)));
+        }
+        let supported = detail == AnswerDetail::Shares || by_load_alone;
+        let in_turn = order == Order::Any || turns_follow(question);
+        (supported && in_turn).then(|| Some(Lanes::Whole(Box::new(WholePoints::of(question)?))))?
+    }
+
+    fn solve(&mut self, poses: &[Isometry]) {
+        match self {
+            Lanes::Drives(points) => points.solve(poses),
+            Lanes::Whole(points) => points.solve(poses),
+        }
+    }
+
+    /// The answer at point `index`, its values written; none where lanes cannot decide.
+    fn answer(
+        &self,
+        index: usize,
+        joints: &mut [f64],
+        deviations: &mut [Vector3<f64>],
+        shares: &mut [f64],
+    ) -> Option<Evaluation> {
+        match self {
+            Lanes::Drives(points) => points
+                .evaluation(index)
+                .inspect(|_| points.write(index, joints, deviations, shares)),
+            Lanes::Whole(points) => points
+                .evaluation(index)
+                .inspect(|_| points.write(index, joints, deviations, shares)),
+        }
+    }
+}
+
+/// Whether joint positions on a path may follow those of the point before by whole turns, after the posture was
+/// chosen: no other joint depends on them, and no margin chooses the posture.
+fn turns_follow(question: &Question<'_>) -> bool {
+    let robot = question.arm.robot;
+    let chosen_by_margin = match question.choice {
+        BranchChoice::Best => false,
+        BranchChoice::Of(pattern) => {
+            Branch::ALL
+                .iter()
+                .filter(|branch| pattern.matches(**branch))
+                .count()
+                > 1
+        }
+    };
+    let coupled = robot.joints().iter().any(|joint| !joint.coupling.is_empty());
+    robot.ortho_parallel().is_some() || !(chosen_by_margin || coupled)
 }
 
 /// Whether points follow each other.
@@ -43,19 +117,11 @@ impl<'q> Solver<'q> {
             !question.cases.is_empty(),
             "a question needs at least one load case"
         );
-        let model = question.arm.model;
-        let by_load_alone = detail == AnswerDetail::DeviationsAlone || !model.has_unloaded_deviation();
         Solver {
             question,
             order,
-            lanes: question.arm.robot.ortho_parallel().and_then(|arm| {
-                if model.is_drives_alone() && by_load_alone && question.uncertainty.is_none() {
-                    return Some(Points::new(question, arm, None));
-                }
-                let supported = detail == AnswerDetail::Shares || by_load_alone;
-                let whole = WholeModel::of(&question.arm, Backend::fastest()).filter(|_| supported)?;
-                Some(Points::new(question, arm, Some(whole)))
-            }),
+            follows: question.arm.robot.ortho_parallel().is_none(),
+            lanes: Lanes::of(question, order, detail),
             general: General::new(question, detail),
             poses: Vec::with_capacity(BLOCK),
             before: None,
@@ -92,10 +158,12 @@ impl<'q> Solver<'q> {
             let in_lanes = self
                 .lanes
                 .as_ref()
-                .and_then(|lanes| Some((lanes, lanes.evaluation(i)?)));
+                .and_then(|lanes| lanes.answer(i, joints, deviations, shares));
             *point = match in_lanes {
-                Some((lanes, evaluation)) => {
-                    lanes.write(i, joints, deviations, shares);
+                Some(mut evaluation) => {
+                    if let Some(before) = self.before.as_deref().filter(|_| self.follows) {
+                        follow(self.question.arm.robot, before, joints, &mut evaluation);
+                    }
                     Ok(evaluation)
                 }
                 None => self
@@ -112,6 +180,16 @@ impl<'q> Solver<'q> {
         }
         (watch.finished)(count);
         Ok(())
+    }
+}
+
+/// Brings joint positions by whole turns as near as possible to those of the point before.
+fn follow(robot: &Robot, before: &[f64], joints: &mut [f64], evaluation: &mut Evaluation) {
+    for (joint, position) in joints.iter_mut().enumerate() {
+        *position = whole_turns(robot, joint, *position, Some(before));
+    }
+    if let Some((joint, margin)) = robot.limit_margin(joints) {
+        (evaluation.limit_joint, evaluation.limit_margin) = (joint, margin);
     }
 }
 

@@ -47,6 +47,7 @@
 //! # Ok::<(), armill_core::robot::RobotError>(())
 //! ```
 
+mod branches;
 mod by_block;
 mod geometry;
 mod load;
@@ -59,9 +60,8 @@ pub use by_block::{Arrays, Batch, Envelopes, Poses};
 pub use numbers::{Backend, Float, Precision, Real};
 pub use solve::flag;
 
-pub(super) use by_block::{POINTS, Points};
+pub(super) use by_block::{POINTS, Points, WholePoints};
 pub(super) use placement::{PlacementPoints, Placer, Tallied};
-pub(super) use whole::WholeModel;
 
 #[cfg(test)]
 mod tests;

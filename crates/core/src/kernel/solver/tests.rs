@@ -4,6 +4,7 @@ use super::super::tests::{NOMINAL, analysis, poses};
 use super::*;
 use crate::arms;
 use crate::kernel::Answers;
+use crate::robot::inverse::Inverse;
 use crate::robot::{Backlash, BacklashSide};
 use crate::source::StiffnessModel;
 
@@ -11,7 +12,7 @@ use crate::source::StiffnessModel;
 fn answered(question: &Question<'_>, poses: &[Isometry], lanes: bool) -> Answers {
     let mut answers = Answers::new(question, poses.len(), AnswerDetail::Shares);
     let mut solver = Solver::new(question, Order::Any, AnswerDetail::Shares);
-    assert!(solver.lanes.is_some());
+    assert!(solver.lanes.is_some(), "{}", question.arm.robot.name());
     if !lanes {
         solver.lanes = None;
     }
@@ -25,8 +26,20 @@ fn answered(question: &Question<'_>, poses: &[Isometry], lanes: bool) -> Answers
 
 #[test]
 fn lanes_and_single_points_agree_for_every_arm() {
-    for robot in arms::all() {
+    let calibrated = |most| arms::all().map(|arm| arms::other::calibrated(&arm, most));
+    let collaborative = [arms::other::ur10(), arms::other::ur10e()];
+    let off = collaborative
+        .each_ref()
+        .map(|arm| arms::other::calibrated(arm, 1e-3));
+    let all = arms::all()
+        .into_iter()
+        .chain(calibrated(1e-6))
+        .chain(calibrated(3e-3));
+    for robot in all.chain(collaborative).chain(off) {
         let poses = poses(&robot, 190, 11);
+        // A descent ends within 1e-12 of the pose, which the condition of the Jacobian multiplies.
+        let exact = matches!(robot.inverse(), Inverse::Closed(_));
+        let accuracy = if exact { 1e-11 } else { 2e-10 };
         for choice in [NOMINAL, BranchChoice::Best] {
             analysis(&robot, StiffnessModel::DRIVES, choice, |question| {
                 let (lanes, single) = (
@@ -57,7 +70,7 @@ fn lanes_and_single_points_agree_for_every_arm() {
                         (a.normal.abs(), b.normal.abs()),
                         (a.in_plane_uncertainty, b.in_plane_uncertainty),
                     ] {
-                        assert!((a - b).abs() < 1e-11 * size, "{}: {a} {b}", robot.name());
+                        assert!((a - b).abs() < accuracy * size, "{}: {a} {b}", robot.name());
                     }
                     assert!((a.limit_margin - b.limit_margin).abs() < 1e-9);
                     assert_eq!((a.limit_joint, a.worst_case), (b.limit_joint, b.worst_case));
@@ -65,10 +78,10 @@ fn lanes_and_single_points_agree_for_every_arm() {
                         assert!((a - b).abs() < 1e-9);
                     }
                     for (a, b) in lanes.deviations_at(i).iter().zip(single.deviations_at(i)) {
-                        assert!((a - b).norm() < 1e-11 * size);
+                        assert!((a - b).norm() < accuracy * size);
                     }
                     for (a, b) in lanes.shares_at(i).iter().zip(single.shares_at(i)) {
-                        assert!((a - b).abs() < 1e-11 * size);
+                        assert!((a - b).abs() < accuracy * size);
                     }
                 }
                 assert!(compared > 40, "{}: {compared}", robot.name());

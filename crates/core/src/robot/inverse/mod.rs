@@ -24,13 +24,14 @@ pub(crate) mod two_links;
 mod verify;
 
 pub use closed_form::ClosedForm;
-pub(crate) use finder::name as name_of;
 pub use finder::{Finder, InverseSolution, InverseTarget};
+pub(crate) use finder::{name as name_of, whole_turns};
 pub use fixed_joint::FixedJoint;
 pub use kind::Inverse;
 pub use ortho_parallel::OrthoParallel;
 pub use spherical_wrist::SphericalWrist;
 pub use three_parallel::ThreeParallel;
+pub(crate) use verify::VERIFIED;
 pub use verify::verify;
 
 use nalgebra::UnitQuaternion;

@@ -30,25 +30,25 @@ use crate::frame::Isometry;
 #[derive(Clone, Debug)]
 pub struct ThreeParallel {
     /// x to the front, y along axis 2, z along axis 1; origin on axis 1 at the height of axis 2.
-    arm_from_base: Isometry,
+    pub(crate) arm_from_base: Isometry,
     /// Axis 2 before axis 1.
-    a1: f64,
+    pub(crate) a1: f64,
     /// Offset of the wrist centre from the arm's plane, along y.
-    b: f64,
-    links: TwoLinks,
+    pub(crate) b: f64,
+    pub(crate) links: TwoLinks,
     /// From axis 4 to the wrist centre at chain zero, in the arm's plane.
-    hand: Vector3<f64>,
+    pub(crate) hand: Vector3<f64>,
     /// Axis 5 at chain zero, arm's axes.
-    axis_5: Vector3<f64>,
-    upper_arm_at_zero: f64,
-    forearm_at_zero: f64,
-    bend_at_zero: f64,
+    pub(crate) axis_5: Vector3<f64>,
+    pub(crate) upper_arm_at_zero: f64,
+    pub(crate) forearm_at_zero: f64,
+    pub(crate) bend_at_zero: f64,
     /// Sense of axes 1 to 4 against the common one, 1 or -1; 5 and 6 use their own right hand.
-    sense: [f64; 6],
+    pub(crate) sense: [f64; 6],
     /// Axes 5 and 6 at chain zero, and the wrist centre, in the flange's axes.
-    flange_from_axis_5: Vector3<f64>,
-    flange_from_axis_6: Vector3<f64>,
-    flange_from_wrist: Point3<f64>,
+    pub(crate) flange_from_axis_5: Vector3<f64>,
+    pub(crate) flange_from_axis_6: Vector3<f64>,
+    pub(crate) flange_from_wrist: Point3<f64>,
 }
 
 impl ThreeParallel {

@@ -31,7 +31,7 @@ pub(crate) struct TwoLinks {
 }
 
 /// Bend of the elbow, as a fraction of the reach, in the answer to a point beyond it.
-const NEARLY_STRAIGHT: f64 = 2e-3;
+pub(crate) const NEARLY_STRAIGHT: f64 = 2e-3;
 
 impl TwoLinks {
     /// Signed distance of `p` (m, arm axes) from axis 1 in the plane of the links, which has the offset `b` (m) from

@@ -7,7 +7,7 @@ use crate::frame::{Isometry, turn_between};
 /// Greatest distance between the forward kinematics of a solution and the requested pose, m and rad.
 ///
 /// The closed form is accurate to 1e-15 of the arm's length; a thousand times its worst is an inconsistent geometry.
-const VERIFIED: f64 = 1e-9;
+pub(crate) const VERIFIED: f64 = 1e-9;
 
 /// Verifies that these frames have the flange at the requested pose, within 1e-9 m and rad.
 ///

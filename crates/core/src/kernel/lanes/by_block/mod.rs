@@ -11,6 +11,7 @@ mod column;
 mod points;
 mod posture_signs;
 mod steps;
+mod whole_points;
 
 pub use arrays::{Arrays, Envelopes, Poses};
 pub use batch::Batch;
@@ -19,4 +20,5 @@ pub use batch::Batch;
 pub(super) use aimed::SolvedBlock;
 pub(super) use batch::Scratch;
 pub(in crate::kernel) use points::{POINTS, Points};
-pub(super) use posture_signs::FOUR;
+pub(super) use posture_signs::{FOUR, signs};
+pub(in crate::kernel) use whole_points::WholePoints;

@@ -1,17 +1,17 @@
-//! Whole answers, a block of points at a time, for maps, volumes and paths.
+//! Whole answers of ortho-parallel arms whose model is the drives alone, a block of points at a time, for maps, volumes
+//! and paths.
 
 use nalgebra::Vector3;
 
 use super::aimed::SolvedBlock;
 use super::batch::Batch;
 use super::posture_signs::FOUR;
-use crate::frame::{Isometry, both_across};
-use crate::kernel::answer::{ALIKE, AT_LIMIT, Evaluation};
+use crate::frame::Isometry;
+use crate::kernel::answer::{AT_LIMIT, Evaluation};
 use crate::kernel::lanes::geometry::{Second, UNLIMITED};
 use crate::kernel::lanes::load::{OneCase, Shares, Worst};
 use crate::kernel::lanes::numbers::{BLOCK, Backend, Plane, Planes, planes};
 use crate::kernel::lanes::solve::{FindStances, Preference, Stances, flag};
-use crate::kernel::lanes::whole::{WholeAnswers, WholeModel};
 use crate::kernel::question::{BranchChoice, Question};
 use crate::robot::inverse::OrthoParallel;
 use crate::robot::{Branch, BranchPattern, Elbow, PostureName, Shoulder, Singularity, Wrist};
@@ -24,19 +24,6 @@ pub(in crate::kernel) struct Points<'q> {
     question: &'q Question<'q>,
     batch: Batch<f64>,
     room: Box<Room>,
-    /// For models with more than the drives.
-    whole: Option<Box<Whole>>,
-}
-
-/// A whole model, its answers and the best posture so far.
-struct Whole {
-    model: WholeModel,
-    answers: WholeAnswers,
-    /// Two directions across the normal, then the normal, base.
-    plane: [Vector3<f64>; 3],
-    /// Of the best posture: joint positions, margin to the limits and its joint, flip.
-    joints: Planes<f64, 6>,
-    limits: Planes<f64, 3>,
 }
 
 #[repr(C, align(64))]
@@ -53,20 +40,10 @@ struct Room {
 }
 
 impl<'q> Points<'q> {
-    /// For an arm whose model is supported: only drives, or [`WholeModel`].
-    pub fn new(question: &'q Question<'q>, arm: &OrthoParallel, whole: Option<WholeModel>) -> Points<'q> {
-        let [first, second] = both_across(&question.normal);
+    /// For an arm whose model is the drives alone.
+    pub fn new(question: &'q Question<'q>, arm: &OrthoParallel) -> Points<'q> {
         Points {
             question,
-            whole: whole.map(|model| {
-                Box::new(Whole {
-                    answers: WholeAnswers::with(question.cases.len(), model.contributors()),
-                    model,
-                    plane: [first, second, question.normal.into_inner()],
-                    joints: planes(),
-                    limits: planes(),
-                })
-            }),
             batch: Batch::new(question, arm, Backend::fastest()),
             room: Box::new(Room {
                 stances: Stances {
@@ -99,13 +76,7 @@ impl<'q> Points<'q> {
         self.batch.aim_at(poses);
         let preference = match self.question.choice {
             BranchChoice::Best => {
-                match self.whole.take() {
-                    None => self.choose_least_envelope(),
-                    Some(mut whole) => {
-                        self.choose_least_whole(&mut whole);
-                        self.whole = Some(whole);
-                    }
-                }
+                self.choose_least_envelope();
                 Preference {
                     plain: 0.0,
                     flipped: 0.0,
@@ -119,27 +90,7 @@ impl<'q> Points<'q> {
         };
         self.batch.solve_each(&self.room.chosen);
         self.set_stance(preference);
-        let Some(whole) = &mut self.whole else {
-            self.deviate();
-            return;
-        };
-        let Whole {
-            model,
-            answers,
-            plane,
-            joints,
-            limits,
-        } = &mut **whole;
-        let stances = &mut self.room.stances;
-        if self.question.choice == BranchChoice::Best {
-            stances.joints.clone_from(joints);
-            let [room, joint, flip] = limits;
-            stances.room.clone_from(room);
-            stances.joint.clone_from(joint);
-            stances.flip.clone_from(flip);
-        }
-        model.set_joints(&stances.joints);
-        model.answer(self.question.cases, plane, &self.question.uncertainty, answers);
+        self.deviate();
     }
 
     /// The answer at point `index` of the block; `None` where lanes cannot decide.
@@ -152,10 +103,6 @@ impl<'q> Points<'q> {
             uncertainty,
             ..
         } = &*self.room;
-        let (worst, uncertainty) = match &self.whole {
-            Some(whole) => (&whole.answers.worst, &whole.answers.uncertainty),
-            None => (worst, uncertainty),
-        };
         let SolvedBlock { postures, .. } = self.batch.solved();
         let flags = postures.flags[index] as u32;
         let undecided =
@@ -166,12 +113,9 @@ impl<'q> Points<'q> {
             return None;
         }
         let structure = &self.question.arm.model.structure;
-        let common = match self.whole {
-            Some(_) => 0.0,
-            None => structure
-                .repeatability
-                .hypot(structure.model_error * worst.in_plane[index]),
-        };
+        let common = structure
+            .repeatability
+            .hypot(structure.model_error * worst.in_plane[index]);
         let limited = stances.room[index] < 0.5 * UNLIMITED;
         Some(Evaluation {
             name: PostureName::Branch(branch(chosen, &stances.flip, index)),
@@ -201,69 +145,11 @@ impl<'q> Points<'q> {
         for (joint, plane) in joints.iter_mut().zip(&self.room.stances.joints) {
             *joint = plane[index];
         }
-        let (of_cases, of_contributors) = match &self.whole {
-            Some(whole) => (&whole.answers.deviations, whole.answers.shares.as_slice()),
-            None => (&self.room.deviations, self.room.shares.as_slice()),
-        };
-        for (deviation, [x, y, z]) in deviations.iter_mut().zip(of_cases) {
+        for (deviation, [x, y, z]) in deviations.iter_mut().zip(&self.room.deviations) {
             *deviation = Vector3::new(x[index], y[index], z[index]);
         }
-        for (share, plane) in shares.iter_mut().zip(of_contributors) {
+        for (share, plane) in shares.iter_mut().zip(&self.room.shares) {
             *share = plane[index];
-        }
-    }
-
-    /// Selects, of the postures inside limits, the first with the smallest envelope of the whole model. Points where a
-    /// posture is undecided get none.
-    fn choose_least_whole(&mut self, whole: &mut Whole) {
-        self.room.score.fill(f64::INFINITY);
-        self.batch.orient(Second::AtZero);
-        let mut undecided = [false; BLOCK];
-        for signs in FOUR {
-            self.batch.solve(signs, false);
-            for wrist in [Wrist::NoFlip, Wrist::Flip] {
-                self.set_stance(preference(BranchPattern {
-                    wrist: Some(wrist),
-                    ..BranchPattern::default()
-                }));
-                let Whole {
-                    model,
-                    answers,
-                    plane,
-                    joints,
-                    limits,
-                } = whole;
-                let SolvedBlock { postures, .. } = self.batch.solved();
-                let Room {
-                    stances,
-                    chosen,
-                    score,
-                    ..
-                } = &mut *self.room;
-                model.set_joints(&stances.joints);
-                model.envelope(self.question.cases, plane, answers);
-                for i in 0..BLOCK {
-                    let flags = postures.flags[i] as u32;
-                    let reached = flags & flag::UNREACHABLE == 0;
-                    undecided[i] |= reached && flags & flag::WRIST_UNDECIDED != 0;
-                    let least = answers.worst.in_plane[i] < score[i] * (1.0 - ALIKE);
-                    if reached && stances.room[i] >= -AT_LIMIT && least {
-                        score[i] = answers.worst.in_plane[i];
-                        (chosen[0][i], chosen[1][i]) = (signs[0], signs[1]);
-                        for (kept, joint) in joints.iter_mut().zip(&stances.joints) {
-                            kept[i] = joint[i];
-                        }
-                        limits[0][i] = stances.room[i];
-                        limits[1][i] = stances.joint[i];
-                        limits[2][i] = stances.flip[i];
-                    }
-                }
-            }
-        }
-        for (score, undecided) in self.room.score.iter_mut().zip(undecided) {
-            if undecided {
-                *score = f64::INFINITY;
-            }
         }
     }
 

@@ -3,7 +3,7 @@
 use crate::robot::{Branch, Elbow, Shoulder};
 
 /// Signs of shoulder and elbow.
-pub(super) fn signs(branch: Branch) -> [f64; 2] {
+pub(in crate::kernel::lanes) fn signs(branch: Branch) -> [f64; 2] {
     [
         if branch.shoulder == Shoulder::Front {
             1.0

@@ -272,7 +272,7 @@ impl<T: Precision> Batch<T> {
     }
 
     /// Joint positions of the solved block; joint 1 is reused for the same shoulder.
-    pub(super) fn position(&mut self, same_shoulder: bool) {
+    pub(in crate::kernel::lanes) fn position(&mut self, same_shoulder: bool) {
         let Scratch {
             aims,
             postures,

@@ -57,14 +57,7 @@ impl Arm {
         let tool_from_flange = flange_from_tool.inverse();
         let upright = nalgebra::Rotation3::from_axis_angle(&Vector3::y_axis(), -arm.forearm_at_zero);
         let [a4, a5] = arm.wrist_axes.map(|axis| upright * axis);
-        let zero_of = [
-            0.0,
-            arm.upper_arm_at_zero,
-            arm.forearm_at_zero - arm.upper_arm_at_zero,
-            0.0,
-            arm.bend_at_zero,
-            0.0,
-        ];
+        let zero_of = Arm::angles_at_zero(arm);
         let mut coupling = [[0.0; 6]; 6];
         let mut rows = [JointRow {
             gain: 1.0,
@@ -100,6 +93,18 @@ impl Arm {
             near_elbow: NEAR_SINGULAR,
             near_shoulder: NEAR_SINGULAR,
         }
+    }
+
+    /// The six angles at chain zero: phi1, psi, chi - psi, phi4, bend, phi6.
+    pub fn angles_at_zero(arm: &OrthoParallel) -> [f64; 6] {
+        [
+            0.0,
+            arm.upper_arm_at_zero,
+            arm.forearm_at_zero - arm.upper_arm_at_zero,
+            0.0,
+            arm.bend_at_zero,
+            0.0,
+        ]
     }
 
     /// Ends every joint's range this much (rad) before its limits, and calls the elbow stretched or folded so much

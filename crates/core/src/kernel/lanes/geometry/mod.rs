@@ -10,7 +10,7 @@ mod cosine_limits;
 mod prepared;
 
 pub(super) use aims::{Aim, Aims, Orientations, Places, Second, aim, aim_still};
-pub(super) use arm::{Arm, UNLIMITED};
+pub(super) use arm::{Arm, JointRow, UNLIMITED};
 pub(super) use base_axes::BaseAxes;
 pub(super) use cosine_limits::CosineLimits;
 pub(super) use prepared::Prepared;

@@ -16,6 +16,6 @@ pub use closed_form::flag;
 pub(super) use closed_form::{Links, Postures, Reach, Solve, Solved};
 pub(super) use forward::{Forward, POSE, SCREWS};
 pub(super) use limits::LimitsByCosines;
-pub(super) use positions::{LimitsByPositions, Position, Positions};
+pub(super) use positions::{Counting, LimitsByPositions, Position, Positions};
 pub(super) use screws::Screws;
 pub(super) use stance::{FindStances, Preference, Stances};

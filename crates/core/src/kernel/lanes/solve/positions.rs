@@ -3,7 +3,7 @@
 //! Loop after loop over one joint: few numbers at a time stay in registers.
 
 use super::closed_form::{Links, Postures, Solved, flag, flagged};
-use crate::kernel::lanes::geometry::{Aims, Prepared, aim};
+use crate::kernel::lanes::geometry::{Aims, JointRow, Prepared, aim};
 use crate::kernel::lanes::numbers::{BLOCK, Float, Plane, Planes, Real, Work, atan2, planes};
 
 /// Joint positions and their margins to the limits; of each pair first the posture not flipped, then the flipped one.
@@ -13,7 +13,7 @@ pub(in crate::kernel::lanes) struct Positions<T> {
     /// Sines and cosines of joints 4, 5, 6, each times any positive number.
     tangents: Planes<T, 6>,
     /// The arm's angles: phi1, psi, chi - psi, phi4, bend, phi6.
-    phi: Planes<T, 6>,
+    pub phi: Planes<T, 6>,
     /// Joint positions, rad, each as near as possible to the middle of its range.
     pub joints: [Planes<T, 6>; 2],
     /// Least distance to a limit, negative outside; and the joint that has it.
@@ -129,9 +129,9 @@ fn uncouple<R: Real>(factor: f64, other: &Plane<R::Float>, joint: &mut Plane<R::
 
 /// Coupling and range of one joint, in every lane.
 #[derive(Clone, Copy)]
-struct Counting<'a, R> {
+pub(in crate::kernel::lanes) struct Counting<'a, R> {
     /// What earlier joints add.
-    coupling: &'a [f64; 6],
+    coupling: &'a [f64],
     index: R,
     gain: R,
     start: R,
@@ -145,7 +145,7 @@ impl<'a, R: Real> Counting<'a, R> {
     /// Joint `index`; with the wrist flipped joints 4 and 6 differ by half a turn, and joint 5 bends the other way.
     #[inline(always)]
     fn new(prepared: &'a Prepared, index: usize, flipped: bool) -> Self {
-        use std::f64::consts::{PI, TAU};
+        use std::f64::consts::PI;
         let joint = prepared.arm.joints[index];
         let turned = if flipped && (index == 3 || index == 5) {
             PI
@@ -153,20 +153,32 @@ impl<'a, R: Real> Counting<'a, R> {
             0.0
         };
         let sense = if flipped && index == 4 { -1.0 } else { 1.0 };
+        let row = JointRow {
+            gain: sense * joint.gain,
+            start: joint.gain.mul_add(turned, joint.start),
+            ..joint
+        };
+        Counting::of(row, &prepared.arm.coupling[index], index)
+    }
+
+    /// Joint `index` of this row, with the factors of the earlier joints.
+    #[inline(always)]
+    pub fn of(row: JointRow, coupling: &'a [f64], index: usize) -> Self {
+        use std::f64::consts::TAU;
         Counting {
-            coupling: &prepared.arm.coupling[index],
+            coupling,
             index: R::of(index as f64),
-            gain: R::of(sense * joint.gain),
-            start: R::of(joint.gain.mul_add(turned, joint.start)),
-            middle: R::of(joint.middle),
-            half: R::of(joint.half),
-            middle_turns: R::of(joint.middle / TAU + <R::Float as Float>::HALF_TURN_SLACK),
+            gain: R::of(row.gain),
+            start: R::of(row.start),
+            middle: R::of(row.middle),
+            half: R::of(row.half),
+            middle_turns: R::of(row.middle / TAU + <R::Float as Float>::HALF_TURN_SLACK),
         }
     }
 
     /// Positions of the last of `joints` from its angle; keeps the least room of the joints so far and whose it is.
     #[inline(always)]
-    fn set(
+    pub fn set(
         &self,
         phi: &Plane<R::Float>,
         joints: &mut [Plane<R::Float>],

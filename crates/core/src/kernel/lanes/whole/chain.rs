@@ -6,7 +6,7 @@ use crate::frame::Isometry;
 use crate::kernel::lanes::numbers::{
     BLOCK, Float, Plane, Planes, Real, Vector, Work, planes, put, sin_cos, vector,
 };
-use crate::robot::{Motion, Robot};
+use crate::robot::{Chain, Motion, Robot};
 
 /// A frame in base at each point: its three axes, then its origin (m).
 #[derive(Clone, Debug)]
@@ -64,12 +64,22 @@ impl Displacement {
 
 impl ChainConstants {
     pub fn of(robot: &Robot) -> ChainConstants {
+        let mut constants = ChainConstants::without_conventions(robot.chain());
+        for (link, joint) in constants.links.iter_mut().zip(robot.joints()) {
+            link.sign = joint.sign.factor();
+            link.zero = joint.zero_offset;
+            link.coupling = joint.coupling.iter().map(|c| (c.joint, c.factor)).collect();
+        }
+        constants
+    }
+
+    /// For chain positions instead of joint positions.
+    pub fn without_conventions(chain: &Chain) -> ChainConstants {
         let displacement = |(translation, rotation)| Displacement {
             translation,
             rotation,
         };
-        let chain = robot.chain();
-        let links = chain.links().iter().zip(robot.joints()).map(|(link, joint)| {
+        let links = chain.links().iter().map(|link| {
             let (axis, slides) = match link.motion {
                 Motion::Along(axis, _) => (axis.index(), true),
                 Motion::About(axis, _) => (axis.index(), false),
@@ -78,9 +88,9 @@ impl ChainConstants {
                 before: displacement(link.before.parts()),
                 axis,
                 slides,
-                sign: joint.sign.factor(),
-                zero: joint.zero_offset,
-                coupling: joint.coupling.iter().map(|c| (c.joint, c.factor)).collect(),
+                sign: 1.0,
+                zero: 0.0,
+                coupling: Vec::new(),
             }
         });
         ChainConstants {

@@ -22,7 +22,7 @@ use crate::load::InputUncertainty;
 use crate::source::Arm;
 use crate::spatial::Wrench;
 use answer::{FindShares, TakeCase};
-use chain::{FindFrames, FramePlanes};
+pub(in crate::kernel::lanes) use chain::{ChainConstants, Displacement, FindFrames, FramePlanes};
 use inputs::AddInputs;
 use model::ModelConstants;
 use parts::{FindParts, PartPlanes};
@@ -127,6 +127,11 @@ impl WholeModel {
             parts,
             still,
         });
+    }
+
+    /// Frames of the flange at the joint positions set.
+    pub(in crate::kernel::lanes) fn flange(&self) -> &FramePlanes<f64> {
+        &self.frames[self.frames.len() - 2]
     }
 
     /// Displacement of the tool under `wrench` (at the TCP, base), m, base.

@@ -334,26 +334,26 @@ impl<'r> Finder<'r> {
             joints[joint] = if self.robot.slides(joint) {
                 position
             } else {
-                self.whole_turns(joint, position, near)
+                whole_turns(self.robot, joint, position, near)
             };
         }
         joints
     }
+}
 
-    /// The position of a revolute joint, by whole turns as near as possible to the previous one within its limits,
-    /// otherwise to the middle of its range. An ortho-parallel arm always takes the middle, as its lanes do.
-    fn whole_turns(&self, joint: usize, position: f64, near: Option<&[f64]>) -> f64 {
-        let limits = self.robot.joints()[joint].limits;
-        if let Some(near) = near
-            && self.robot.ortho_parallel().is_none()
-        {
-            let close = nearest_turn(position, near[joint]);
-            if limits.is_none_or(|limits| limits.margin(close) >= 0.0) {
-                return close;
-            }
+/// The position (rad) of a revolute joint, by whole turns as near as possible to the previous one within its limits,
+/// otherwise to the middle of its range. An ortho-parallel arm always takes the middle, as its lanes do.
+pub(crate) fn whole_turns(robot: &Robot, joint: usize, position: f64, near: Option<&[f64]>) -> f64 {
+    let limits = robot.joints()[joint].limits;
+    if let Some(near) = near
+        && robot.ortho_parallel().is_none()
+    {
+        let close = nearest_turn(position, near[joint]);
+        if limits.is_none_or(|limits| limits.margin(close) >= 0.0) {
+            return close;
         }
-        nearest_turn(position, limits.map_or(0.0, |limits| limits.middle()))
     }
+    nearest_turn(position, limits.map_or(0.0, |limits| limits.middle()))
 }
 
 /// Name of the posture at the joint positions `q`, and the singularity that it is near, if any.

@@ -1,0 +1,328 @@
+//! Newton's iteration on the chain of a calibrated arm, from the branches of the ideal one.
+//!
+//! ```text
+//! e = (away / l, turned)         J = columns (v_k / l, w_k)         dtheta = J^T (J J^T + lambda I)^-1 e
+//! J J^T = [A B; B^T D]           S = A - B D^-1 B^T                 x = S^-1 (e_v - B D^-1 e_w), y = D^-1 (e_w - B^T x)
+//! ```
+//!
+//! `l` a length of the arm (m), `lambda` as small as rounding: the sum over joints and two symmetric 3 x 3 inverses need
+//! no pivots. Points where the step does not become small are undecided.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::state;
+use crate::kernel::lanes::numbers::{
+    BLOCK, Backend, Float, Plane, Planes, Real, Vector, Work, planes, put, vector,
+};
+use crate::kernel::lanes::whole::{ChainConstants, Displacement, FindFrames, FramePlanes};
+use crate::robot::Chain;
+
+/// Joints of an arm with named branches.
+const JOINTS: usize = 6;
+/// Maximum number of steps: from 10 mm and 10 mrad away three are enough, near a singularity more.
+const MOST_STEPS: usize = 6;
+/// Largest step (rad) after which the rest is rounding.
+const LAST_STEP: f64 = 1e-7;
+/// Damping relative to the sum of squares: rounding.
+const DAMPING: f64 = 1e-15;
+
+/// A chain, and memory for a block of points.
+#[derive(Clone, Debug)]
+pub(super) struct Newton {
+    chain: ChainConstants,
+    no_tool: Displacement,
+    length: f64,
+    frames: Vec<FramePlanes<f64>>,
+    /// The two parts of `(J J^T + lambda I)^-1 e`.
+    solved: Planes<f64, 6>,
+    step: Plane<f64>,
+}
+
+impl Newton {
+    pub fn of(chain: &Chain) -> Newton {
+        let chain_constants = ChainConstants::without_conventions(chain);
+        Newton {
+            frames: vec![FramePlanes::unknown(); chain_constants.joints() + 3],
+            chain: chain_constants,
+            no_tool: Displacement {
+                translation: Vector3::zeros(),
+                rotation: None::<Matrix3<f64>>,
+            },
+            length: chain.length(),
+            solved: planes(),
+            step: [0.0; BLOCK],
+        }
+    }
+
+    /// Moves the chain positions of the reached points until the flange is at the target.
+    pub fn reach(
+        &mut self,
+        backend: Backend,
+        targets: &FramePlanes<f64>,
+        theta: &mut [Plane<f64>],
+        found: &mut Plane<f64>,
+    ) {
+        for _ in 0..MOST_STEPS {
+            backend.run(FindFrames {
+                chain: &self.chain,
+                flange_from_tool: &self.no_tool,
+                joints: theta,
+                frames: &mut self.frames,
+            });
+            backend.run(Step {
+                chain: &self.chain,
+                length: self.length,
+                targets,
+                frames: &self.frames,
+                theta,
+                solved: &mut self.solved,
+                step: &mut self.step,
+            });
+            let arrived = |(step, found): (&f64, &f64)| *found != state::REACHED || *step < LAST_STEP;
+            if self.step.iter().zip(&*found).all(arrived) {
+                return;
+            }
+        }
+        for (step, found) in self.step.iter().zip(found) {
+            if *found == state::REACHED && !(*step < LAST_STEP) {
+                *found = state::UNDECIDED;
+            }
+        }
+    }
+}
+
+/// One step at every point; fills the size of the largest change of a joint, rad.
+struct Step<'a, T> {
+    chain: &'a ChainConstants,
+    length: f64,
+    targets: &'a FramePlanes<T>,
+    frames: &'a [FramePlanes<T>],
+    theta: &'a mut [Plane<T>],
+    solved: &'a mut Planes<T, 6>,
+    step: &'a mut Plane<T>,
+}
+
+impl<T: Float> Work<T> for Step<'_, T> {
+    #[inline(always)]
+    fn run<R: Real<Float = T>>(self) {
+        let Step {
+            chain,
+            length,
+            targets,
+            frames,
+            theta,
+            solved,
+            step,
+        } = self;
+        let per_length = R::of(1.0 / length);
+        let half = R::of(0.5);
+        let flange = &frames[JOINTS + 1];
+        let axis = |k: usize| &frames[k + 1].axes[chain.axis(k).0];
+        let axes = [axis(0), axis(1), axis(2), axis(3), axis(4), axis(5)];
+        for i in 0..BLOCK {
+            R::step();
+            let at = vector::<R>(&flange.origin, i);
+            let mut gram = Gram::new(R::of(0.0));
+            gram = gram.with(column(axes[0], &frames[1].origin, at, per_length, i));
+            gram = gram.with(column(axes[1], &frames[2].origin, at, per_length, i));
+            gram = gram.with(column(axes[2], &frames[3].origin, at, per_length, i));
+            gram = gram.with(column(axes[3], &frames[4].origin, at, per_length, i));
+            gram = gram.with(column(axes[4], &frames[5].origin, at, per_length, i));
+            gram = gram.with(column(axes[5], &frames[6].origin, at, per_length, i));
+            let away = (vector::<R>(&targets.origin, i) - at).scaled(per_length);
+            // For small angles the sine is the angle.
+            let turned = vector::<R>(&flange.axes[0], i).cross(vector::<R>(&targets.axes[0], i))
+                + vector::<R>(&flange.axes[1], i).cross(vector::<R>(&targets.axes[1], i))
+                + vector::<R>(&flange.axes[2], i).cross(vector::<R>(&targets.axes[2], i));
+            let [x, y] = gram.damped(R::of(DAMPING)).solve(away, turned.scaled(half));
+            put(&mut solved[0..3], i, x);
+            put(&mut solved[3..6], i, y);
+            step[i] = R::of(0.0).store();
+        }
+        let mut k = 0;
+        while k < JOINTS {
+            let (theta, axis, origin) = (&mut theta[k], axes[k], &frames[k + 1].origin);
+            for i in 0..BLOCK {
+                R::step();
+                let at = vector::<R>(&flange.origin, i);
+                let [v, w] = column(axis, origin, at, per_length, i);
+                let change = v.dot(vector::<R>(&solved[0..3], i)) + w.dot(vector::<R>(&solved[3..6], i));
+                theta[i] = (R::load(theta[i]) + change).store();
+                // A step that is no number stays the largest.
+                let largest = R::load(step[i]);
+                let size = change.abs();
+                step[i] = R::either(size <= largest, largest, size).store();
+            }
+            k += 1;
+        }
+    }
+}
+
+/// Column of the scaled Jacobian: linear part (in units of `l`), angular part.
+#[inline(always)]
+fn column<R: Real>(
+    axis: &Planes<R::Float, 3>,
+    origin: &Planes<R::Float, 3>,
+    flange: Vector<R>,
+    per_length: R,
+    i: usize,
+) -> [Vector<R>; 2] {
+    let axis = vector::<R>(axis, i);
+    let lever = flange - vector::<R>(origin, i);
+    [axis.cross(lever).scaled(per_length), axis]
+}
+
+/// A symmetric 3 x 3 matrix.
+#[derive(Clone, Copy)]
+struct Symmetric<R> {
+    xx: R,
+    xy: R,
+    xz: R,
+    yy: R,
+    yz: R,
+    zz: R,
+}
+
+impl<R: Real> Symmetric<R> {
+    #[inline(always)]
+    fn all(value: R) -> Self {
+        Symmetric {
+            xx: value,
+            xy: value,
+            xz: value,
+            yy: value,
+            yz: value,
+            zz: value,
+        }
+    }
+
+    /// With `v v^T` added.
+    #[inline(always)]
+    fn with(self, v: Vector<R>) -> Self {
+        Symmetric {
+            xx: v.x.mul_add(v.x, self.xx),
+            xy: v.x.mul_add(v.y, self.xy),
+            xz: v.x.mul_add(v.z, self.xz),
+            yy: v.y.mul_add(v.y, self.yy),
+            yz: v.y.mul_add(v.z, self.yz),
+            zz: v.z.mul_add(v.z, self.zz),
+        }
+    }
+
+    #[inline(always)]
+    fn plus_diagonal(self, value: R) -> Self {
+        Symmetric {
+            xx: self.xx + value,
+            yy: self.yy + value,
+            zz: self.zz + value,
+            ..self
+        }
+    }
+
+    #[inline(always)]
+    fn trace(self) -> R {
+        self.xx + self.yy + self.zz
+    }
+
+    #[inline(always)]
+    fn times(self, v: Vector<R>) -> Vector<R> {
+        Vector::new(
+            self.xx.mul_add(v.x, self.xy.mul_add(v.y, self.xz * v.z)),
+            self.xy.mul_add(v.x, self.yy.mul_add(v.y, self.yz * v.z)),
+            self.xz.mul_add(v.x, self.yz.mul_add(v.y, self.zz * v.z)),
+        )
+    }
+
+    #[inline(always)]
+    fn inverse(self) -> Self {
+        let Symmetric {
+            xx,
+            xy,
+            xz,
+            yy,
+            yz,
+            zz,
+        } = self;
+        let (a, b, c) = (
+            yy.mul_add(zz, -(yz * yz)),
+            xz.mul_add(yz, -(xy * zz)),
+            xy.mul_add(yz, -(xz * yy)),
+        );
+        let determinant = xx.mul_add(a, xy.mul_add(b, xz * c));
+        let per = R::of(1.0) / determinant;
+        Symmetric {
+            xx: a * per,
+            xy: b * per,
+            xz: c * per,
+            yy: xx.mul_add(zz, -(xz * xz)) * per,
+            yz: xy.mul_add(xz, -(xx * yz)) * per,
+            zz: xx.mul_add(yy, -(xy * xy)) * per,
+        }
+    }
+}
+
+/// `J J^T`.
+#[derive(Clone, Copy)]
+struct Gram<R> {
+    linear: Symmetric<R>,
+    /// Rows of B.
+    mixed: [Vector<R>; 3],
+    angular: Symmetric<R>,
+}
+
+impl<R: Real> Gram<R> {
+    #[inline(always)]
+    fn new(zero: R) -> Self {
+        let none = Vector::new(zero, zero, zero);
+        Gram {
+            linear: Symmetric::all(zero),
+            mixed: [none, none, none],
+            angular: Symmetric::all(zero),
+        }
+    }
+
+    #[inline(always)]
+    fn with(self, [v, w]: [Vector<R>; 2]) -> Self {
+        let [x, y, z] = self.mixed;
+        Gram {
+            linear: self.linear.with(v),
+            mixed: [w.mul_add(v.x, x), w.mul_add(v.y, y), w.mul_add(v.z, z)],
+            angular: self.angular.with(w),
+        }
+    }
+
+    #[inline(always)]
+    fn damped(self, relative: R) -> Self {
+        let damping = (self.linear.trace() + self.angular.trace()) * relative;
+        Gram {
+            linear: self.linear.plus_diagonal(damping),
+            mixed: self.mixed,
+            angular: self.angular.plus_diagonal(damping),
+        }
+    }
+
+    /// The two parts of the solution for the right side (`linear`, `angular`).
+    #[inline(always)]
+    fn solve(self, linear: Vector<R>, angular: Vector<R>) -> [Vector<R>; 2] {
+        let [b1, b2, b3] = self.mixed;
+        let inverse = self.angular.inverse();
+        // Rows of B D^-1.
+        let (d1, d2, d3) = (inverse.times(b1), inverse.times(b2), inverse.times(b3));
+        let complement = Symmetric {
+            xx: self.linear.xx - d1.dot(b1),
+            xy: self.linear.xy - d1.dot(b2),
+            xz: self.linear.xz - d1.dot(b3),
+            yy: self.linear.yy - d2.dot(b2),
+            yz: self.linear.yz - d2.dot(b3),
+            zz: self.linear.zz - d3.dot(b3),
+        };
+        let right = Vector::new(
+            linear.x - d1.dot(angular),
+            linear.y - d2.dot(angular),
+            linear.z - d3.dot(angular),
+        );
+        let x = complement.inverse().times(right);
+        let rest = angular - b1.mul_add(x.x, b2.mul_add(x.y, b3.scaled(x.z)));
+        [x, inverse.times(rest)]
+    }
+}

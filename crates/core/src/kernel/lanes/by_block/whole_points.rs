@@ -1,0 +1,210 @@
+//! Whole answers of arms and models that need more than the drives-only lanes, a block of points at a time: all named
+//! branches, and the whole model.
+
+use nalgebra::Vector3;
+
+use crate::frame::{Isometry, both_across};
+use crate::kernel::answer::{ALIKE, AT_LIMIT, Evaluation};
+use crate::kernel::lanes::branches::{BranchPlanes, BranchSolver, find_missed, singularity, state};
+use crate::kernel::lanes::geometry::UNLIMITED;
+use crate::kernel::lanes::numbers::{BLOCK, Backend, Plane};
+use crate::kernel::lanes::whole::{WholeAnswers, WholeModel};
+use crate::kernel::question::{BranchChoice, Question};
+use crate::robot::{Branch, PostureName};
+
+/// Margins at least this large are those of joints without limits, rad.
+const NO_LIMIT: f64 = 0.5 * UNLIMITED;
+
+/// Answers a block of points; one per thread.
+pub(in crate::kernel) struct WholePoints<'q> {
+    question: &'q Question<'q>,
+    backend: Backend,
+    tool_from_flange: Isometry,
+    branches: BranchSolver,
+    model: WholeModel,
+    answers: WholeAnswers,
+    /// Two directions across the normal, then the normal, base.
+    plane: [Vector3<f64>; 3],
+    best: Best,
+    /// Whether a flip changes nothing but the margins.
+    flips_are_alike: bool,
+    missed: Plane<f64>,
+}
+
+/// The best branch of each point so far.
+struct Best {
+    posture: BranchPlanes,
+    /// Index of the branch.
+    branch: [u8; BLOCK],
+    /// Infinite where there is none.
+    score: Plane<f64>,
+}
+
+impl<'q> WholePoints<'q> {
+    /// For this question; none if its arm has no named branches, or a part that lanes do not know.
+    pub fn of(question: &'q Question<'q>) -> Option<WholePoints<'q>> {
+        let backend = Backend::fastest();
+        let model = WholeModel::of(&question.arm, backend)?;
+        let [first, second] = both_across(&question.normal);
+        Some(WholePoints {
+            question,
+            backend,
+            tool_from_flange: question.arm.flange_from_tool.inverse(),
+            branches: BranchSolver::of(question, backend)?,
+            answers: WholeAnswers::with(question.cases.len(), model.contributors()),
+            model,
+            plane: [first, second, question.normal.into_inner()],
+            best: Best {
+                posture: BranchPlanes::of(question.arm.robot.joints().len()),
+                branch: [0; BLOCK],
+                score: [f64::INFINITY; BLOCK],
+            },
+            flips_are_alike: question.arm.model.is_drives_alone()
+                && question.arm.robot.inverse().flips_are_alike(),
+            missed: [0.0; BLOCK],
+        })
+    }
+
+    /// Computes the answers at these poses, at most a block; read them with [`WholePoints::evaluation`].
+    pub fn solve(&mut self, poses: &[Isometry]) {
+        self.branches.aim_at(poses, &self.tool_from_flange);
+        self.best.score.fill(f64::INFINITY);
+        self.best.posture.state.fill(state::UNREACHED);
+        match self.question.choice {
+            BranchChoice::Best => {
+                for (index, branch) in Branch::ALL.into_iter().enumerate() {
+                    self.take_less(index, branch);
+                }
+            }
+            BranchChoice::Of(pattern) => {
+                let matching = Branch::ALL.into_iter().enumerate();
+                for (index, branch) in matching.filter(|(_, branch)| pattern.matches(*branch)) {
+                    self.take_roomier(index, branch);
+                }
+            }
+        }
+        self.model.set_joints(&self.best.posture.joints);
+        self.verify();
+        self.model.answer(
+            self.question.cases,
+            &self.plane,
+            &self.question.uncertainty,
+            &mut self.answers,
+        );
+    }
+
+    /// Takes this branch where it is inside the limits and its envelope is smaller than that of the best so far; of two
+    /// flips that are alike the one with the larger margin.
+    fn take_less(&mut self, index: usize, branch: Branch) {
+        let found = self.branches.solve(branch);
+        if found.state.iter().all(|state| *state == state::UNREACHED) {
+            return;
+        }
+        self.model.set_joints(&found.joints);
+        self.model
+            .envelope(self.question.cases, &self.plane, &mut self.answers);
+        let (in_plane, best) = (&self.answers.worst.in_plane, &mut self.best);
+        for i in 0..BLOCK {
+            best.undecided(found.state[i], i);
+            let flips_the_best = index % 2 == 1 && usize::from(best.branch[i]) == index - 1;
+            let less = if self.flips_are_alike && flips_the_best && best.score[i].is_finite() {
+                found.margin[i].min(NO_LIMIT) > best.posture.margin[i].min(NO_LIMIT)
+            } else {
+                in_plane[i] < best.score[i] * (1.0 - ALIKE)
+            };
+            if found.state[i] == state::REACHED && found.margin[i] >= -AT_LIMIT && less {
+                best.take(index, in_plane[i], found, i);
+            }
+        }
+    }
+
+    /// Takes this branch where its margin to the limits is larger than that of the best so far.
+    fn take_roomier(&mut self, index: usize, branch: Branch) {
+        let found = self.branches.solve(branch);
+        for i in 0..BLOCK {
+            self.best.undecided(found.state[i], i);
+            let score = -found.margin[i].min(NO_LIMIT);
+            if found.state[i] == state::REACHED && score < self.best.score[i] {
+                self.best.take(index, score, found, i);
+            }
+        }
+    }
+
+    /// Makes points undecided that forward kinematics does not confirm.
+    fn verify(&mut self) {
+        self.backend.run(find_missed(
+            self.branches.targets(),
+            self.model.flange(),
+            &mut self.missed,
+        ));
+    }
+
+    /// The answer at point `index` of the block; `None` where lanes cannot decide.
+    pub fn evaluation(&self, index: usize) -> Option<Evaluation> {
+        let Best {
+            posture,
+            branch,
+            score,
+        } = &self.best;
+        let decided = posture.state[index] == state::REACHED && score[index].is_finite();
+        if !decided || self.missed[index] != 0.0 {
+            return None;
+        }
+        let worst = &self.answers.worst;
+        let limited = posture.margin[index] < NO_LIMIT;
+        Some(Evaluation {
+            name: PostureName::Branch(Branch::ALL[usize::from(branch[index])]),
+            limit_margin: if limited {
+                posture.margin[index]
+            } else {
+                f64::INFINITY
+            },
+            limit_joint: if limited {
+                posture.nearest[index] as usize
+            } else {
+                0
+            },
+            singularity: singularity(posture.singularity[index]),
+            worst_case: worst.case[index] as usize,
+            in_plane: worst.in_plane[index],
+            in_plane_uncertainty: self.answers.uncertainty[index],
+            normal: worst.normal[index],
+            full: worst.full[index],
+        })
+    }
+
+    /// Copies joint positions, deviations and shares of point `index`.
+    pub fn write(
+        &self,
+        index: usize,
+        joints: &mut [f64],
+        deviations: &mut [Vector3<f64>],
+        shares: &mut [f64],
+    ) {
+        for (joint, plane) in joints.iter_mut().zip(&self.best.posture.joints) {
+            *joint = plane[index];
+        }
+        for (deviation, [x, y, z]) in deviations.iter_mut().zip(&self.answers.deviations) {
+            *deviation = Vector3::new(x[index], y[index], z[index]);
+        }
+        for (share, plane) in shares.iter_mut().zip(&self.answers.shares) {
+            *share = plane[index];
+        }
+    }
+}
+
+impl Best {
+    /// Notes that a branch is undecided at point `i`: no other is the best then.
+    fn undecided(&mut self, found: f64, i: usize) {
+        if found == state::UNDECIDED {
+            self.score[i] = f64::NEG_INFINITY;
+            self.posture.state[i] = state::UNDECIDED;
+        }
+    }
+
+    fn take(&mut self, branch: usize, score: f64, found: &BranchPlanes, i: usize) {
+        self.score[i] = score;
+        self.branch[i] = branch as u8;
+        self.posture.take(found, i);
+    }
+}
