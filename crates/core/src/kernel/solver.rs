@@ -52,9 +52,11 @@ impl<'q> Solver<'q> {
                 if model.is_drives_alone() && by_load_alone && question.uncertainty.is_none() {
                     return Some(Points::new(question, arm, None));
                 }
-                let supported = detail == AnswerDetail::Shares || by_load_alone;
-                let whole = WholeModel::of(&question.arm, Backend::fastest()).filter(|_| supported)?;
-                Some(Points::new(question, arm, Some(whole)))
+                let whole = match detail {
+                    AnswerDetail::Shares => WholeModel::of(&question.arm, Backend::fastest()),
+                    AnswerDetail::DeviationsAlone => WholeModel::by_load(&question.arm, Backend::fastest()),
+                };
+                Some(Points::new(question, arm, Some(whole?)))
             }),
             general: General::new(question, detail),
             poses: Vec::with_capacity(BLOCK),

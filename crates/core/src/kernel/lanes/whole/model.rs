@@ -2,8 +2,9 @@
 
 use nalgebra::Vector3;
 
+use super::backlash::GapConstants;
 use super::chain::{ChainConstants, Displacement};
-use crate::robot::Attachment;
+use crate::robot::{Attachment, BacklashSide};
 use crate::source::{Arm, ArmState, Contributor};
 use crate::spatial::Twist;
 
@@ -42,6 +43,8 @@ pub(in crate::kernel::lanes) struct ModelConstants {
     pub masses: Vec<MassConstants>,
     /// Of free fall, base, m/s^2; none where gravity is neglected.
     pub acceleration: Option<Vector3<f64>>,
+    /// The joints with backlash, in their order.
+    pub backlash: Vec<GapConstants>,
     /// The calibrated arm.
     pub actual: Option<ChainConstants>,
     /// Relative growth of the links and its standard uncertainty.
@@ -57,15 +60,16 @@ pub(in crate::kernel::lanes) struct ModelConstants {
 }
 
 impl ModelConstants {
-    /// The constants of `arm`; none if it has a part that lanes do not know: torque curves, a compensator, a covariance,
-    /// a load-dependent equilibrium, backlash, a rail that grows.
-    pub fn of(arm: &Arm<'_>) -> Option<ModelConstants> {
+    /// The constants of `arm`, with or without geometry, thermal growth and backlash (`unloaded`); none if it has a part
+    /// that lanes do not know: torque curves, a compensator, a covariance, a load-dependent equilibrium, a rail that
+    /// grows.
+    pub fn of(arm: &Arm<'_>, unloaded: bool) -> Option<ModelConstants> {
         let (robot, model) = (arm.robot, arm.model);
         let structure = &model.structure;
         // The travel of a prismatic joint does not grow: not subtracted here.
         let slides = (0..robot.joints().len()).any(|joint| robot.slides(joint));
-        let backlash = structure.joints_with_backlash().next().is_some();
-        if backlash || (slides && model.thermal.is_some()) {
+        let thermal = model.thermal.filter(|_| unloaded);
+        if slides && thermal.is_some() {
             return None;
         }
         if !model.is_affine() || structure.compensator.is_some() || structure.covariance.is_some() {
@@ -107,6 +111,14 @@ impl ModelConstants {
                     reference: at_reference.get(k).copied().unwrap_or_default(),
                 })
             });
+        let gaps = structure.joints_with_backlash().filter(|_| unloaded);
+        let gaps = gaps.map(|(joint, gap)| GapConstants {
+            joint,
+            half: 0.5 * gap.gap,
+            relative: gap.standard_uncertainty / gap.gap,
+            by_torque: gap.side == BacklashSide::Torque,
+        });
+        let actual = model.actual.as_deref().filter(|_| unloaded);
         Some(ModelConstants {
             flange_from_tool: Displacement::of(arm.flange_from_tool),
             parts: parts.collect::<Option<_>>()?,
@@ -121,15 +133,14 @@ impl ModelConstants {
                     .collect()
             }),
             acceleration: gravity.map(|gravity| gravity.acceleration),
-            actual: model.actual.as_deref().map(ChainConstants::of),
-            growth: model
-                .thermal
-                .map(|thermal| [thermal.growth, thermal.standard_uncertainty]),
+            backlash: gaps.collect(),
+            actual: actual.map(ChainConstants::of),
+            growth: thermal.map(|thermal| [thermal.growth, thermal.standard_uncertainty]),
             model_error: structure.model_error,
             repeatability: structure.repeatability,
             contributors: contributors.len(),
-            geometry: place(Contributor::Geometry),
-            thermal: place(Contributor::Thermal),
+            geometry: actual.and_then(|_| place(Contributor::Geometry)),
+            thermal: thermal.and_then(|_| place(Contributor::Thermal)),
             chain,
         })
     }
