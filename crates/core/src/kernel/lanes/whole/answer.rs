@@ -4,7 +4,7 @@
 //!
 //! ```text
 //! share of a contributor = sum over its parts of a . s_k x_k  (gravity relative to tool setting)   + a . geometry, a . thermal
-//! u^2 = sum_k (u_k a . d delta / d c_k)^2 + (m a . elastic and gravity)^2 + u_thermal^2
+//! u^2 = sum_kl S_kl (a . d delta / d c_k) (a . d delta / d c_l) + (m a . elastic and gravity)^2 + u_thermal^2
 //! ```
 
 use nalgebra::Vector3;
@@ -48,6 +48,8 @@ pub(in crate::kernel::lanes) struct FindShares<'a, T> {
     pub along: &'a mut Planes<T, 3>,
     /// Memory: the elastic and gravity part along it.
     pub by_load: &'a mut Plane<T>,
+    /// Displacement along it per unit of each compliance.
+    pub by_unit: &'a mut [Plane<T>],
     pub shares: &'a mut [Plane<T>],
     pub variance: &'a mut Plane<T>,
 }
@@ -63,6 +65,7 @@ impl<T: Float> Work<T> for FindShares<'_, T> {
             worst,
             along,
             by_load,
+            by_unit,
             shares,
             variance,
         } = self;
@@ -80,7 +83,6 @@ impl<T: Float> Work<T> for FindShares<'_, T> {
                 second.mul_add(b * per_length, first.scaled(a * per_length)),
             );
             by_load[i] = zero.store();
-            variance[i] = zero.store();
         }
         let mut contributor = 0;
         while contributor < shares.len() {
@@ -94,7 +96,7 @@ impl<T: Float> Work<T> for FindShares<'_, T> {
         while k < parts.len() {
             let (constants, part) = (&model.parts[k], &parts[k]);
             let share = &mut shares[constants.contributor];
-            let (c, u) = (R::of(constants.compliance), R::of(constants.uncertainty));
+            let c = R::of(constants.compliance);
             let there = Vector::<R>::of(&constants.reference[0]);
             let there_per_unit = Vector::<R>::of(&constants.reference[1]);
             for i in 0..BLOCK {
@@ -109,11 +111,11 @@ impl<T: Float> Work<T> for FindShares<'_, T> {
                 let of_part = moved.mul_add(c, -there.dot(along));
                 share[i] = (R::load(share[i]) + of_part).store();
                 by_load[i] = (R::load(by_load[i]) + of_part).store();
-                let by_unit = (moved - there_per_unit.dot(along)) * u;
-                variance[i] = by_unit.mul_add(by_unit, R::load(variance[i])).store();
+                by_unit[k][i] = (moved - there_per_unit.dot(along)).store();
             }
             k += 1;
         }
+        add_compliances::<R>(model, by_unit, variance);
         let model_error = R::of(model.model_error);
         let scatter = R::of(model.repeatability);
         for i in 0..BLOCK {
@@ -139,6 +141,55 @@ impl<T: Float> Work<T> for FindShares<'_, T> {
                 variance[i] = by_u.mul_add(by_u, R::load(variance[i])).store();
             }
         }
+    }
+}
+
+/// The variance by the compliances: those of the covariance, and the others as independent.
+#[inline(always)]
+fn add_compliances<R: Real>(
+    model: &ModelConstants,
+    by_unit: &[Plane<R::Float>],
+    variance: &mut Plane<R::Float>,
+) {
+    let zero = R::of(0.0);
+    for i in 0..BLOCK {
+        R::step();
+        variance[i] = zero.store();
+    }
+    let mut k = 0;
+    while k < by_unit.len() {
+        let mut weighted = [R::Float::default(); BLOCK];
+        if let Some(row) = model.covariance.get(k) {
+            let mut other = 0;
+            while other < row.len() {
+                let entry = R::of(row[other]);
+                for i in 0..BLOCK {
+                    R::step();
+                    let so_far = R::load(weighted[i]);
+                    weighted[i] = R::load(by_unit[other][i]).mul_add(entry, so_far).store();
+                }
+                other += 1;
+            }
+        } else {
+            let u = R::of(model.parts[k].uncertainty);
+            for i in 0..BLOCK {
+                R::step();
+                weighted[i] = (R::load(by_unit[k][i]) * u * u).store();
+            }
+        }
+        for i in 0..BLOCK {
+            R::step();
+            let so_far = R::load(variance[i]);
+            variance[i] = R::load(by_unit[k][i])
+                .mul_add(R::load(weighted[i]), so_far)
+                .store();
+        }
+        k += 1;
+    }
+    // Rounding of a covariance.
+    for i in 0..BLOCK {
+        R::step();
+        variance[i] = R::load(variance[i]).max(zero).store();
     }
 }
 

@@ -94,6 +94,12 @@ impl ChainConstants {
         (self.links[index].axis, self.links[index].slides)
     }
 
+    /// Position of joint `index` in its chain, rad (m).
+    #[inline(always)]
+    pub fn theta<R: Real>(&self, joints: &[Plane<R::Float>], index: usize) -> Plane<R::Float> {
+        theta::<R>(&self.links[index], joints, index)
+    }
+
     /// Number of joints.
     pub fn joints(&self) -> usize {
         self.links.len()
@@ -195,25 +201,11 @@ fn turn<R: Real>(
     joints: &[Plane<R::Float>],
     index: usize,
 ) {
-    let mut theta = [<R::Float as Default>::default(); BLOCK];
-    let (sign, zero) = (R::of(link.sign), R::of(link.zero));
-    for i in 0..BLOCK {
-        R::step();
-        theta[i] = R::load(joints[index][i]).store();
-    }
-    for (other, factor) in &link.coupling {
-        let factor = R::of(*factor);
-        for i in 0..BLOCK {
-            R::step();
-            theta[i] = R::load(joints[*other][i])
-                .mul_add(factor, R::load(theta[i]))
-                .store();
-        }
-    }
+    let theta = theta::<R>(link, joints, index);
     let (a, b) = ((link.axis + 1) % 3, (link.axis + 2) % 3);
     for i in 0..BLOCK {
         R::step();
-        let theta = R::load(theta[i]).mul_add(sign, zero);
+        let theta = R::load(theta[i]);
         if link.slides {
             let axis = vector::<R>(&frame.axes[link.axis], i);
             let origin = vector::<R>(&frame.origin, i);
@@ -226,4 +218,24 @@ fn turn<R: Real>(
             put(&mut frame.axes[b], i, first.mul_add(-sin, second.scaled(cos)));
         }
     }
+}
+
+#[inline(always)]
+fn theta<R: Real>(link: &LinkConstants, joints: &[Plane<R::Float>], index: usize) -> Plane<R::Float> {
+    let mut theta = joints[index];
+    for (other, factor) in &link.coupling {
+        let factor = R::of(*factor);
+        for i in 0..BLOCK {
+            R::step();
+            theta[i] = R::load(joints[*other][i])
+                .mul_add(factor, R::load(theta[i]))
+                .store();
+        }
+    }
+    let (sign, zero) = (R::of(link.sign), R::of(link.zero));
+    for i in 0..BLOCK {
+        R::step();
+        theta[i] = R::load(theta[i]).mul_add(sign, zero).store();
+    }
+    theta
 }

@@ -34,6 +34,8 @@ use sum::{FindStill, OneWrench, StillPlanes};
 #[derive(Clone, Debug)]
 pub(in crate::kernel) struct WholeModel {
     model: ModelConstants,
+    /// Whether shares and uncertainty are computed.
+    shares: bool,
     backend: Backend,
     frames: Vec<FramePlanes<f64>>,
     actual: Vec<FramePlanes<f64>>,
@@ -42,6 +44,7 @@ pub(in crate::kernel) struct WholeModel {
     still: Box<StillPlanes<f64>>,
     along: Planes<f64, 3>,
     by_load: Plane<f64>,
+    by_unit: Vec<Plane<f64>>,
 }
 
 /// The answers of a block.
@@ -71,15 +74,16 @@ impl WholeAnswers {
 impl WholeModel {
     /// For this arm; none if it has a part that lanes do not know.
     pub fn of(arm: &Arm<'_>, backend: Backend) -> Option<WholeModel> {
-        Some(WholeModel::with(ModelConstants::of(arm, true)?, backend))
+        Some(WholeModel::with(ModelConstants::of(arm, true)?, true, backend))
     }
 
-    /// The same by load and gravity alone: without geometry, thermal growth and backlash.
+    /// The same by load and gravity alone: without geometry, thermal growth and backlash, and without shares and
+    /// uncertainty.
     pub fn by_load(arm: &Arm<'_>, backend: Backend) -> Option<WholeModel> {
-        Some(WholeModel::with(ModelConstants::of(arm, false)?, backend))
+        Some(WholeModel::with(ModelConstants::of(arm, false)?, false, backend))
     }
 
-    fn with(model: ModelConstants, backend: Backend) -> WholeModel {
+    fn with(model: ModelConstants, shares: bool, backend: Backend) -> WholeModel {
         let frames = model.chain.joints() + 3;
         WholeModel {
             frames: vec![FramePlanes::unknown(); frames],
@@ -92,8 +96,10 @@ impl WholeModel {
             }),
             along: planes(),
             by_load: [0.0; BLOCK],
+            by_unit: vec![[0.0; BLOCK]; model.parts.len()],
             gaps: vec![GapPlanes::unknown(); model.backlash.len()],
             model,
+            shares,
             backend,
         }
     }
@@ -127,6 +133,7 @@ impl WholeModel {
         backend.run(FindParts { model, frames, parts });
         backend.run(FindStill {
             model,
+            joints,
             frames,
             actual: model.actual.as_ref().map(|_| actual.as_slice()),
             parts,
@@ -198,6 +205,9 @@ impl WholeModel {
         out: &mut WholeAnswers,
     ) {
         self.envelope(cases, plane, out);
+        if !self.shares {
+            return;
+        }
         self.backend.run(FindShares {
             model: &self.model,
             parts: &self.parts,
@@ -206,6 +216,7 @@ impl WholeModel {
             worst: &out.worst,
             along: &mut self.along,
             by_load: &mut self.by_load,
+            by_unit: &mut self.by_unit,
             shares: &mut out.shares,
             variance: &mut out.uncertainty,
         });

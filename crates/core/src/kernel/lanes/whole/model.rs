@@ -1,6 +1,6 @@
 //! The constants of an arm and of all parts of its model.
 
-use nalgebra::Vector3;
+use nalgebra::{DMatrix, Vector3};
 
 use super::backlash::GapConstants;
 use super::chain::{ChainConstants, Displacement};
@@ -43,6 +43,9 @@ pub(in crate::kernel::lanes) struct ModelConstants {
     pub masses: Vec<MassConstants>,
     /// Of free fall, base, m/s^2; none where gravity is neglected.
     pub acceleration: Option<Vector3<f64>>,
+    /// Covariance of the first compliances, the others being independent: row by row up to the diagonal, the entries
+    /// beside it twice.
+    pub covariance: Vec<Vec<f64>>,
     /// The joints with backlash, in their order.
     pub backlash: Vec<GapConstants>,
     /// The calibrated arm.
@@ -66,13 +69,8 @@ impl ModelConstants {
     pub fn of(arm: &Arm<'_>, unloaded: bool) -> Option<ModelConstants> {
         let (robot, model) = (arm.robot, arm.model);
         let structure = &model.structure;
-        // The travel of a prismatic joint does not grow: not subtracted here.
-        let slides = (0..robot.joints().len()).any(|joint| robot.slides(joint));
         let thermal = model.thermal.filter(|_| unloaded);
-        if slides && thermal.is_some() {
-            return None;
-        }
-        if !model.is_affine() || structure.compensator.is_some() || structure.covariance.is_some() {
+        if !model.is_affine() || structure.compensator.is_some() {
             return None;
         }
         let joints = robot.joints().len();
@@ -133,6 +131,7 @@ impl ModelConstants {
                     .collect()
             }),
             acceleration: gravity.map(|gravity| gravity.acceleration),
+            covariance: structure.covariance.as_ref().map_or(Vec::new(), rows),
             backlash: gaps.collect(),
             actual: actual.map(ChainConstants::of),
             growth: thermal.map(|thermal| [thermal.growth, thermal.standard_uncertainty]),
@@ -144,6 +143,16 @@ impl ModelConstants {
             chain,
         })
     }
+}
+
+/// Rows of a quadratic form up to the diagonal.
+fn rows(form: &DMatrix<f64>) -> Vec<Vec<f64>> {
+    let entry = |i: usize, j: usize| match i == j {
+        true => form[(i, i)],
+        false => form[(i, j)] + form[(j, i)],
+    };
+    let row = |i| (0..=i).map(|j| entry(i, j)).collect();
+    (0..form.nrows()).map(row).collect()
 }
 
 /// Displacement by gravity at tool setting, part by part, and per unit of compliance; empty without gravity.
