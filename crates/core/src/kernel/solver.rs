@@ -49,9 +49,8 @@ impl<'q> Lanes<'q> {
         {
             return Some(Lanes::Drives(Points::new(question, arm)));
         }
-        let supported = detail == AnswerDetail::Shares || by_load_alone;
         let in_turn = order == Order::Any || turns_follow(question);
-        (supported && in_turn).then(|| Some(Lanes::Whole(Box::new(WholePoints::of(question)?))))?
+        in_turn.then(|| Some(Lanes::Whole(Box::new(WholePoints::of(question, detail)?))))?
     }
 
     fn solve(&mut self, poses: &[Isometry]) {

@@ -33,7 +33,7 @@ pub fn kept_by_friction(before: f64, moved: f64, gap: f64) -> f64 {
 }
 
 /// Torques below this do not decide the side, N m (N): rounding, far below the friction of any joint.
-const NO_TORQUE: f64 = 1e-6;
+pub(crate) const NO_TORQUE: f64 = 1e-6;
 
 /// Offset of a link (rad, m) after each of these moves of its motor, after a run-in: at first on the side that its
 /// first real move gives, or in the middle of its backlash if it does not move at all.

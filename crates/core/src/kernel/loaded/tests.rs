@@ -4,8 +4,8 @@ use super::super::tests::{NOMINAL, analysis, cancelled_after, poses, springy};
 use super::*;
 use crate::arms::{self, Stream};
 use crate::frame::Isometry;
-use crate::robot::{Attachment, Mass, Robot};
-use crate::source::{Gravity, StiffnessModel};
+use crate::robot::{Attachment, Backlash, BacklashSide, Mass, Robot};
+use crate::source::{Gravity, StiffnessModel, ThermalGrowth};
 use nalgebra::Unit;
 
 /// Wrenches of point `i`, three per point.
@@ -48,12 +48,27 @@ fn weighing() -> StiffnessModel {
     model
 }
 
+/// The same of a calibrated arm that is worn and warm: along a path the load alone counts.
+fn calibrated() -> StiffnessModel {
+    let mut model = weighing();
+    model.actual = Some(std::sync::Arc::new(arms::ALL[1].clone()));
+    model.thermal = Some(ThermalGrowth::new(12e-6, 5.0, 1.0));
+    let gap = Backlash {
+        gap: 1e-4,
+        standard_uncertainty: 0.0,
+        side: BacklashSide::Motion,
+    };
+    model.structure.backlash = vec![Some(gap); 6];
+    model
+}
+
 #[test]
 fn unit_loads_agree_with_each_load_alone() {
     for (robot, model) in [
         (&arms::ALL[0], StiffnessModel::DRIVES.clone()),
         (&arms::ALL[4], springy()),
         (&arms::ALL[2], weighing()),
+        (&arms::ALL[2], calibrated()),
     ] {
         let poses = poses(robot, 100, 21);
         analysis(robot, &model, NOMINAL, |question| {

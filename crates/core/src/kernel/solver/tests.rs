@@ -5,7 +5,6 @@ use super::*;
 use crate::arms;
 use crate::kernel::Answers;
 use crate::robot::inverse::Inverse;
-use crate::robot::{Backlash, BacklashSide};
 use crate::source::StiffnessModel;
 
 /// The answers at these poses, with or without lanes.
@@ -93,16 +92,9 @@ fn lanes_and_single_points_agree_for_every_arm() {
 #[test]
 fn what_lanes_do_not_know_goes_the_general_way() {
     let springy = super::super::tests::springy();
-    let mut worn = springy.clone();
-    worn.structure.backlash = vec![
-        Some(Backlash {
-            gap: 1e-4,
-            standard_uncertainty: 0.0,
-            side: BacklashSide::Motion,
-        });
-        6
-    ];
-    for (model, in_lanes) in [(&springy, true), (&worn, false)] {
+    let mut loaded = springy.clone();
+    loaded.load_dependent = true;
+    for (model, in_lanes) in [(&springy, true), (&loaded, false)] {
         analysis(&arms::ALL[0], model, NOMINAL, |question| {
             let solver = Solver::new(question, Order::Any, AnswerDetail::Shares);
             assert_eq!(solver.lanes.is_some(), in_lanes);

@@ -4,7 +4,7 @@
 use nalgebra::Vector3;
 
 use crate::frame::{Isometry, both_across};
-use crate::kernel::answer::{ALIKE, AT_LIMIT, Evaluation};
+use crate::kernel::answer::{ALIKE, AT_LIMIT, AnswerDetail, Evaluation};
 use crate::kernel::lanes::branches::{BranchPlanes, BranchSolver, find_missed, singularity, state};
 use crate::kernel::lanes::geometry::UNLIMITED;
 use crate::kernel::lanes::numbers::{BLOCK, Backend, Plane};
@@ -41,10 +41,15 @@ struct Best {
 }
 
 impl<'q> WholePoints<'q> {
-    /// For this question; none if its arm has no named branches, or a part that lanes do not know.
-    pub fn of(question: &'q Question<'q>) -> Option<WholePoints<'q>> {
+    /// For this question, with backlash and geometry where shares are computed; none if its arm has no named branches, or a part that lanes do not know.
+    pub fn of(question: &'q Question<'q>, detail: AnswerDetail) -> Option<WholePoints<'q>> {
         let backend = Backend::fastest();
-        let model = WholeModel::of(&question.arm, backend)?;
+        let model = match detail {
+            AnswerDetail::Shares => WholeModel::of(&question.arm, backend)?,
+            AnswerDetail::DeviationsAlone => WholeModel::by_load(&question.arm, backend)?,
+        };
+        let by_load_alone =
+            detail == AnswerDetail::DeviationsAlone || !question.arm.model.has_unloaded_deviation();
         let [first, second] = both_across(&question.normal);
         Some(WholePoints {
             question,
@@ -60,6 +65,7 @@ impl<'q> WholePoints<'q> {
                 score: [f64::INFINITY; BLOCK],
             },
             flips_are_alike: question.arm.model.is_drives_alone()
+                && by_load_alone
                 && question.arm.robot.inverse().flips_are_alike(),
             missed: [0.0; BLOCK],
         })

@@ -2,26 +2,10 @@
 //!
 //! `delta = sum_i c_i v_i (v_i . F + z_i . M)`; the share of joint i is its term along the in-plane deviation of the deciding case.
 
-use nalgebra::Vector3;
-
+use super::worst::{CaseLanes, Worst};
 use crate::kernel::lanes::geometry::{BaseAxes, Prepared};
 use crate::kernel::lanes::numbers::{BLOCK, Float, Plane, Planes, Real, Vector, Work, lanes_of, put, vector};
 use crate::kernel::lanes::solve::Stances;
-
-/// The largest deviations of the cases so far, and the case that decides.
-#[derive(Clone, Debug)]
-#[repr(align(64))]
-pub(in crate::kernel::lanes) struct Worst<T> {
-    pub in_plane: Plane<T>,
-    /// Along the normal, of the case where it is largest in size.
-    pub normal: Plane<T>,
-    pub full: Plane<T>,
-    pub case: Plane<T>,
-    /// In-plane components of the deciding case, along the plane's two directions.
-    pub components: Planes<T, 2>,
-    /// Its force and moment, arm axes.
-    pub wrench: Planes<T, 6>,
-}
 
 /// Deviations of one case (base basis), taken into the worst so far.
 pub(in crate::kernel::lanes) struct OneCase<'a, T, const MOMENTS: bool> {
@@ -35,16 +19,10 @@ pub(in crate::kernel::lanes) struct OneCase<'a, T, const MOMENTS: bool> {
 impl<T: Float, const MOMENTS: bool> Work<T> for OneCase<'_, T, MOMENTS> {
     #[inline(always)]
     fn run<R: Real<Float = T>>(self) {
-        let [force, moment]: [Vector3<f64>; 2] = self.prepared.cases[self.case];
-        let (force, moment) = (Vector::<R>::of(&force), Vector::<R>::of(&moment));
-        let index = R::of(self.case as f64);
+        let [force, moment] = &self.prepared.cases[self.case];
+        let case = CaseLanes::<R>::new(self.case, force, moment, &self.prepared.plane);
         let compliance = lanes_of::<R>(&self.prepared.compliance);
         let base = BaseAxes::<R>::new(self.prepared);
-        let [first, second, normal] = &self.prepared.plane;
-        let (first, second, normal) = (Vector::of(first), Vector::of(second), Vector::of(normal));
-        // Nothing is smaller in size than the first case's.
-        let start = R::of(if self.case == 0 { -1.0 } else { 0.0 });
-        let worst = self.worst;
         for i in 0..BLOCK {
             R::step();
             let zero = R::of(0.0);
@@ -52,35 +30,15 @@ impl<T: Float, const MOMENTS: bool> Work<T> for OneCase<'_, T, MOMENTS> {
             let mut k = 0;
             while k < 6 {
                 let v = vector::<R>(&self.stances.linear[3 * k..3 * k + 3], i);
-                let mut torque = v.dot(force);
+                let mut torque = v.dot(case.force);
                 if MOMENTS {
-                    torque = torque + vector::<R>(&self.stances.axes[3 * k..3 * k + 3], i).dot(moment);
+                    torque = torque + vector::<R>(&self.stances.axes[3 * k..3 * k + 3], i).dot(case.moment);
                 }
                 delta = v.mul_add(compliance[k] * torque, delta);
                 k += 1;
             }
             put(self.deviation, i, base.of(delta));
-
-            let (a, b, n) = (delta.dot(first), delta.dot(second), delta.dot(normal));
-            let in_plane = a.mul_add(a, b * b).sqrt();
-            let full = n.mul_add(n, in_plane * in_plane).sqrt();
-            let begin = start < zero;
-            let most = R::either(begin, start, R::load(worst.in_plane[i]));
-            let more = in_plane > most;
-            worst.in_plane[i] = R::either(more, in_plane, most).store();
-            worst.case[i] = R::either(more, index, R::load(worst.case[i])).store();
-            let normal_so_far = R::either(begin, zero, R::load(worst.normal[i]));
-            worst.normal[i] = R::either(n.abs() > normal_so_far.abs(), n, normal_so_far).store();
-            worst.full[i] = full.max(R::either(begin, zero, R::load(worst.full[i]))).store();
-            let components = vector_2::<R>(&worst.components, i);
-            worst.components[0][i] = R::either(more, a, components[0]).store();
-            worst.components[1][i] = R::either(more, b, components[1]).store();
-            let so_far = vector::<R>(&worst.wrench[0..3], i);
-            put(&mut worst.wrench[0..3], i, choose(more, force, so_far));
-            if MOMENTS {
-                let so_far = vector::<R>(&worst.wrench[3..6], i);
-                put(&mut worst.wrench[3..6], i, choose(more, moment, so_far));
-            }
+            case.take::<MOMENTS>(delta, i, self.worst);
         }
     }
 }
@@ -88,15 +46,6 @@ impl<T: Float, const MOMENTS: bool> Work<T> for OneCase<'_, T, MOMENTS> {
 #[inline(always)]
 fn vector_2<R: Real>(planes: &Planes<R::Float, 2>, i: usize) -> [R; 2] {
     [R::load(planes[0][i]), R::load(planes[1][i])]
-}
-
-#[inline(always)]
-fn choose<R: Real>(condition: bool, yes: Vector<R>, no: Vector<R>) -> Vector<R> {
-    Vector::new(
-        R::either(condition, yes.x, no.x),
-        R::either(condition, yes.y, no.y),
-        R::either(condition, yes.z, no.z),
-    )
 }
 
 /// Share of each joint in the in-plane deviation of the worst case, and its standard uncertainty.

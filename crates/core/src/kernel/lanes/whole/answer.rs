@@ -4,7 +4,7 @@
 //!
 //! ```text
 //! share of a contributor = sum over its parts of a . s_k x_k  (gravity relative to tool setting)   + a . geometry, a . thermal
-//! u^2 = sum_k (u_k a . d delta / d c_k)^2 + (m a . elastic and gravity)^2 + u_thermal^2
+//! u^2 = sum_kl S_kl (a . d delta / d c_k) (a . d delta / d c_l) + (m a . elastic and gravity)^2 + u_thermal^2
 //! ```
 
 use nalgebra::Vector3;
@@ -12,7 +12,7 @@ use nalgebra::Vector3;
 use super::model::ModelConstants;
 use super::parts::PartPlanes;
 use super::sum::StillPlanes;
-use crate::kernel::lanes::load::Worst;
+use crate::kernel::lanes::load::{CaseLanes, Worst};
 use crate::kernel::lanes::numbers::{BLOCK, Float, Plane, Planes, Real, Vector, Work, put, vector};
 
 /// Takes the deviation of one case (base) into the worst so far.
@@ -29,49 +29,15 @@ pub(in crate::kernel::lanes) struct TakeCase<'a, T> {
 impl<T: Float> Work<T> for TakeCase<'_, T> {
     #[inline(always)]
     fn run<R: Real<Float = T>>(self) {
-        let (force, moment) = (Vector::<R>::of(&self.force), Vector::<R>::of(&self.moment));
-        let index = R::of(self.case as f64);
-        let [first, second, normal] = self.plane;
-        let (first, second, normal) = (Vector::of(first), Vector::of(second), Vector::of(normal));
-        let zero = R::of(0.0);
-        // Nothing is smaller in size than the deviation of the first case.
-        let start = R::of(if self.case == 0 { -1.0 } else { 0.0 });
-        let begin = self.case == 0;
-        let worst = self.worst;
+        let case = CaseLanes::<R>::new(self.case, &self.force, &self.moment, self.plane);
         for i in 0..BLOCK {
             R::step();
-            let delta = vector::<R>(self.deviation, i);
-            let (a, b, n) = (delta.dot(first), delta.dot(second), delta.dot(normal));
-            let in_plane = a.mul_add(a, b * b).sqrt();
-            let full = n.mul_add(n, in_plane * in_plane).sqrt();
-            let most = R::either(begin, start, R::load(worst.in_plane[i]));
-            let more = in_plane > most;
-            worst.in_plane[i] = R::either(more, in_plane, most).store();
-            worst.case[i] = R::either(more, index, R::load(worst.case[i])).store();
-            let normal_so_far = R::either(begin, zero, R::load(worst.normal[i]));
-            worst.normal[i] = R::either(n.abs() > normal_so_far.abs(), n, normal_so_far).store();
-            worst.full[i] = full.max(R::either(begin, zero, R::load(worst.full[i]))).store();
-            worst.components[0][i] = R::either(more, a, R::load(worst.components[0][i])).store();
-            worst.components[1][i] = R::either(more, b, R::load(worst.components[1][i])).store();
-            let so_far = vector::<R>(&worst.wrench[0..3], i);
-            put(&mut worst.wrench[0..3], i, either(more, force, so_far));
-            let so_far = vector::<R>(&worst.wrench[3..6], i);
-            put(&mut worst.wrench[3..6], i, either(more, moment, so_far));
+            case.take::<true>(vector::<R>(self.deviation, i), i, self.worst);
         }
     }
 }
 
-#[inline(always)]
-fn either<R: Real>(condition: bool, yes: Vector<R>, no: Vector<R>) -> Vector<R> {
-    Vector::new(
-        R::either(condition, yes.x, no.x),
-        R::either(condition, yes.y, no.y),
-        R::either(condition, yes.z, no.z),
-    )
-}
-
-/// Fills the shares (m, one plane per contributor) and the standard uncertainty of the in-plane deviation of the worst
-/// case (m).
+/// Fills the shares (m, one plane per contributor) and the variance (m^2) of the in-plane deviation of the worst case.
 pub(in crate::kernel::lanes) struct FindShares<'a, T> {
     pub model: &'a ModelConstants,
     pub parts: &'a [PartPlanes<T>],
@@ -82,8 +48,10 @@ pub(in crate::kernel::lanes) struct FindShares<'a, T> {
     pub along: &'a mut Planes<T, 3>,
     /// Memory: the elastic and gravity part along it.
     pub by_load: &'a mut Plane<T>,
+    /// Displacement along it per unit of each compliance.
+    pub by_unit: &'a mut [Plane<T>],
     pub shares: &'a mut [Plane<T>],
-    pub uncertainty: &'a mut Plane<T>,
+    pub variance: &'a mut Plane<T>,
 }
 
 impl<T: Float> Work<T> for FindShares<'_, T> {
@@ -97,8 +65,9 @@ impl<T: Float> Work<T> for FindShares<'_, T> {
             worst,
             along,
             by_load,
+            by_unit,
             shares,
-            uncertainty,
+            variance,
         } = self;
         let (zero, one) = (R::of(0.0), R::of(1.0));
         let (first, second) = (Vector::<R>::of(&plane[0]), Vector::<R>::of(&plane[1]));
@@ -114,7 +83,6 @@ impl<T: Float> Work<T> for FindShares<'_, T> {
                 second.mul_add(b * per_length, first.scaled(a * per_length)),
             );
             by_load[i] = zero.store();
-            uncertainty[i] = zero.store();
         }
         let mut contributor = 0;
         while contributor < shares.len() {
@@ -128,7 +96,7 @@ impl<T: Float> Work<T> for FindShares<'_, T> {
         while k < parts.len() {
             let (constants, part) = (&model.parts[k], &parts[k]);
             let share = &mut shares[constants.contributor];
-            let (c, u) = (R::of(constants.compliance), R::of(constants.uncertainty));
+            let c = R::of(constants.compliance);
             let there = Vector::<R>::of(&constants.reference[0]);
             let there_per_unit = Vector::<R>::of(&constants.reference[1]);
             for i in 0..BLOCK {
@@ -143,18 +111,18 @@ impl<T: Float> Work<T> for FindShares<'_, T> {
                 let of_part = moved.mul_add(c, -there.dot(along));
                 share[i] = (R::load(share[i]) + of_part).store();
                 by_load[i] = (R::load(by_load[i]) + of_part).store();
-                let by_unit = (moved - there_per_unit.dot(along)) * u;
-                uncertainty[i] = by_unit.mul_add(by_unit, R::load(uncertainty[i])).store();
+                by_unit[k][i] = (moved - there_per_unit.dot(along)).store();
             }
             k += 1;
         }
+        add_compliances::<R>(model, by_unit, variance);
         let model_error = R::of(model.model_error);
         let scatter = R::of(model.repeatability);
         for i in 0..BLOCK {
             R::step();
             let missed = R::load(by_load[i]) * model_error;
-            let variance = scatter.mul_add(scatter, R::load(uncertainty[i]));
-            uncertainty[i] = missed.mul_add(missed, variance).store();
+            let of_parts = scatter.mul_add(scatter, R::load(variance[i]));
+            variance[i] = missed.mul_add(missed, of_parts).store();
         }
         if let Some(geometry) = model.geometry {
             for i in 0..BLOCK {
@@ -170,12 +138,72 @@ impl<T: Float> Work<T> for FindShares<'_, T> {
                 let length = vector::<R>(&still.lengths, i).dot(vector::<R>(along, i));
                 shares[thermal][i] = (length * growth).store();
                 let by_u = length * u;
-                uncertainty[i] = by_u.mul_add(by_u, R::load(uncertainty[i])).store();
+                variance[i] = by_u.mul_add(by_u, R::load(variance[i])).store();
+            }
+        }
+    }
+}
+
+/// The variance by the compliances: those of the covariance, and the others as independent.
+#[inline(always)]
+fn add_compliances<R: Real>(
+    model: &ModelConstants,
+    by_unit: &[Plane<R::Float>],
+    variance: &mut Plane<R::Float>,
+) {
+    let zero = R::of(0.0);
+    for i in 0..BLOCK {
+        R::step();
+        variance[i] = zero.store();
+    }
+    let mut k = 0;
+    while k < by_unit.len() {
+        let mut weighted = [R::Float::default(); BLOCK];
+        if let Some(row) = model.covariance.get(k) {
+            let mut other = 0;
+            while other < row.len() {
+                let entry = R::of(row[other]);
+                for i in 0..BLOCK {
+                    R::step();
+                    let so_far = R::load(weighted[i]);
+                    weighted[i] = R::load(by_unit[other][i]).mul_add(entry, so_far).store();
+                }
+                other += 1;
+            }
+        } else {
+            let u = R::of(model.parts[k].uncertainty);
+            for i in 0..BLOCK {
+                R::step();
+                weighted[i] = (R::load(by_unit[k][i]) * u * u).store();
             }
         }
         for i in 0..BLOCK {
             R::step();
-            uncertainty[i] = R::load(uncertainty[i]).sqrt().store();
+            let so_far = R::load(variance[i]);
+            variance[i] = R::load(by_unit[k][i])
+                .mul_add(R::load(weighted[i]), so_far)
+                .store();
+        }
+        k += 1;
+    }
+    // Rounding of a covariance.
+    for i in 0..BLOCK {
+        R::step();
+        variance[i] = R::load(variance[i]).max(zero).store();
+    }
+}
+
+/// Turns a variance into a standard uncertainty.
+pub(in crate::kernel::lanes) struct TakeRoot<'a, T> {
+    pub of: &'a mut Plane<T>,
+}
+
+impl<T: Float> Work<T> for TakeRoot<'_, T> {
+    #[inline(always)]
+    fn run<R: Real<Float = T>>(self) {
+        for i in 0..BLOCK {
+            R::step();
+            self.of[i] = R::load(self.of[i]).sqrt().store();
         }
     }
 }

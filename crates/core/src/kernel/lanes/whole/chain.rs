@@ -104,6 +104,12 @@ impl ChainConstants {
         (self.links[index].axis, self.links[index].slides)
     }
 
+    /// Position of joint `index` in its chain, rad (m).
+    #[inline(always)]
+    pub fn theta<R: Real>(&self, joints: &[Plane<R::Float>], index: usize) -> Plane<R::Float> {
+        theta::<R>(&self.links[index], joints, index)
+    }
+
     /// Number of joints.
     pub fn joints(&self) -> usize {
         self.links.len()
@@ -205,12 +211,57 @@ fn turn<R: Real>(
     joints: &[Plane<R::Float>],
     index: usize,
 ) {
-    let mut theta = [<R::Float as Default>::default(); BLOCK];
-    let (sign, zero) = (R::of(link.sign), R::of(link.zero));
+    let theta = theta::<R>(link, joints, index);
+    // With constant planes the compiler knows that they do not overlap.
+    match (link.slides, link.axis) {
+        (true, 0) => slide::<R, 0>(frame, &theta),
+        (true, 1) => slide::<R, 1>(frame, &theta),
+        (true, _) => slide::<R, 2>(frame, &theta),
+        (false, axis) => {
+            let (mut sines, mut cosines) = (theta, theta);
+            for i in 0..BLOCK {
+                R::step();
+                let (sin, cos) = sin_cos(R::load(theta[i]));
+                (sines[i], cosines[i]) = (sin.store(), cos.store());
+            }
+            match axis {
+                0 => rotate::<R, 1, 2>(frame, &sines, &cosines),
+                1 => rotate::<R, 2, 0>(frame, &sines, &cosines),
+                _ => rotate::<R, 0, 1>(frame, &sines, &cosines),
+            }
+        }
+    }
+}
+
+/// Moves the frame along its axis `A`.
+#[inline(always)]
+fn slide<R: Real, const A: usize>(frame: &mut FramePlanes<R::Float>, by: &Plane<R::Float>) {
     for i in 0..BLOCK {
         R::step();
-        theta[i] = R::load(joints[index][i]).store();
+        let (axis, origin) = (vector::<R>(&frame.axes[A], i), vector::<R>(&frame.origin, i));
+        put(&mut frame.origin, i, axis.mul_add(R::load(by[i]), origin));
     }
+}
+
+/// Turns axis `A` towards axis `B`.
+#[inline(always)]
+fn rotate<R: Real, const A: usize, const B: usize>(
+    frame: &mut FramePlanes<R::Float>,
+    sines: &Plane<R::Float>,
+    cosines: &Plane<R::Float>,
+) {
+    for i in 0..BLOCK {
+        R::step();
+        let (sin, cos) = (R::load(sines[i]), R::load(cosines[i]));
+        let (first, second) = (vector::<R>(&frame.axes[A], i), vector::<R>(&frame.axes[B], i));
+        put(&mut frame.axes[A], i, second.mul_add(sin, first.scaled(cos)));
+        put(&mut frame.axes[B], i, first.mul_add(-sin, second.scaled(cos)));
+    }
+}
+
+#[inline(always)]
+fn theta<R: Real>(link: &LinkConstants, joints: &[Plane<R::Float>], index: usize) -> Plane<R::Float> {
+    let mut theta = joints[index];
     for (other, factor) in &link.coupling {
         let factor = R::of(*factor);
         for i in 0..BLOCK {
@@ -220,20 +271,10 @@ fn turn<R: Real>(
                 .store();
         }
     }
-    let (a, b) = ((link.axis + 1) % 3, (link.axis + 2) % 3);
+    let (sign, zero) = (R::of(link.sign), R::of(link.zero));
     for i in 0..BLOCK {
         R::step();
-        let theta = R::load(theta[i]).mul_add(sign, zero);
-        if link.slides {
-            let axis = vector::<R>(&frame.axes[link.axis], i);
-            let origin = vector::<R>(&frame.origin, i);
-            put(&mut frame.origin, i, axis.mul_add(theta, origin));
-        } else {
-            let (sin, cos) = sin_cos(theta);
-            let first = vector::<R>(&frame.axes[a], i);
-            let second = vector::<R>(&frame.axes[b], i);
-            put(&mut frame.axes[a], i, second.mul_add(sin, first.scaled(cos)));
-            put(&mut frame.axes[b], i, first.mul_add(-sin, second.scaled(cos)));
-        }
+        theta[i] = R::load(theta[i]).mul_add(sign, zero).store();
     }
+    theta
 }

@@ -1,4 +1,4 @@
-//! The uncertainty of the in-plane deviation by the uncertainties of load and tool.
+//! The variance of the in-plane deviation by the uncertainties of load and tool.
 //!
 //! Each input is changed by its standard uncertainty, as in `source/arm_state/input_uncertainty.rs`; the displacement
 //! is proportional to the wrench:
@@ -15,7 +15,7 @@ use crate::kernel::lanes::load::Worst;
 use crate::kernel::lanes::numbers::{BLOCK, Float, Plane, Planes, Real, Vector, Work, vector};
 use crate::load::InputUncertainty;
 
-/// Adds the contribution of load and tool to the standard uncertainty (m).
+/// Adds the variance by load and tool, m^2.
 pub(in crate::kernel::lanes) struct AddInputs<'a, T> {
     pub model: &'a ModelConstants,
     pub inputs: &'a InputUncertainty,
@@ -24,7 +24,7 @@ pub(in crate::kernel::lanes) struct AddInputs<'a, T> {
     pub worst: &'a Worst<T>,
     /// Direction of the in-plane deviation, base.
     pub along: &'a Planes<T, 3>,
-    pub uncertainty: &'a mut Plane<T>,
+    pub variance: &'a mut Plane<T>,
 }
 
 impl<T: Float> Work<T> for AddInputs<'_, T> {
@@ -73,17 +73,17 @@ impl<T: Float> Work<T> for AddInputs<'_, T> {
         let relative = R::of(self.inputs.relative);
         for i in 0..BLOCK {
             R::step();
-            let before = R::load(self.uncertainty[i]);
             let by_amount = R::load(as_is[i]) * relative;
             let by_length = R::load(longer[i]) - R::load(as_is[i]);
-            let mut variance = before.mul_add(before, by_amount.mul_add(by_amount, by_length * by_length));
+            let before = R::load(self.variance[i]);
+            let mut variance = before + by_amount.mul_add(by_amount, by_length * by_length);
             let mut u = 0;
             while u < 3 {
                 let by = R::load(by_force[u][i]);
                 variance = by.mul_add(by, variance);
                 u += 1;
             }
-            self.uncertainty[i] = variance.sqrt().store();
+            self.variance[i] = variance.store();
         }
     }
 }

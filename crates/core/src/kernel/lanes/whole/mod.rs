@@ -4,10 +4,11 @@
 //! only the latter become vectors.
 //!
 //! In reading order: `chain` (frames of the links), `model` (constants of an arm and its parts), `parts` (screws and
-//! torques of gravity), `sum` (the displacements), `answer` (the worst case, shares, uncertainty),
-//! `inputs` (uncertainty by load and tool). [`WholeModel`] runs them.
+//! torques of gravity), `sum` (the displacements), `backlash` (sides of the links), `answer` (the worst case, shares,
+//! uncertainty), `inputs` (uncertainty by load and tool). [`WholeModel`] runs them.
 
 mod answer;
+mod backlash;
 mod chain;
 mod inputs;
 mod model;
@@ -21,7 +22,8 @@ use crate::kernel::lanes::numbers::{BLOCK, Backend, Plane, Planes, planes};
 use crate::load::InputUncertainty;
 use crate::source::Arm;
 use crate::spatial::Wrench;
-use answer::{FindShares, TakeCase};
+use answer::{FindShares, TakeCase, TakeRoot};
+use backlash::{GapPlanes, KeepOffsets, ShareBacklash, settle};
 pub(in crate::kernel::lanes) use chain::{ChainConstants, Displacement, FindFrames, FramePlanes};
 use inputs::AddInputs;
 use model::ModelConstants;
@@ -32,13 +34,17 @@ use sum::{FindStill, OneWrench, StillPlanes};
 #[derive(Clone, Debug)]
 pub(in crate::kernel) struct WholeModel {
     model: ModelConstants,
+    /// Whether shares and uncertainty are computed.
+    shares: bool,
     backend: Backend,
     frames: Vec<FramePlanes<f64>>,
     actual: Vec<FramePlanes<f64>>,
     parts: Vec<PartPlanes<f64>>,
+    gaps: Vec<GapPlanes<f64>>,
     still: Box<StillPlanes<f64>>,
     along: Planes<f64, 3>,
     by_load: Plane<f64>,
+    by_unit: Vec<Plane<f64>>,
 }
 
 /// The answers of a block.
@@ -58,14 +64,7 @@ impl WholeAnswers {
     pub fn with(cases: usize, contributors: usize) -> WholeAnswers {
         WholeAnswers {
             deviations: vec![planes(); cases],
-            worst: Worst {
-                in_plane: [0.0; BLOCK],
-                normal: [0.0; BLOCK],
-                full: [0.0; BLOCK],
-                case: [0.0; BLOCK],
-                components: planes(),
-                wrench: planes(),
-            },
+            worst: Worst::none(),
             shares: vec![[0.0; BLOCK]; contributors],
             uncertainty: [0.0; BLOCK],
         }
@@ -75,9 +74,18 @@ impl WholeAnswers {
 impl WholeModel {
     /// For this arm; none if it has a part that lanes do not know.
     pub fn of(arm: &Arm<'_>, backend: Backend) -> Option<WholeModel> {
-        let model = ModelConstants::of(arm)?;
+        Some(WholeModel::with(ModelConstants::of(arm, true)?, true, backend))
+    }
+
+    /// The same by load and gravity alone: without geometry, thermal growth and backlash, and without shares and
+    /// uncertainty.
+    pub fn by_load(arm: &Arm<'_>, backend: Backend) -> Option<WholeModel> {
+        Some(WholeModel::with(ModelConstants::of(arm, false)?, false, backend))
+    }
+
+    fn with(model: ModelConstants, shares: bool, backend: Backend) -> WholeModel {
         let frames = model.chain.joints() + 3;
-        Some(WholeModel {
+        WholeModel {
             frames: vec![FramePlanes::unknown(); frames],
             actual: vec![FramePlanes::unknown(); if model.actual.is_some() { frames } else { 0 }],
             parts: vec![PartPlanes::unknown(); model.parts.len()],
@@ -88,9 +96,12 @@ impl WholeModel {
             }),
             along: planes(),
             by_load: [0.0; BLOCK],
+            by_unit: vec![[0.0; BLOCK]; model.parts.len()],
+            gaps: vec![GapPlanes::unknown(); model.backlash.len()],
             model,
+            shares,
             backend,
-        })
+        }
     }
 
     /// Puts the arm of each point at these joint positions, rad (m), one plane per joint.
@@ -122,6 +133,7 @@ impl WholeModel {
         backend.run(FindParts { model, frames, parts });
         backend.run(FindStill {
             model,
+            joints,
             frames,
             actual: model.actual.as_ref().map(|_| actual.as_slice()),
             parts,
@@ -163,13 +175,28 @@ impl WholeModel {
     ) {
         for (case, (wrench, deviation)) in cases.iter().zip(&mut out.deviations).enumerate() {
             self.deviate(wrench, deviation);
-            self.backend.run(TakeCase {
+            let WholeModel {
+                model,
+                backend,
+                parts,
+                gaps,
+                ..
+            } = self;
+            if !gaps.is_empty() {
+                settle(*backend, model, parts, (case, wrench), plane, gaps, deviation);
+            }
+            backend.run(TakeCase {
                 case,
                 force: wrench.force,
                 moment: wrench.moment,
                 plane,
                 deviation,
                 worst: &mut out.worst,
+            });
+            backend.run(KeepOffsets {
+                case,
+                worst: &out.worst,
+                gaps,
             });
         }
     }
@@ -183,6 +210,9 @@ impl WholeModel {
         out: &mut WholeAnswers,
     ) {
         self.envelope(cases, plane, out);
+        if !self.shares {
+            return;
+        }
         self.backend.run(FindShares {
             model: &self.model,
             parts: &self.parts,
@@ -191,8 +221,17 @@ impl WholeModel {
             worst: &out.worst,
             along: &mut self.along,
             by_load: &mut self.by_load,
+            by_unit: &mut self.by_unit,
             shares: &mut out.shares,
-            uncertainty: &mut out.uncertainty,
+            variance: &mut out.uncertainty,
+        });
+        self.backend.run(ShareBacklash {
+            model: &self.model,
+            parts: &self.parts,
+            gaps: &self.gaps,
+            along: &self.along,
+            shares: &mut out.shares,
+            variance: &mut out.uncertainty,
         });
         if !inputs.is_none() {
             self.backend.run(AddInputs {
@@ -202,9 +241,12 @@ impl WholeModel {
                 parts: &self.parts,
                 worst: &out.worst,
                 along: &self.along,
-                uncertainty: &mut out.uncertainty,
+                variance: &mut out.uncertainty,
             });
         }
+        self.backend.run(TakeRoot {
+            of: &mut out.uncertainty,
+        });
     }
 }
 

@@ -1,9 +1,10 @@
 //! The constants of an arm and of all parts of its model.
 
-use nalgebra::Vector3;
+use nalgebra::{DMatrix, Vector3};
 
+use super::backlash::GapConstants;
 use super::chain::{ChainConstants, Displacement};
-use crate::robot::Attachment;
+use crate::robot::{Attachment, BacklashSide};
 use crate::source::{Arm, ArmState, Contributor};
 use crate::spatial::Twist;
 
@@ -42,6 +43,11 @@ pub(in crate::kernel::lanes) struct ModelConstants {
     pub masses: Vec<MassConstants>,
     /// Of free fall, base, m/s^2; none where gravity is neglected.
     pub acceleration: Option<Vector3<f64>>,
+    /// Covariance of the first compliances, the others being independent: row by row up to the diagonal, the entries
+    /// beside it twice.
+    pub covariance: Vec<Vec<f64>>,
+    /// The joints with backlash, in their order.
+    pub backlash: Vec<GapConstants>,
     /// The calibrated arm.
     pub actual: Option<ChainConstants>,
     /// Relative growth of the links and its standard uncertainty.
@@ -57,18 +63,14 @@ pub(in crate::kernel::lanes) struct ModelConstants {
 }
 
 impl ModelConstants {
-    /// The constants of `arm`; none if it has a part that lanes do not know: torque curves, a compensator, a covariance,
-    /// a load-dependent equilibrium, backlash, a rail that grows.
-    pub fn of(arm: &Arm<'_>) -> Option<ModelConstants> {
+    /// The constants of `arm`, with or without geometry, thermal growth and backlash (`unloaded`); none if it has a part
+    /// that lanes do not know: torque curves, a compensator, a covariance, a load-dependent equilibrium, a rail that
+    /// grows.
+    pub fn of(arm: &Arm<'_>, unloaded: bool) -> Option<ModelConstants> {
         let (robot, model) = (arm.robot, arm.model);
         let structure = &model.structure;
-        // The travel of a prismatic joint does not grow: not subtracted here.
-        let slides = (0..robot.joints().len()).any(|joint| robot.slides(joint));
-        let backlash = structure.joints_with_backlash().next().is_some();
-        if backlash || (slides && model.thermal.is_some()) {
-            return None;
-        }
-        if !model.is_affine() || structure.compensator.is_some() || structure.covariance.is_some() {
+        let thermal = model.thermal.filter(|_| unloaded);
+        if !model.is_affine() || structure.compensator.is_some() {
             return None;
         }
         let joints = robot.joints().len();
@@ -107,6 +109,14 @@ impl ModelConstants {
                     reference: at_reference.get(k).copied().unwrap_or_default(),
                 })
             });
+        let gaps = structure.joints_with_backlash().filter(|_| unloaded);
+        let gaps = gaps.map(|(joint, gap)| GapConstants {
+            joint,
+            half: 0.5 * gap.gap,
+            relative: gap.standard_uncertainty / gap.gap,
+            by_torque: gap.side == BacklashSide::Torque,
+        });
+        let actual = model.actual.as_deref().filter(|_| unloaded);
         Some(ModelConstants {
             flange_from_tool: Displacement::of(arm.flange_from_tool),
             parts: parts.collect::<Option<_>>()?,
@@ -121,18 +131,28 @@ impl ModelConstants {
                     .collect()
             }),
             acceleration: gravity.map(|gravity| gravity.acceleration),
-            actual: model.actual.as_deref().map(ChainConstants::of),
-            growth: model
-                .thermal
-                .map(|thermal| [thermal.growth, thermal.standard_uncertainty]),
+            covariance: structure.covariance.as_ref().map_or(Vec::new(), rows),
+            backlash: gaps.collect(),
+            actual: actual.map(ChainConstants::of),
+            growth: thermal.map(|thermal| [thermal.growth, thermal.standard_uncertainty]),
             model_error: structure.model_error,
             repeatability: structure.repeatability,
             contributors: contributors.len(),
-            geometry: place(Contributor::Geometry),
-            thermal: place(Contributor::Thermal),
+            geometry: actual.and_then(|_| place(Contributor::Geometry)),
+            thermal: thermal.and_then(|_| place(Contributor::Thermal)),
             chain,
         })
     }
+}
+
+/// Rows of a quadratic form up to the diagonal.
+fn rows(form: &DMatrix<f64>) -> Vec<Vec<f64>> {
+    let entry = |i: usize, j: usize| match i == j {
+        true => form[(i, i)],
+        false => form[(i, j)] + form[(j, i)],
+    };
+    let row = |i| (0..=i).map(|j| entry(i, j)).collect();
+    (0..form.nrows()).map(row).collect()
 }
 
 /// Displacement by gravity at tool setting, part by part, and per unit of compliance; empty without gravity.

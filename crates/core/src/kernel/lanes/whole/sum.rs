@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use super::chain::FramePlanes;
 use super::model::ModelConstants;
 use super::parts::PartPlanes;
-use crate::kernel::lanes::numbers::{BLOCK, Float, Planes, Real, Vector, Work, put, vector};
+use crate::kernel::lanes::numbers::{BLOCK, Float, Plane, Planes, Real, Vector, Work, put, vector};
 
 /// Displacements of the tool without load, m, base.
 #[derive(Clone, Debug)]
@@ -14,13 +14,15 @@ pub(in crate::kernel::lanes) struct StillPlanes<T> {
     /// By gravity, relative to tool setting.
     pub gravity: Planes<T, 3>,
     pub geometry: Planes<T, 3>,
-    /// The constant lengths from base to flange, which thermal growth multiplies.
+    /// The constant lengths from base to flange, without the travel of prismatic joints, which thermal growth multiplies.
     pub lengths: Planes<T, 3>,
 }
 
 /// Fills [`StillPlanes`].
 pub(in crate::kernel::lanes) struct FindStill<'a, T> {
     pub model: &'a ModelConstants,
+    /// Joint positions, rad (m).
+    pub joints: &'a [Plane<T>],
     pub frames: &'a [FramePlanes<T>],
     /// The frames of the calibrated arm.
     pub actual: Option<&'a [FramePlanes<T>]>,
@@ -33,6 +35,7 @@ impl<T: Float> Work<T> for FindStill<'_, T> {
     fn run<R: Real<Float = T>>(self) {
         let FindStill {
             model,
+            joints,
             frames,
             actual,
             parts,
@@ -77,6 +80,22 @@ impl<T: Float> Work<T> for FindStill<'_, T> {
             for i in 0..BLOCK {
                 R::step();
                 put(&mut still.lengths, i, vector::<R>(&frames[tool - 1].origin, i));
+            }
+            // A scale measures the travel of a prismatic joint: it does not grow.
+            let mut joint = 0;
+            while joint < model.chain.joints() {
+                let (axis, slides) = model.chain.axis(joint);
+                if slides {
+                    let travel = model.chain.theta::<R>(joints, joint);
+                    let along = &frames[joint + 1].axes[axis];
+                    for i in 0..BLOCK {
+                        R::step();
+                        let so_far = vector::<R>(&still.lengths, i);
+                        let travelled = vector::<R>(along, i).scaled(R::load(travel[i]));
+                        put(&mut still.lengths, i, so_far - travelled);
+                    }
+                }
+                joint += 1;
             }
         }
     }
