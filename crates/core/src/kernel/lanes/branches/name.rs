@@ -75,35 +75,54 @@ impl<T: Float> Work<T> for CheckNames<'_, T> {
         let (zero, one) = (R::of(0.0), R::of(1.0));
         let near = R::of(NEAR_SINGULAR);
         let near_shoulder = R::of(NEAR_SINGULAR * (names.l2 + names.l3));
-        let checked = self.branch.is_some();
         let branch = self.branch.unwrap_or(Branch::ALL[0]);
         let sign = |positive: bool| R::of(if positive { 1.0 } else { -1.0 });
         let front = sign(branch.shoulder == Shoulder::Front);
         let up = sign(branch.elbow == Elbow::Up);
         let plain = sign(branch.wrist == Wrist::NoFlip);
         let (reached, undecided) = (R::of(state::REACHED), R::of(state::UNDECIDED));
+        let mut u = [T::default(); BLOCK];
+        let (mut sin_elbow, mut turned) = (u, u);
         for i in 0..BLOCK {
             R::step();
-            let turned = s2 * R::load(self.theta[1][i]);
-            let both = s3.mul_add(R::load(self.theta[2][i]), turned);
-            let (sp, cp) = sin_cos(upper + turned);
+            let first = s2 * R::load(self.theta[1][i]);
+            let both = s3.mul_add(R::load(self.theta[2][i]), first);
+            let (sp, cp) = sin_cos(upper + first);
             let (sc, cc) = sin_cos(fore + both);
-            let u = l2.mul_add(sp, l3 * sc);
-            let r = a1 + u;
-            let r = if has_hand {
-                let (sh, ch) = sin_cos(s4.mul_add(R::load(self.theta[3][i]), both));
-                r + hand_x.mul_add(ch, hand_z * sh)
-            } else {
-                r
-            };
-            let sin_elbow = sc.mul_add(cp, -(cc * sp));
-            let (sin_bend, _) = sin_cos(s5.mul_add(R::load(self.theta[4][i]), bend_at_zero));
-            let other = (r.sign() * front < zero)
-                | (sin_elbow.sign() * u.sign() * up < zero)
-                | (sin_bend.sign() * plain < zero);
+            u[i] = l2.mul_add(sp, l3 * sc).store();
+            sin_elbow[i] = sc.mul_add(cp, -(cc * sp)).store();
+            turned[i] = both.store();
+        }
+        let mut r = u;
+        for i in 0..BLOCK {
+            R::step();
+            r[i] = (a1 + R::load(u[i])).store();
+        }
+        if has_hand {
+            for i in 0..BLOCK {
+                R::step();
+                let (sh, ch) = sin_cos(s4.mul_add(R::load(self.theta[3][i]), R::load(turned[i])));
+                let hand = hand_x.mul_add(ch, hand_z * sh);
+                r[i] = (R::load(r[i]) + hand).store();
+            }
+        }
+        let mut sin_bend = u;
+        for i in 0..BLOCK {
+            R::step();
+            let (sin, _) = sin_cos(s5.mul_add(R::load(self.theta[4][i]), bend_at_zero));
+            sin_bend[i] = sin.store();
+        }
+        let checked = if self.branch.is_some() { one } else { zero };
+        for i in 0..BLOCK {
+            R::step();
+            let (r, u) = (R::load(r[i]), R::load(u[i]));
+            let (sin_elbow, sin_bend) = (R::load(sin_elbow[i]), R::load(sin_bend[i]));
+            // Least sign of the three: -1 where one differs.
+            let (side, lift) = (r.sign() * front, sin_elbow.sign() * u.sign() * up);
+            let same = side.min(lift).min(sin_bend.sign() * plain) * checked;
             let before = R::load(self.state[i]);
-            let renamed = checked & other & (before == reached);
-            self.state[i] = R::either(renamed, undecided, before).store();
+            let renamed = R::either(same < zero, undecided, before);
+            self.state[i] = R::either(before > reached, before, renamed).store();
             let found = R::either(r.abs() < near_shoulder, R::of(3.0), zero);
             let found = R::either(sin_elbow.abs() < near, R::of(2.0), found);
             self.singularity[i] = R::either(sin_bend.abs() < near, one, found).store();

@@ -8,8 +8,6 @@
 //! `l` a length of the arm (m), `lambda` as small as rounding: the sum over joints and two symmetric 3 x 3 inverses need
 //! no pivots. Points where the step does not become small are undecided.
 
-use nalgebra::{Matrix3, Vector3};
-
 use super::state;
 use crate::kernel::lanes::numbers::{
     BLOCK, Backend, Float, Plane, Planes, Real, Vector, Work, planes, put, vector,
@@ -30,7 +28,6 @@ const DAMPING: f64 = 1e-15;
 #[derive(Clone, Debug)]
 pub(super) struct Newton {
     chain: ChainConstants,
-    no_tool: Displacement,
     length: f64,
     frames: Vec<FramePlanes<f64>>,
     /// The two parts of `(J J^T + lambda I)^-1 e`.
@@ -42,12 +39,8 @@ impl Newton {
     pub fn of(chain: &Chain) -> Newton {
         let chain_constants = ChainConstants::without_conventions(chain);
         Newton {
-            frames: vec![FramePlanes::unknown(); chain_constants.joints() + 3],
+            frames: vec![FramePlanes::unknown(); chain_constants.joints() + 2],
             chain: chain_constants,
-            no_tool: Displacement {
-                translation: Vector3::zeros(),
-                rotation: None::<Matrix3<f64>>,
-            },
             length: chain.length(),
             solved: planes(),
             step: [0.0; BLOCK],
@@ -65,7 +58,7 @@ impl Newton {
         for _ in 0..MOST_STEPS {
             backend.run(FindFrames {
                 chain: &self.chain,
-                flange_from_tool: &self.no_tool,
+                flange_from_tool: &Displacement::NONE,
                 joints: theta,
                 frames: &mut self.frames,
             });

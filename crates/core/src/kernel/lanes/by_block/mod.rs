@@ -8,6 +8,7 @@ mod aimed;
 mod arrays;
 mod batch;
 mod column;
+mod every_branch;
 mod points;
 mod posture_signs;
 mod steps;
@@ -19,6 +20,7 @@ pub use batch::Batch;
 #[cfg(test)]
 pub(super) use aimed::SolvedBlock;
 pub(super) use batch::Scratch;
+pub(in crate::kernel) use every_branch::EveryBranch;
 pub(in crate::kernel) use points::{POINTS, Points};
 pub(super) use posture_signs::{FOUR, signs};
 pub(in crate::kernel) use whole_points::WholePoints;

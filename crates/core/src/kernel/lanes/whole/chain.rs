@@ -53,6 +53,12 @@ pub(in crate::kernel::lanes) struct Displacement {
 }
 
 impl Displacement {
+    /// None.
+    pub const NONE: Displacement = Displacement {
+        translation: Vector3::new(0.0, 0.0, 0.0),
+        rotation: None,
+    };
+
     pub fn of(displacement: &Isometry) -> Displacement {
         let turns = displacement.rotation.imag() != Vector3::zeros();
         Displacement {
@@ -117,7 +123,7 @@ impl ChainConstants {
 }
 
 /// Fills the frames by [`crate::robot::Attachment::rank`] from joint positions (rad, m): base, every joint after its
-/// motion, flange, tool.
+/// motion, flange, and tool if there is room for it.
 pub(in crate::kernel::lanes) struct FindFrames<'a, T> {
     pub chain: &'a ChainConstants,
     pub flange_from_tool: &'a Displacement,
@@ -145,41 +151,42 @@ impl<T: Float> Work<T> for FindFrames<'_, T> {
         }
         let count = chain.links.len();
         let mut rank = 1;
-        while rank < count + 3 {
+        while rank < frames.len() {
             let (before, after) = frames.split_at_mut(rank);
-            let frame = &mut after[0];
-            frame.clone_from(&before[rank - 1]);
+            let (before, frame) = (&before[rank - 1], &mut after[0]);
             if rank <= count {
                 let link = &chain.links[rank - 1];
-                advance::<R>(frame, &link.before);
+                displace::<R>(before, &link.before, frame);
                 turn::<R>(frame, link, joints, rank - 1);
             } else if rank == count + 1 {
-                advance::<R>(frame, &chain.last);
+                displace::<R>(before, &chain.last, frame);
             } else {
-                advance::<R>(frame, flange_from_tool);
+                displace::<R>(before, flange_from_tool, frame);
             }
             rank += 1;
         }
     }
 }
 
-/// Applies a constant displacement.
+/// Writes the frame that a constant displacement leads to.
 #[inline(always)]
-pub(in crate::kernel::lanes) fn advance<R: Real>(frame: &mut FramePlanes<R::Float>, by: &Displacement) {
+fn displace<R: Real>(before: &FramePlanes<R::Float>, by: &Displacement, after: &mut FramePlanes<R::Float>) {
     let t = Vector::<R>::of(&by.translation);
-    for i in 0..BLOCK {
-        R::step();
-        let x = vector::<R>(&frame.axes[0], i);
-        let y = vector::<R>(&frame.axes[1], i);
-        let z = vector::<R>(&frame.axes[2], i);
-        let origin = vector::<R>(&frame.origin, i);
-        put(
-            &mut frame.origin,
-            i,
-            x.mul_add(t.x, y.mul_add(t.y, z.mul_add(t.z, origin))),
-        );
-    }
-    let Some(rotation) = &by.rotation else { return };
+    let Some(rotation) = &by.rotation else {
+        for i in 0..BLOCK {
+            R::step();
+            let x = vector::<R>(&before.axes[0], i);
+            let y = vector::<R>(&before.axes[1], i);
+            let z = vector::<R>(&before.axes[2], i);
+            let origin = vector::<R>(&before.origin, i);
+            let origin = x.mul_add(t.x, y.mul_add(t.y, z.mul_add(t.z, origin)));
+            put(&mut after.axes[0], i, x);
+            put(&mut after.axes[1], i, y);
+            put(&mut after.axes[2], i, z);
+            put(&mut after.origin, i, origin);
+        }
+        return;
+    };
     let columns = [
         Vector::<R>::of(&rotation.column(0).into_owned()),
         Vector::<R>::of(&rotation.column(1).into_owned()),
@@ -187,20 +194,21 @@ pub(in crate::kernel::lanes) fn advance<R: Real>(frame: &mut FramePlanes<R::Floa
     ];
     for i in 0..BLOCK {
         R::step();
-        let x = vector::<R>(&frame.axes[0], i);
-        let y = vector::<R>(&frame.axes[1], i);
-        let z = vector::<R>(&frame.axes[2], i);
-        let mut k = 0;
-        while k < 3 {
-            let column = columns[k];
-            put(
-                &mut frame.axes[k],
-                i,
-                x.mul_add(column.x, y.mul_add(column.y, z.scaled(column.z))),
-            );
-            k += 1;
-        }
+        let x = vector::<R>(&before.axes[0], i);
+        let y = vector::<R>(&before.axes[1], i);
+        let z = vector::<R>(&before.axes[2], i);
+        let origin = vector::<R>(&before.origin, i);
+        let origin = x.mul_add(t.x, y.mul_add(t.y, z.mul_add(t.z, origin)));
+        put(&mut after.axes[0], i, turned(&columns[0], x, y, z));
+        put(&mut after.axes[1], i, turned(&columns[1], x, y, z));
+        put(&mut after.axes[2], i, turned(&columns[2], x, y, z));
+        put(&mut after.origin, i, origin);
     }
+}
+
+#[inline(always)]
+fn turned<R: Real>(column: &Vector<R>, x: Vector<R>, y: Vector<R>, z: Vector<R>) -> Vector<R> {
+    x.mul_add(column.x, y.mul_add(column.y, z.scaled(column.z)))
 }
 
 /// Applies the motion of joint `index`.
