@@ -24,7 +24,7 @@ use crate::source::Arm;
 use crate::spatial::Wrench;
 use answer::{FindShares, TakeCase, TakeRoot};
 use backlash::{GapPlanes, KeepOffsets, ShareBacklash, settle};
-use chain::{FindFrames, FramePlanes};
+use chain::{FindFrames, FindTool, FramePlanes};
 use inputs::AddInputs;
 use model::ModelConstants;
 use parts::{FindParts, PartPlanes};
@@ -38,7 +38,8 @@ pub(in crate::kernel) struct WholeModel {
     shares: bool,
     backend: Backend,
     frames: Vec<FramePlanes<f64>>,
-    actual: Vec<FramePlanes<f64>>,
+    /// The tool of the calibrated arm, and memory.
+    actual: Box<[FramePlanes<f64>; 2]>,
     parts: Vec<PartPlanes<f64>>,
     gaps: Vec<GapPlanes<f64>>,
     still: Box<StillPlanes<f64>>,
@@ -87,7 +88,7 @@ impl WholeModel {
         let frames = model.chain.joints() + 3;
         WholeModel {
             frames: vec![FramePlanes::unknown(); frames],
-            actual: vec![FramePlanes::unknown(); if model.actual.is_some() { frames } else { 0 }],
+            actual: Box::new([FramePlanes::unknown(), FramePlanes::unknown()]),
             parts: vec![PartPlanes::unknown(); model.parts.len()],
             still: Box::new(StillPlanes {
                 gravity: planes(),
@@ -123,11 +124,13 @@ impl WholeModel {
             frames,
         });
         if let Some(chain) = &model.actual {
-            backend.run(FindFrames {
+            let [tool, before] = &mut **actual;
+            backend.run(FindTool {
                 chain,
                 flange_from_tool,
                 joints,
-                frames: actual,
+                tool,
+                before,
             });
         }
         backend.run(FindParts { model, frames, parts });
@@ -135,7 +138,7 @@ impl WholeModel {
             model,
             joints,
             frames,
-            actual: model.actual.as_ref().map(|_| actual.as_slice()),
+            actual: model.actual.as_ref().map(|_| &actual[0]),
             parts,
             still,
         });

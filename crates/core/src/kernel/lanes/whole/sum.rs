@@ -24,8 +24,8 @@ pub(in crate::kernel::lanes) struct FindStill<'a, T> {
     /// Joint positions, rad (m).
     pub joints: &'a [Plane<T>],
     pub frames: &'a [FramePlanes<T>],
-    /// The frames of the calibrated arm.
-    pub actual: Option<&'a [FramePlanes<T>]>,
+    /// The tool of the calibrated arm.
+    pub actual: Option<&'a FramePlanes<T>>,
     pub parts: &'a [PartPlanes<T>],
     pub still: &'a mut StillPlanes<T>,
 }
@@ -72,7 +72,7 @@ impl<T: Float> Work<T> for FindStill<'_, T> {
         if let Some(actual) = actual {
             for i in 0..BLOCK {
                 R::step();
-                let away = vector::<R>(&actual[tool].origin, i) - vector::<R>(&frames[tool].origin, i);
+                let away = vector::<R>(&actual.origin, i) - vector::<R>(&frames[tool].origin, i);
                 put(&mut still.geometry, i, away);
             }
         }
