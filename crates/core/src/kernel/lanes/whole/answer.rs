@@ -9,6 +9,7 @@
 
 use nalgebra::Vector3;
 
+use super::chain::FramePlanes;
 use super::model::ModelConstants;
 use super::parts::PartPlanes;
 use super::sum::StillPlanes;
@@ -37,34 +38,34 @@ impl<T: Float> Work<T> for TakeCase<'_, T> {
     }
 }
 
-/// Fills the shares (m, one plane per contributor) and the variance (m^2) of the in-plane deviation of the worst case.
-pub(in crate::kernel::lanes) struct FindShares<'a, T> {
+/// Fills the shares (m, one plane per contributor) and the variance (m^2) of the in-plane deviation of the worst case;
+/// moments act only if `MOMENTS`.
+pub(in crate::kernel::lanes) struct FindShares<'a, T, const MOMENTS: bool> {
     pub model: &'a ModelConstants,
+    pub frames: &'a [FramePlanes<T>],
     pub parts: &'a [PartPlanes<T>],
     pub still: &'a StillPlanes<T>,
     pub plane: &'a [Vector3<f64>; 3],
     pub worst: &'a Worst<T>,
     /// Memory: the direction of the in-plane deviation, base.
     pub along: &'a mut Planes<T, 3>,
-    /// Memory: the elastic and gravity part along it.
-    pub by_load: &'a mut Plane<T>,
     /// Displacement along it per unit of each compliance.
     pub by_unit: &'a mut [Plane<T>],
     pub shares: &'a mut [Plane<T>],
     pub variance: &'a mut Plane<T>,
 }
 
-impl<T: Float> Work<T> for FindShares<'_, T> {
+impl<T: Float, const MOMENTS: bool> Work<T> for FindShares<'_, T, MOMENTS> {
     #[inline(always)]
     fn run<R: Real<Float = T>>(self) {
         let FindShares {
             model,
+            frames,
             parts,
             still,
             plane,
             worst,
             along,
-            by_load,
             by_unit,
             shares,
             variance,
@@ -82,46 +83,39 @@ impl<T: Float> Work<T> for FindShares<'_, T> {
                 i,
                 second.mul_add(b * per_length, first.scaled(a * per_length)),
             );
-            by_load[i] = zero.store();
         }
         let mut contributor = 0;
         while contributor < shares.len() {
-            for i in 0..BLOCK {
-                R::step();
-                shares[contributor][i] = zero.store();
-            }
+            shares[contributor] = [T::default(); BLOCK];
             contributor += 1;
         }
-        let mut k = 0;
-        while k < parts.len() {
-            let (constants, part) = (&model.parts[k], &parts[k]);
-            let share = &mut shares[constants.contributor];
-            let c = R::of(constants.compliance);
-            let there = Vector::<R>::of(&constants.reference[0]);
-            let there_per_unit = Vector::<R>::of(&constants.reference[1]);
-            for i in 0..BLOCK {
-                R::step();
-                let linear = vector::<R>(&part.linear, i);
-                let force = vector::<R>(&worst.wrench[0..3], i);
-                let moment = vector::<R>(&worst.wrench[3..6], i);
-                let torque = linear.dot(force) + vector::<R>(&part.angular, i).dot(moment);
-                let torque = torque + R::load(part.weight[i]);
-                let along = vector::<R>(along, i);
-                let moved = linear.dot(along) * torque;
-                let of_part = moved.mul_add(c, -there.dot(along));
-                share[i] = (R::load(share[i]) + of_part).store();
-                by_load[i] = (R::load(by_load[i]) + of_part).store();
-                by_unit[k][i] = (moved - there_per_unit.dot(along)).store();
+        let mut sums = [[T::default(); BLOCK]; 2];
+        let mut g = 0;
+        while g < model.groups.len() {
+            let group = &model.groups[g];
+            let of_group = OfGroup {
+                model,
+                frames,
+                parts,
+                worst,
+                along,
+                first: group.first,
+            };
+            let share = &mut shares[model.parts[group.first].contributor];
+            let by_unit = &mut by_unit[group.first..group.first + group.count];
+            match group.count {
+                1 => of_group.add::<R, 1, MOMENTS>(by_unit, share, &mut sums),
+                2 => of_group.add::<R, 2, MOMENTS>(by_unit, share, &mut sums),
+                _ => of_group.add::<R, 3, MOMENTS>(by_unit, share, &mut sums),
             }
-            k += 1;
+            g += 1;
         }
-        add_compliances::<R>(model, by_unit, variance);
-        let model_error = R::of(model.model_error);
-        let scatter = R::of(model.repeatability);
+        add_correlated::<R>(model, by_unit, &mut sums[1]);
+        let (model_error, scatter) = (R::of(model.model_error), R::of(model.repeatability));
         for i in 0..BLOCK {
             R::step();
-            let missed = R::load(by_load[i]) * model_error;
-            let of_parts = scatter.mul_add(scatter, R::load(variance[i]));
+            let missed = R::load(sums[0][i]) * model_error;
+            let of_parts = scatter.mul_add(scatter, R::load(sums[1][i]));
             variance[i] = missed.mul_add(missed, of_parts).store();
         }
         if let Some(geometry) = model.geometry {
@@ -144,49 +138,102 @@ impl<T: Float> Work<T> for FindShares<'_, T> {
     }
 }
 
-/// The variance by the compliances: those of the covariance, and the others as independent.
+/// The shares of a group of parts.
+struct OfGroup<'a, T> {
+    model: &'a ModelConstants,
+    frames: &'a [FramePlanes<T>],
+    parts: &'a [PartPlanes<T>],
+    worst: &'a Worst<T>,
+    along: &'a Planes<T, 3>,
+    first: usize,
+}
+
+impl<T: Float> OfGroup<'_, T> {
+    /// Adds them to the share of their contributor and, in `sums`, to the deviation by load and gravity and to the
+    /// variance of independent compliances.
+    #[inline(always)]
+    fn add<R: Real<Float = T>, const N: usize, const MOMENTS: bool>(
+        &self,
+        by_unit: &mut [Plane<T>],
+        share: &mut Plane<T>,
+        sums: &mut Planes<T, 2>,
+    ) {
+        let Some(parts) = self.parts[self.first..].first_chunk::<N>() else {
+            return;
+        };
+        let Some(by_unit) = by_unit.first_chunk_mut::<N>() else {
+            return;
+        };
+        let (zero, worst, along) = (R::of(0.0), self.worst, self.along);
+        let (mut c, mut u) = ([zero; N], [zero; N]);
+        let mut there = [Vector::new(zero, zero, zero); N];
+        let mut axes = [&parts[0].angular; N];
+        let mut n = 0;
+        while n < N {
+            let constants = &self.model.parts[self.first + n];
+            (c[n], u[n]) = (R::of(constants.compliance), R::of(constants.uncertainty));
+            there[n] = Vector::of(&constants.reference);
+            axes[n] = self.model.angular(self.frames, self.parts, self.first + n);
+            n += 1;
+        }
+        for i in 0..BLOCK {
+            R::step();
+            let along = vector::<R>(along, i);
+            let force = vector::<R>(&worst.wrench[0..3], i);
+            let (mut of_group, mut variance) = (zero, R::load(sums[1][i]));
+            let mut n = 0;
+            while n < N {
+                let linear = vector::<R>(&parts[n].linear, i);
+                let mut torque = linear.dot(force) + R::load(parts[n].weight[i]);
+                if MOMENTS {
+                    let moment = vector::<R>(&worst.wrench[3..6], i);
+                    torque = torque + vector::<R>(axes[n], i).dot(moment);
+                }
+                let per_unit = linear.dot(along).mul_add(torque, -there[n].dot(along));
+                by_unit[n][i] = per_unit.store();
+                of_group = per_unit.mul_add(c[n], of_group);
+                let by_u = per_unit * u[n];
+                variance = by_u.mul_add(by_u, variance);
+                n += 1;
+            }
+            share[i] = (R::load(share[i]) + of_group).store();
+            sums[0][i] = (R::load(sums[0][i]) + of_group).store();
+            sums[1][i] = variance.store();
+        }
+    }
+}
+
+/// Adds the variance by the compliances that are not independent.
 #[inline(always)]
-fn add_compliances<R: Real>(
+fn add_correlated<R: Real>(
     model: &ModelConstants,
     by_unit: &[Plane<R::Float>],
     variance: &mut Plane<R::Float>,
 ) {
-    let zero = R::of(0.0);
-    for i in 0..BLOCK {
-        R::step();
-        variance[i] = zero.store();
-    }
-    let mut k = 0;
-    while k < by_unit.len() {
+    let mut r = 0;
+    while r < model.covariance.len() {
+        let row = &model.covariance[r];
         let mut weighted = [R::Float::default(); BLOCK];
-        if let Some(row) = model.covariance.get(k) {
-            let mut other = 0;
-            while other < row.len() {
-                let entry = R::of(row[other]);
-                for i in 0..BLOCK {
-                    R::step();
-                    let so_far = R::load(weighted[i]);
-                    weighted[i] = R::load(by_unit[other][i]).mul_add(entry, so_far).store();
-                }
-                other += 1;
-            }
-        } else {
-            let u = R::of(model.parts[k].uncertainty);
+        let mut k = 0;
+        while k < row.entries.len() {
+            let (other, entry) = (&by_unit[row.entries[k].0], R::of(row.entries[k].1));
             for i in 0..BLOCK {
                 R::step();
-                weighted[i] = (R::load(by_unit[k][i]) * u * u).store();
+                let so_far = R::load(weighted[i]);
+                weighted[i] = R::load(other[i]).mul_add(entry, so_far).store();
             }
+            k += 1;
         }
+        let own = &by_unit[row.part];
         for i in 0..BLOCK {
             R::step();
             let so_far = R::load(variance[i]);
-            variance[i] = R::load(by_unit[k][i])
-                .mul_add(R::load(weighted[i]), so_far)
-                .store();
+            variance[i] = R::load(own[i]).mul_add(R::load(weighted[i]), so_far).store();
         }
-        k += 1;
+        r += 1;
     }
     // Rounding of a covariance.
+    let zero = R::of(0.0);
     for i in 0..BLOCK {
         R::step();
         variance[i] = R::load(variance[i]).max(zero).store();

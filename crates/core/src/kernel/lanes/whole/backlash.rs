@@ -12,6 +12,7 @@
 
 use nalgebra::Vector3;
 
+use super::chain::FramePlanes;
 use super::model::ModelConstants;
 use super::parts::PartPlanes;
 use crate::kernel::lanes::load::Worst;
@@ -24,8 +25,8 @@ use crate::spatial::Wrench;
 /// A joint with backlash.
 #[derive(Clone, Debug)]
 pub(in crate::kernel::lanes) struct GapConstants {
-    /// Index of the joint, its drive and its contributor.
-    pub joint: usize,
+    /// Index of the drive of its joint.
+    pub part: usize,
     /// Half of the backlash, rad (m), and its standard uncertainty over it.
     pub half: f64,
     pub relative: f64,
@@ -63,7 +64,7 @@ impl<T: Float> GapPlanes<T> {
 pub(in crate::kernel::lanes) fn settle(
     backend: Backend,
     model: &ModelConstants,
-    parts: &[PartPlanes<f64>],
+    (frames, parts): (&[FramePlanes<f64>], &[PartPlanes<f64>]),
     (case, wrench): (usize, &Wrench),
     plane: &[Vector3<f64>; 3],
     gaps: &mut [GapPlanes<f64>],
@@ -72,6 +73,7 @@ pub(in crate::kernel::lanes) fn settle(
     let (mut free, mut from) = ([0.0; BLOCK], planes());
     backend.run(FindSides {
         model,
+        frames,
         parts,
         wrench,
         plane,
@@ -99,6 +101,7 @@ pub(in crate::kernel::lanes) fn settle(
 /// Puts the links whose side a torque decides; fills the halves of the others, and marks the points that have any.
 struct FindSides<'a, T> {
     model: &'a ModelConstants,
+    frames: &'a [FramePlanes<T>],
     parts: &'a [PartPlanes<T>],
     wrench: &'a Wrench,
     plane: &'a [Vector3<f64>; 3],
@@ -121,13 +124,14 @@ impl<T: Float> Work<T> for FindSides<'_, T> {
         let mut g = 0;
         while g < self.gaps.len() {
             let (constants, gap) = (&self.model.backlash[g], &mut self.gaps[g]);
-            let part = &self.parts[constants.joint];
+            let part = &self.parts[constants.part];
+            let axis = self.model.angular(self.frames, self.parts, constants.part);
             let half = R::of(constants.half);
             let by_torque = constants.by_torque;
             for i in 0..BLOCK {
                 R::step();
                 let linear = vector::<R>(&part.linear, i);
-                let torque = linear.dot(force) + vector::<R>(&part.angular, i).dot(moment);
+                let torque = linear.dot(force) + vector::<R>(axis, i).dot(moment);
                 let torque = torque + R::load(part.weight[i]);
                 let decides = by_torque & (torque.abs() > nothing);
                 let offset = R::either(decides, half * torque.sign(), zero);
@@ -259,7 +263,7 @@ impl<T: Float> Work<T> for TakeFarthest<'_, T> {
         let mut g = 0;
         while g < self.gaps.len() {
             let (constants, gap) = (&self.model.backlash[g], &mut self.gaps[g]);
-            let part = &self.parts[constants.joint];
+            let part = &self.parts[constants.part];
             let half = R::of(constants.half);
             for i in 0..BLOCK {
                 R::step();
@@ -324,7 +328,10 @@ impl<T: Float> Work<T> for ShareBacklash<'_, T> {
         let mut g = 0;
         while g < self.gaps.len() {
             let (constants, gap) = (&self.model.backlash[g], &self.gaps[g]);
-            let (part, share) = (&self.parts[constants.joint], &mut self.shares[constants.joint]);
+            let (part, share) = (
+                &self.parts[constants.part],
+                &mut self.shares[self.model.parts[constants.part].contributor],
+            );
             let relative = R::of(constants.relative);
             for i in 0..BLOCK {
                 R::step();

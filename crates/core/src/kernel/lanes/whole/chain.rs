@@ -134,59 +134,142 @@ pub(in crate::kernel::lanes) struct FindFrames<'a, T> {
 impl<T: Float> Work<T> for FindFrames<'_, T> {
     #[inline(always)]
     fn run<R: Real<Float = T>>(self) {
-        let FindFrames {
-            chain,
-            flange_from_tool,
-            joints,
-            frames,
-        } = self;
-        let (one, zero) = (R::of(1.0), R::of(0.0));
-        let base = &mut frames[0];
-        for i in 0..BLOCK {
-            R::step();
-            put(&mut base.axes[0], i, Vector::new(one, zero, zero));
-            put(&mut base.axes[1], i, Vector::new(zero, one, zero));
-            put(&mut base.axes[2], i, Vector::new(zero, zero, one));
-            put(&mut base.origin, i, Vector::new(zero, zero, zero));
-        }
-        let count = chain.links.len();
+        place_base::<R>(&mut self.frames[0]);
         let mut rank = 1;
-        while rank < frames.len() {
-            let (before, after) = frames.split_at_mut(rank);
-            let (before, frame) = (&before[rank - 1], &mut after[0]);
-            if rank <= count {
-                let link = &chain.links[rank - 1];
-                displace::<R>(before, &link.before, frame);
-                turn::<R>(frame, link, joints, rank - 1);
-            } else if rank == count + 1 {
-                displace::<R>(before, &chain.last, frame);
-            } else {
-                displace::<R>(before, flange_from_tool, frame);
-            }
+        while rank < self.frames.len() {
+            let (before, after) = self.frames.split_at_mut(rank);
+            let tool = self.flange_from_tool;
+            follow::<R>(
+                self.chain,
+                tool,
+                self.joints,
+                rank,
+                &before[rank - 1],
+                &mut after[0],
+            );
             rank += 1;
         }
     }
 }
 
-/// Writes the frame that a constant displacement leads to.
+/// Fills the frame of the tool alone, with one more as memory.
+pub(in crate::kernel::lanes) struct FindTool<'a, T> {
+    pub chain: &'a ChainConstants,
+    pub flange_from_tool: &'a Displacement,
+    pub joints: &'a [Plane<T>],
+    pub tool: &'a mut FramePlanes<T>,
+    pub before: &'a mut FramePlanes<T>,
+}
+
+impl<T: Float> Work<T> for FindTool<'_, T> {
+    #[inline(always)]
+    fn run<R: Real<Float = T>>(self) {
+        let last = self.chain.links.len() + 2;
+        // Such that the last one of the two in turn is the tool.
+        let (mut before, mut after) = match last % 2 {
+            0 => (self.tool, self.before),
+            _ => (self.before, self.tool),
+        };
+        place_base::<R>(before);
+        let mut rank = 1;
+        while rank <= last {
+            let tool = self.flange_from_tool;
+            follow::<R>(self.chain, tool, self.joints, rank, before, after);
+            std::mem::swap(&mut before, &mut after);
+            rank += 1;
+        }
+    }
+}
+
 #[inline(always)]
-fn displace<R: Real>(before: &FramePlanes<R::Float>, by: &Displacement, after: &mut FramePlanes<R::Float>) {
-    let t = Vector::<R>::of(&by.translation);
-    let Some(rotation) = &by.rotation else {
-        for i in 0..BLOCK {
-            R::step();
-            let x = vector::<R>(&before.axes[0], i);
-            let y = vector::<R>(&before.axes[1], i);
-            let z = vector::<R>(&before.axes[2], i);
-            let origin = vector::<R>(&before.origin, i);
-            let origin = x.mul_add(t.x, y.mul_add(t.y, z.mul_add(t.z, origin)));
-            put(&mut after.axes[0], i, x);
-            put(&mut after.axes[1], i, y);
-            put(&mut after.axes[2], i, z);
-            put(&mut after.origin, i, origin);
+fn place_base<R: Real>(base: &mut FramePlanes<R::Float>) {
+    let (one, zero) = (R::of(1.0), R::of(0.0));
+    for i in 0..BLOCK {
+        R::step();
+        put(&mut base.axes[0], i, Vector::new(one, zero, zero));
+        put(&mut base.axes[1], i, Vector::new(zero, one, zero));
+        put(&mut base.axes[2], i, Vector::new(zero, zero, one));
+        put(&mut base.origin, i, Vector::new(zero, zero, zero));
+    }
+}
+
+/// The frame of this rank after that before it.
+#[inline(always)]
+fn follow<R: Real>(
+    chain: &ChainConstants,
+    flange_from_tool: &Displacement,
+    joints: &[Plane<R::Float>],
+    rank: usize,
+    before: &FramePlanes<R::Float>,
+    after: &mut FramePlanes<R::Float>,
+) {
+    let Some(link) = chain.links.get(rank - 1) else {
+        let by = if rank == chain.links.len() + 1 {
+            &chain.last
+        } else {
+            flange_from_tool
+        };
+        translate::<R>(before, &by.translation, &mut after.origin);
+        match &by.rotation {
+            Some(rotation) => rotate::<R>(&before.axes, rotation, &mut after.axes),
+            None => after.axes.clone_from(&before.axes),
         }
         return;
     };
+    translate::<R>(before, &link.before.translation, &mut after.origin);
+    let mut rotated;
+    let axes = match &link.before.rotation {
+        Some(rotation) => {
+            rotated = [planes(), planes(), planes()];
+            rotate::<R>(&before.axes, rotation, &mut rotated);
+            &rotated
+        }
+        None => &before.axes,
+    };
+    let theta = theta::<R>(link, joints, rank - 1);
+    if link.slides {
+        after.axes.clone_from(axes);
+        let axis = &axes[link.axis];
+        for i in 0..BLOCK {
+            R::step();
+            let origin = vector::<R>(&after.origin, i);
+            let moved = vector::<R>(axis, i).mul_add(R::load(theta[i]), origin);
+            put(&mut after.origin, i, moved);
+        }
+        return;
+    }
+    match link.axis {
+        0 => turn::<R, 0, 1, 2>(axes, &theta, &mut after.axes),
+        1 => turn::<R, 1, 2, 0>(axes, &theta, &mut after.axes),
+        _ => turn::<R, 2, 0, 1>(axes, &theta, &mut after.axes),
+    }
+}
+
+/// The origin after a constant translation; most are along one axis.
+#[inline(always)]
+fn translate<R: Real>(before: &FramePlanes<R::Float>, by: &Vector3<f64>, origin: &mut Planes<R::Float, 3>) {
+    origin.clone_from(&before.origin);
+    let mut k = 0;
+    while k < 3 {
+        let (axis, length) = (&before.axes[k], R::of(by[k]));
+        if by[k] != 0.0 {
+            for i in 0..BLOCK {
+                R::step();
+                let so_far = vector::<R>(origin, i);
+                put(origin, i, vector::<R>(axis, i).mul_add(length, so_far));
+            }
+        }
+        k += 1;
+    }
+}
+
+/// The axes after a constant rotation.
+#[inline(always)]
+fn rotate<R: Real>(
+    from: &[Planes<R::Float, 3>; 3],
+    rotation: &Matrix3<f64>,
+    to: &mut [Planes<R::Float, 3>; 3],
+) {
     let columns = [
         Vector::<R>::of(&rotation.column(0).into_owned()),
         Vector::<R>::of(&rotation.column(1).into_owned()),
@@ -194,77 +277,38 @@ fn displace<R: Real>(before: &FramePlanes<R::Float>, by: &Displacement, after: &
     ];
     for i in 0..BLOCK {
         R::step();
-        let x = vector::<R>(&before.axes[0], i);
-        let y = vector::<R>(&before.axes[1], i);
-        let z = vector::<R>(&before.axes[2], i);
-        let origin = vector::<R>(&before.origin, i);
-        let origin = x.mul_add(t.x, y.mul_add(t.y, z.mul_add(t.z, origin)));
-        put(&mut after.axes[0], i, turned(&columns[0], x, y, z));
-        put(&mut after.axes[1], i, turned(&columns[1], x, y, z));
-        put(&mut after.axes[2], i, turned(&columns[2], x, y, z));
-        put(&mut after.origin, i, origin);
-    }
-}
-
-#[inline(always)]
-fn turned<R: Real>(column: &Vector<R>, x: Vector<R>, y: Vector<R>, z: Vector<R>) -> Vector<R> {
-    x.mul_add(column.x, y.mul_add(column.y, z.scaled(column.z)))
-}
-
-/// Applies the motion of joint `index`.
-#[inline(always)]
-fn turn<R: Real>(
-    frame: &mut FramePlanes<R::Float>,
-    link: &LinkConstants,
-    joints: &[Plane<R::Float>],
-    index: usize,
-) {
-    let theta = theta::<R>(link, joints, index);
-    // With constant planes the compiler knows that they do not overlap.
-    match (link.slides, link.axis) {
-        (true, 0) => slide::<R, 0>(frame, &theta),
-        (true, 1) => slide::<R, 1>(frame, &theta),
-        (true, _) => slide::<R, 2>(frame, &theta),
-        (false, axis) => {
-            let (mut sines, mut cosines) = (theta, theta);
-            for i in 0..BLOCK {
-                R::step();
-                let (sin, cos) = sin_cos(R::load(theta[i]));
-                (sines[i], cosines[i]) = (sin.store(), cos.store());
-            }
-            match axis {
-                0 => rotate::<R, 1, 2>(frame, &sines, &cosines),
-                1 => rotate::<R, 2, 0>(frame, &sines, &cosines),
-                _ => rotate::<R, 0, 1>(frame, &sines, &cosines),
-            }
+        let x = vector::<R>(&from[0], i);
+        let y = vector::<R>(&from[1], i);
+        let z = vector::<R>(&from[2], i);
+        let mut k = 0;
+        while k < 3 {
+            let column = columns[k];
+            put(
+                &mut to[k],
+                i,
+                x.mul_add(column.x, y.mul_add(column.y, z.scaled(column.z))),
+            );
+            k += 1;
         }
     }
 }
 
-/// Moves the frame along its axis `A`.
+/// The axes after a turn about axis `K` by `theta`, rad; `A` and `B` are the two after it in turn.
 #[inline(always)]
-fn slide<R: Real, const A: usize>(frame: &mut FramePlanes<R::Float>, by: &Plane<R::Float>) {
-    for i in 0..BLOCK {
-        R::step();
-        let (axis, origin) = (vector::<R>(&frame.axes[A], i), vector::<R>(&frame.origin, i));
-        put(&mut frame.origin, i, axis.mul_add(R::load(by[i]), origin));
-    }
-}
-
-/// Turns axis `A` towards axis `B`.
-#[inline(always)]
-fn rotate<R: Real, const A: usize, const B: usize>(
-    frame: &mut FramePlanes<R::Float>,
-    sines: &Plane<R::Float>,
-    cosines: &Plane<R::Float>,
+fn turn<R: Real, const K: usize, const A: usize, const B: usize>(
+    from: &[Planes<R::Float, 3>; 3],
+    theta: &Plane<R::Float>,
+    to: &mut [Planes<R::Float, 3>; 3],
 ) {
     for i in 0..BLOCK {
         R::step();
-        let (sin, cos) = (R::load(sines[i]), R::load(cosines[i]));
-        let (first, second) = (vector::<R>(&frame.axes[A], i), vector::<R>(&frame.axes[B], i));
-        put(&mut frame.axes[A], i, second.mul_add(sin, first.scaled(cos)));
-        put(&mut frame.axes[B], i, first.mul_add(-sin, second.scaled(cos)));
+        let (sin, cos) = sin_cos(R::load(theta[i]));
+        let first = vector::<R>(&from[A], i);
+        let second = vector::<R>(&from[B], i);
+        put(&mut to[A], i, second.mul_add(sin, first.scaled(cos)));
+        put(&mut to[B], i, first.mul_add(-sin, second.scaled(cos)));
     }
+    to[K].clone_from(&from[K]);
 }
 
 #[inline(always)]

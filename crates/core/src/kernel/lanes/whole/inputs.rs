@@ -10,80 +10,100 @@
 
 use super::chain::FramePlanes;
 use super::model::ModelConstants;
-use super::parts::PartPlanes;
+use super::parts::{PartPlanes, ResponsePlanes};
 use crate::kernel::lanes::load::Worst;
 use crate::kernel::lanes::numbers::{BLOCK, Float, Plane, Planes, Real, Vector, Work, vector};
 use crate::load::InputUncertainty;
 
-/// Adds the variance by load and tool, m^2.
-pub(in crate::kernel::lanes) struct AddInputs<'a, T> {
+/// Adds the variance by load and tool, m^2; moments act only if `MOMENTS`.
+pub(in crate::kernel::lanes) struct AddInputs<'a, T, const MOMENTS: bool> {
     pub model: &'a ModelConstants,
     pub inputs: &'a InputUncertainty,
     pub frames: &'a [FramePlanes<T>],
     pub parts: &'a [PartPlanes<T>],
+    pub response: &'a ResponsePlanes<T>,
     pub worst: &'a Worst<T>,
     /// Direction of the in-plane deviation, base.
     pub along: &'a Planes<T, 3>,
     pub variance: &'a mut Plane<T>,
 }
 
-impl<T: Float> Work<T> for AddInputs<'_, T> {
+impl<T: Float, const MOMENTS: bool> Work<T> for AddInputs<'_, T, MOMENTS> {
     #[inline(always)]
     fn run<R: Real<Float = T>>(self) {
-        let zero = T::default();
-        // Elastic, with a longer tool, and by each uncertain force.
-        let (mut as_is, mut longer, mut by_force) = ([zero; BLOCK], [zero; BLOCK], [[zero; BLOCK]; 3]);
+        let relative = R::of(self.inputs.relative);
         let forces = [
             Vector::<R>::of(&self.inputs.forces[0]),
             Vector::<R>::of(&self.inputs.forces[1]),
             Vector::<R>::of(&self.inputs.forces[2]),
         ];
-        let tool = &self.frames[self.frames.len() - 1];
-        let mut k = 0;
-        while k < self.parts.len() {
-            let (constants, part) = (&self.model.parts[k], &self.parts[k]);
-            let c = R::of(constants.compliance);
-            // What is attached to the tool moves with its tip.
-            let carried = constants.rank + 1 == self.frames.len();
-            let length = R::of(if carried { 0.0 } else { self.inputs.tool_length });
-            for i in 0..BLOCK {
-                R::step();
-                let (linear, angular) = (vector::<R>(&part.linear, i), vector::<R>(&part.angular, i));
-                let force = vector::<R>(&self.worst.wrench[0..3], i);
-                let by_moment = angular.dot(vector::<R>(&self.worst.wrench[3..6], i));
-                let along = vector::<R>(self.along, i);
-                let reach = linear.dot(along) * c;
-                as_is[i] = (linear.dot(force) + by_moment)
-                    .mul_add(reach, R::load(as_is[i]))
-                    .store();
-                let moved = angular
-                    .cross(vector::<R>(&tool.axes[2], i))
-                    .mul_add(length, linear);
-                let torque = moved.dot(force) + by_moment;
-                longer[i] = torque.mul_add(moved.dot(along) * c, R::load(longer[i])).store();
-                let mut u = 0;
-                while u < 3 {
-                    let so_far = R::load(by_force[u][i]);
-                    by_force[u][i] = linear.dot(forces[u]).mul_add(reach, so_far).store();
-                    u += 1;
-                }
-            }
-            k += 1;
-        }
-        let relative = R::of(self.inputs.relative);
         for i in 0..BLOCK {
             R::step();
-            let by_amount = R::load(as_is[i]) * relative;
-            let by_length = R::load(longer[i]) - R::load(as_is[i]);
-            let before = R::load(self.variance[i]);
-            let mut variance = before + by_amount.mul_add(by_amount, by_length * by_length);
+            let along = vector::<R>(self.along, i);
+            // The compliance is symmetric.
+            let reach = self.response.by::<R>(along, i);
+            let mut as_is = reach.dot(vector::<R>(&self.worst.wrench[0..3], i));
+            if MOMENTS {
+                let by_moment = &self.response.by_moment;
+                let moment = vector::<R>(&self.worst.wrench[3..6], i);
+                let turned = Vector::new(
+                    vector::<R>(&by_moment[0..3], i).dot(moment),
+                    vector::<R>(&by_moment[3..6], i).dot(moment),
+                    vector::<R>(&by_moment[6..9], i).dot(moment),
+                );
+                as_is = as_is + turned.dot(along);
+            }
+            let by_amount = as_is * relative;
+            let mut variance = by_amount.mul_add(by_amount, R::load(self.variance[i]));
             let mut u = 0;
             while u < 3 {
-                let by = R::load(by_force[u][i]);
+                let by = reach.dot(forces[u]);
                 variance = by.mul_add(by, variance);
                 u += 1;
             }
             self.variance[i] = variance.store();
+        }
+        if self.inputs.tool_length != 0.0 {
+            self.add_length::<R>();
+        }
+    }
+}
+
+impl<T: Float, const MOMENTS: bool> AddInputs<'_, T, MOMENTS> {
+    /// By the length of the tool: every part but those of the tool itself has a longer lever.
+    #[inline(always)]
+    fn add_length<R: Real<Float = T>>(self) {
+        let length = R::of(self.inputs.tool_length);
+        let mut by_length = [T::default(); BLOCK];
+        let last = self.frames.len() - 1;
+        let axis = &self.frames[last].axes[2];
+        let mut k = 0;
+        while k < self.parts.len() {
+            let (constants, part) = (&self.model.parts[k], &self.parts[k]);
+            let about = self.model.angular(self.frames, self.parts, k);
+            let c = R::of(constants.compliance);
+            if constants.rank != last {
+                for i in 0..BLOCK {
+                    R::step();
+                    let (linear, angular) = (vector::<R>(&part.linear, i), vector::<R>(about, i));
+                    let force = vector::<R>(&self.worst.wrench[0..3], i);
+                    let along = vector::<R>(self.along, i);
+                    let more = angular.cross(vector::<R>(axis, i)).scaled(length);
+                    let more_torque = more.dot(force);
+                    let mut torque = linear.dot(force) + more_torque;
+                    if MOMENTS {
+                        torque = torque + angular.dot(vector::<R>(&self.worst.wrench[3..6], i));
+                    }
+                    let change = more.dot(along).mul_add(torque, linear.dot(along) * more_torque);
+                    by_length[i] = change.mul_add(c, R::load(by_length[i])).store();
+                }
+            }
+            k += 1;
+        }
+        for i in 0..BLOCK {
+            R::step();
+            let by = R::load(by_length[i]);
+            self.variance[i] = by.mul_add(by, R::load(self.variance[i])).store();
         }
     }
 }

@@ -24,11 +24,12 @@ use crate::source::Arm;
 use crate::spatial::Wrench;
 use answer::{FindShares, TakeCase, TakeRoot};
 use backlash::{GapPlanes, KeepOffsets, ShareBacklash, settle};
+use chain::FindTool;
 pub(in crate::kernel::lanes) use chain::{ChainConstants, Displacement, FindFrames, FramePlanes};
 use inputs::AddInputs;
 use model::ModelConstants;
-use parts::{FindParts, PartPlanes};
-use sum::{FindStill, OneWrench, StillPlanes};
+use parts::{FindParts, PartPlanes, ResponsePlanes};
+use sum::{AddStill, FindUnloaded, OneCase, OneWrench, StillPlanes};
 
 /// An arm with all parts of its model, and memory for a block of points; one per thread.
 #[derive(Clone, Debug)]
@@ -38,12 +39,13 @@ pub(in crate::kernel) struct WholeModel {
     shares: bool,
     backend: Backend,
     frames: Vec<FramePlanes<f64>>,
-    actual: Vec<FramePlanes<f64>>,
+    /// The tool of the calibrated arm, and memory.
+    actual: Box<[FramePlanes<f64>; 2]>,
     parts: Vec<PartPlanes<f64>>,
     gaps: Vec<GapPlanes<f64>>,
     still: Box<StillPlanes<f64>>,
     along: Planes<f64, 3>,
-    by_load: Plane<f64>,
+    response: Box<ResponsePlanes<f64>>,
     by_unit: Vec<Plane<f64>>,
 }
 
@@ -87,15 +89,15 @@ impl WholeModel {
         let frames = model.chain.joints() + 3;
         WholeModel {
             frames: vec![FramePlanes::unknown(); frames],
-            actual: vec![FramePlanes::unknown(); if model.actual.is_some() { frames } else { 0 }],
+            actual: Box::new([FramePlanes::unknown(), FramePlanes::unknown()]),
             parts: vec![PartPlanes::unknown(); model.parts.len()],
             still: Box::new(StillPlanes {
-                gravity: planes(),
+                sum: planes(),
                 geometry: planes(),
                 lengths: planes(),
             }),
             along: planes(),
-            by_load: [0.0; BLOCK],
+            response: Box::new(ResponsePlanes::none()),
             by_unit: vec![[0.0; BLOCK]; model.parts.len()],
             gaps: vec![GapPlanes::unknown(); model.backlash.len()],
             model,
@@ -111,7 +113,6 @@ impl WholeModel {
             backend,
             frames,
             actual,
-            parts,
             still,
             ..
         } = self;
@@ -123,22 +124,24 @@ impl WholeModel {
             frames,
         });
         if let Some(chain) = &model.actual {
-            backend.run(FindFrames {
+            let [tool, before] = &mut **actual;
+            backend.run(FindTool {
                 chain,
                 flange_from_tool,
                 joints,
-                frames: actual,
+                tool,
+                before,
             });
         }
-        backend.run(FindParts { model, frames, parts });
-        backend.run(FindStill {
-            model,
-            joints,
-            frames,
-            actual: model.actual.as_ref().map(|_| actual.as_slice()),
-            parts,
-            still,
-        });
+        if model.geometry.is_some() || model.growth.is_some() {
+            backend.run(FindUnloaded {
+                model,
+                joints,
+                frames,
+                actual: &actual[0],
+                still,
+            });
+        }
     }
 
     /// Frames of the flange at the joint positions set.
@@ -146,15 +149,27 @@ impl WholeModel {
         &self.frames[self.frames.len() - 2]
     }
 
-    /// Displacement of the tool under `wrench` (at the TCP, base), m, base.
-    fn deviate(&self, wrench: &Wrench, deviation: &mut Planes<f64, 3>) {
-        self.backend.run(OneWrench {
-            model: &self.model,
-            parts: &self.parts,
-            still: &self.still,
-            force: wrench.force,
-            moment: wrench.moment,
-            deviation,
+    /// Computes the response of the tool; that to moments only if `MOMENTS`.
+    fn respond<const MOMENTS: bool>(&mut self) {
+        let WholeModel {
+            model,
+            backend,
+            frames,
+            parts,
+            response,
+            still,
+            ..
+        } = self;
+        backend.run(FindParts::<f64, MOMENTS> {
+            model,
+            frames,
+            parts,
+            response,
+        });
+        backend.run(AddStill {
+            model,
+            response,
+            still,
         });
     }
 }
@@ -173,31 +188,70 @@ impl WholeModel {
         plane: &[Vector3<f64>; 3],
         out: &mut WholeAnswers,
     ) {
-        for (case, (wrench, deviation)) in cases.iter().zip(&mut out.deviations).enumerate() {
-            self.deviate(wrench, deviation);
-            let WholeModel {
-                model,
-                backend,
-                parts,
-                gaps,
-                ..
-            } = self;
-            if !gaps.is_empty() {
-                settle(*backend, model, parts, (case, wrench), plane, gaps, deviation);
+        if have_moments(cases) {
+            self.envelope_of::<true>(cases, plane, out);
+        } else {
+            self.envelope_of::<false>(cases, plane, out);
+        }
+    }
+
+    fn envelope_of<const MOMENTS: bool>(
+        &mut self,
+        cases: &[Wrench],
+        plane: &[Vector3<f64>; 3],
+        out: &mut WholeAnswers,
+    ) {
+        self.respond::<MOMENTS>();
+        let WholeModel {
+            model,
+            backend,
+            frames,
+            parts,
+            gaps,
+            response,
+            still,
+            ..
+        } = self;
+        let WholeAnswers {
+            deviations, worst, ..
+        } = out;
+        for (case, (wrench, deviation)) in cases.iter().zip(deviations).enumerate() {
+            if gaps.is_empty() {
+                backend.run(OneCase::<f64, MOMENTS> {
+                    response,
+                    still,
+                    case,
+                    wrench,
+                    plane,
+                    deviation,
+                    worst,
+                });
+                continue;
             }
+            backend.run(OneWrench::<f64, MOMENTS> {
+                response,
+                still,
+                wrench,
+                deviation,
+            });
+            settle(
+                *backend,
+                model,
+                (frames, parts),
+                (case, wrench),
+                plane,
+                gaps,
+                deviation,
+            );
             backend.run(TakeCase {
                 case,
                 force: wrench.force,
                 moment: wrench.moment,
                 plane,
                 deviation,
-                worst: &mut out.worst,
+                worst,
             });
-            backend.run(KeepOffsets {
-                case,
-                worst: &out.worst,
-                gaps,
-            });
+            backend.run(KeepOffsets { case, worst, gaps });
         }
     }
 
@@ -209,45 +263,80 @@ impl WholeModel {
         inputs: &InputUncertainty,
         out: &mut WholeAnswers,
     ) {
-        self.envelope(cases, plane, out);
+        if have_moments(cases) {
+            self.answer_of::<true>(cases, plane, inputs, out);
+        } else {
+            self.answer_of::<false>(cases, plane, inputs, out);
+        }
+    }
+
+    fn answer_of<const MOMENTS: bool>(
+        &mut self,
+        cases: &[Wrench],
+        plane: &[Vector3<f64>; 3],
+        inputs: &InputUncertainty,
+        out: &mut WholeAnswers,
+    ) {
+        self.envelope_of::<MOMENTS>(cases, plane, out);
         if !self.shares {
             return;
         }
-        self.backend.run(FindShares {
-            model: &self.model,
-            parts: &self.parts,
-            still: &self.still,
+        let WholeModel {
+            model,
+            backend,
+            frames,
+            parts,
+            gaps,
+            response,
+            still,
+            along,
+            by_unit,
+            ..
+        } = self;
+        let WholeAnswers {
+            worst,
+            shares,
+            uncertainty: variance,
+            ..
+        } = out;
+        backend.run(FindShares::<f64, MOMENTS> {
+            model,
+            frames,
+            parts,
+            still,
             plane,
-            worst: &out.worst,
-            along: &mut self.along,
-            by_load: &mut self.by_load,
-            by_unit: &mut self.by_unit,
-            shares: &mut out.shares,
-            variance: &mut out.uncertainty,
+            worst,
+            along,
+            by_unit,
+            shares,
+            variance,
         });
-        self.backend.run(ShareBacklash {
-            model: &self.model,
-            parts: &self.parts,
-            gaps: &self.gaps,
-            along: &self.along,
-            shares: &mut out.shares,
-            variance: &mut out.uncertainty,
+        backend.run(ShareBacklash {
+            model,
+            parts,
+            gaps,
+            along,
+            shares,
+            variance,
         });
         if !inputs.is_none() {
-            self.backend.run(AddInputs {
-                model: &self.model,
+            backend.run(AddInputs::<f64, MOMENTS> {
+                model,
                 inputs,
-                frames: &self.frames,
-                parts: &self.parts,
-                worst: &out.worst,
-                along: &self.along,
-                variance: &mut out.uncertainty,
+                frames,
+                parts,
+                response,
+                worst,
+                along,
+                variance,
             });
         }
-        self.backend.run(TakeRoot {
-            of: &mut out.uncertainty,
-        });
+        backend.run(TakeRoot { of: variance });
     }
+}
+
+fn have_moments(cases: &[Wrench]) -> bool {
+    cases.iter().any(|wrench| wrench.moment != Vector3::zeros())
 }
 
 #[cfg(test)]

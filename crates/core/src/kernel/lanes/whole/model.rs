@@ -1,10 +1,14 @@
 //! The constants of an arm and of all parts of its model.
 
+use std::cmp::Reverse;
+
 use nalgebra::{DMatrix, Vector3};
 
 use super::backlash::GapConstants;
-use super::chain::{ChainConstants, Displacement};
-use crate::robot::{Attachment, BacklashSide};
+use super::chain::{ChainConstants, Displacement, FramePlanes};
+use super::parts::PartPlanes;
+use crate::kernel::lanes::numbers::Planes;
+use crate::robot::{Attachment, BacklashSide, JointCompliance};
 use crate::source::{Arm, ArmState, Contributor};
 use crate::spatial::Twist;
 
@@ -16,13 +20,32 @@ pub(in crate::kernel::lanes) struct PartConstants {
     /// Its motion in the frame of the attachment.
     pub linear: Vector3<f64>,
     pub angular: Vector3<f64>,
+    /// The axis of the frame that it turns about, if `about`: then its motion is one unit about it.
+    pub axis: usize,
+    pub about: bool,
     /// rad/(N m) or m/N.
     pub compliance: f64,
     pub uncertainty: f64,
     /// Index of its contributor.
     pub contributor: usize,
-    /// Displacement by gravity at tool setting, m, and the same per unit of compliance.
-    pub reference: [Vector3<f64>; 2],
+    /// Displacement by gravity at tool setting per unit of compliance.
+    pub reference: Vector3<f64>,
+}
+
+/// Parts with one frame, one after the other: about one axis each, at most three, or a single one with any motion.
+#[derive(Clone, Debug)]
+pub(in crate::kernel::lanes) struct Group {
+    pub rank: usize,
+    pub first: usize,
+    pub count: usize,
+    pub about: bool,
+}
+
+/// A row of a covariance: part, and entries with itself and others; those with others are there once, twice as large.
+#[derive(Clone, Debug)]
+pub(in crate::kernel::lanes) struct CovarianceRow {
+    pub part: usize,
+    pub entries: Vec<(usize, f64)>,
 }
 
 /// A mass.
@@ -38,14 +61,16 @@ pub(in crate::kernel::lanes) struct MassConstants {
 pub(in crate::kernel::lanes) struct ModelConstants {
     pub chain: ChainConstants,
     pub flange_from_tool: Displacement,
-    /// The drives, then the springs.
+    /// Drives and springs from tool to base, and their groups in the same order.
     pub parts: Vec<PartConstants>,
+    pub groups: Vec<Group>,
+    /// Displacement by gravity at tool setting, m, base.
+    pub reference: Vector3<f64>,
     pub masses: Vec<MassConstants>,
     /// Of free fall, base, m/s^2; none where gravity is neglected.
     pub acceleration: Option<Vector3<f64>>,
-    /// Covariance of the first compliances, the others being independent: row by row up to the diagonal, the entries
-    /// beside it twice.
-    pub covariance: Vec<Vec<f64>>,
+    /// Covariance of the compliances that are not independent: the uncertainty of these is zero.
+    pub covariance: Vec<CovarianceRow>,
     /// The joints with backlash, in their order.
     pub backlash: Vec<GapConstants>,
     /// The calibrated arm.
@@ -63,9 +88,24 @@ pub(in crate::kernel::lanes) struct ModelConstants {
 }
 
 impl ModelConstants {
+    /// Angular parts of part `k` at each point, base.
+    #[inline(always)]
+    pub fn angular<'a, T>(
+        &self,
+        frames: &'a [FramePlanes<T>],
+        parts: &'a [PartPlanes<T>],
+        k: usize,
+    ) -> &'a Planes<T, 3> {
+        let part = &self.parts[k];
+        if part.about {
+            &frames[part.rank].axes[part.axis]
+        } else {
+            &parts[k].angular
+        }
+    }
+
     /// The constants of `arm`, with or without geometry, thermal growth and backlash (`unloaded`); none if it has a part
-    /// that lanes do not know: torque curves, a compensator, a covariance, a load-dependent equilibrium, a rail that
-    /// grows.
+    /// that lanes do not know: torque curves, a compensator, a load-dependent equilibrium.
     pub fn of(arm: &Arm<'_>, unloaded: bool) -> Option<ModelConstants> {
         let (robot, model) = (arm.robot, arm.model);
         let structure = &model.structure;
@@ -77,49 +117,50 @@ impl ModelConstants {
         let contributors = model.contributors(joints);
         let place = |wanted: Contributor| contributors.iter().position(|one| *one == wanted);
         let gravity = model.gravity.as_ref().filter(|_| !structure.masses.is_empty());
-        let at_reference = reference(arm);
+        let (reference, at_reference) = reference(arm);
         let chain = ChainConstants::of(robot);
-        let drives = (0..joints).map(|joint| {
-            let (axis, slides) = chain.axis(joint);
-            let unit = Vector3::from_fn(|k, _| f64::from(u8::from(k == axis)));
-            let (linear, angular) = if slides {
-                (unit, Vector3::zeros())
-            } else {
-                (Vector3::zeros(), unit)
+        let correlated = structure.covariance.as_ref().map_or(0, DMatrix::nrows);
+        let all = compliant(arm, &chain).into_iter().enumerate();
+        let parts = all.map(|(k, (attachment, direction, c))| {
+            let axis = direction.angular.iamax();
+            let unit = direction.angular == Vector3::ith(axis, 1.0);
+            let part = PartConstants {
+                rank: attachment.rank(joints),
+                linear: direction.linear,
+                angular: direction.angular,
+                axis,
+                about: unit && direction.linear == Vector3::zeros(),
+                compliance: c.value,
+                uncertainty: if k < correlated {
+                    0.0
+                } else {
+                    c.standard_uncertainty
+                },
+                contributor: place(Contributor::At(attachment))?,
+                reference: at_reference.get(k).copied().unwrap_or_default(),
             };
-            (
-                Attachment::Joint(joint),
-                Twist { linear, angular },
-                arm.compliance[joint],
-            )
+            Some((k, part))
         });
-        let springs = structure.springs.iter();
-        let springs = springs.map(|spring| (spring.attachment, spring.direction, spring.compliance));
-        let parts = drives
-            .chain(springs)
-            .enumerate()
-            .map(|(k, (attachment, direction, c))| {
-                Some(PartConstants {
-                    rank: attachment.rank(joints),
-                    linear: direction.linear,
-                    angular: direction.angular,
-                    compliance: c.value,
-                    uncertainty: c.standard_uncertainty,
-                    contributor: place(Contributor::At(attachment))?,
-                    reference: at_reference.get(k).copied().unwrap_or_default(),
-                })
-            });
+        let mut parts = parts.collect::<Option<Vec<(usize, PartConstants)>>>()?;
+        parts.sort_by_key(|(_, part)| (Reverse(part.rank), !part.about));
+        let (order, parts): (Vec<usize>, Vec<PartConstants>) = parts.into_iter().unzip();
+        let index = |k: usize| order.iter().position(|one| *one == k);
         let gaps = structure.joints_with_backlash().filter(|_| unloaded);
-        let gaps = gaps.map(|(joint, gap)| GapConstants {
-            joint,
-            half: 0.5 * gap.gap,
-            relative: gap.standard_uncertainty / gap.gap,
-            by_torque: gap.side == BacklashSide::Torque,
+        let gaps = gaps.map(|(joint, gap)| {
+            Some(GapConstants {
+                part: index(joint)?,
+                half: 0.5 * gap.gap,
+                relative: gap.standard_uncertainty / gap.gap,
+                by_torque: gap.side == BacklashSide::Torque,
+            })
         });
+        let covariance = structure.covariance.as_ref();
         let actual = model.actual.as_deref().filter(|_| unloaded);
         Some(ModelConstants {
             flange_from_tool: Displacement::of(arm.flange_from_tool),
-            parts: parts.collect::<Option<_>>()?,
+            groups: groups(&parts),
+            parts,
+            reference,
             masses: gravity.map_or(Vec::new(), |_| {
                 let masses = structure.masses.iter();
                 masses
@@ -131,8 +172,8 @@ impl ModelConstants {
                     .collect()
             }),
             acceleration: gravity.map(|gravity| gravity.acceleration),
-            covariance: structure.covariance.as_ref().map_or(Vec::new(), rows),
-            backlash: gaps.collect(),
+            covariance: covariance.map_or(Some(Vec::new()), |form| rows(form, index))?,
+            backlash: gaps.collect::<Option<_>>()?,
             actual: actual.map(ChainConstants::of),
             growth: thermal.map(|thermal| [thermal.growth, thermal.standard_uncertainty]),
             model_error: structure.model_error,
@@ -145,28 +186,69 @@ impl ModelConstants {
     }
 }
 
-/// Rows of a quadratic form up to the diagonal.
-fn rows(form: &DMatrix<f64>) -> Vec<Vec<f64>> {
-    let entry = |i: usize, j: usize| match i == j {
-        true => form[(i, i)],
-        false => form[(i, j)] + form[(j, i)],
-    };
-    let row = |i| (0..=i).map(|j| entry(i, j)).collect();
-    (0..form.nrows()).map(row).collect()
+/// Attachment, direction and compliance of the drives, then of the springs.
+fn compliant(arm: &Arm<'_>, chain: &ChainConstants) -> Vec<(Attachment, Twist, JointCompliance)> {
+    let drives = arm.compliance.iter().enumerate().map(|(joint, c)| {
+        let (axis, slides) = chain.axis(joint);
+        let (unit, none) = (Vector3::ith(axis, 1.0), Vector3::zeros());
+        let (linear, angular) = if slides { (unit, none) } else { (none, unit) };
+        (Attachment::Joint(joint), Twist { linear, angular }, *c)
+    });
+    let springs = arm.model.structure.springs.iter();
+    let springs = springs.map(|spring| (spring.attachment, spring.direction, spring.compliance));
+    drives.chain(springs).collect()
 }
 
-/// Displacement by gravity at tool setting, part by part, and per unit of compliance; empty without gravity.
-fn reference(arm: &Arm<'_>) -> Vec<[Vector3<f64>; 2]> {
+/// Groups of neighbours.
+fn groups(parts: &[PartConstants]) -> Vec<Group> {
+    let mut groups: Vec<Group> = Vec::new();
+    for (k, part) in parts.iter().enumerate() {
+        match groups.last_mut() {
+            Some(last) if last.rank == part.rank && last.about && part.about && last.count < 3 => {
+                last.count += 1
+            }
+            _ => groups.push(Group {
+                rank: part.rank,
+                first: k,
+                count: 1,
+                about: part.about,
+            }),
+        }
+    }
+    groups
+}
+
+/// Rows of a quadratic form up to the diagonal, without zeros; `index` gives the part of a row.
+fn rows(form: &DMatrix<f64>, index: impl Fn(usize) -> Option<usize>) -> Option<Vec<CovarianceRow>> {
+    let mut rows = Vec::new();
+    for i in 0..form.nrows() {
+        let mut entries = vec![(index(i)?, form[(i, i)])];
+        for j in 0..i {
+            entries.push((index(j)?, form[(i, j)] + form[(j, i)]));
+        }
+        entries.retain(|(_, value)| *value != 0.0);
+        rows.push(CovarianceRow {
+            part: index(i)?,
+            entries,
+        });
+    }
+    Some(rows)
+}
+
+/// Displacement by gravity at tool setting, m, and part by part per unit of compliance; empty without gravity.
+fn reference(arm: &Arm<'_>) -> (Vector3<f64>, Vec<Vector3<f64>>) {
     let Some(gravity) = arm.model.gravity.as_ref() else {
-        return Vec::new();
+        return (Vector3::zeros(), Vec::new());
     };
     let mut there = ArmState::new(*arm);
     there.set_joints(&gravity.reference);
-    let each = there
-        .screws()
+    let each = there.screws().iter().zip(there.gravity_torques());
+    let per_unit: Vec<Vector3<f64>> = each.map(|(screw, torque)| screw.linear * *torque).collect();
+    let compliances = arm.compliances();
+    let sum = per_unit
         .iter()
-        .zip(there.gravity_torques())
-        .zip(arm.compliances());
-    each.map(|((screw, torque), c)| [screw.linear * (c.value * torque), screw.linear * *torque])
-        .collect()
+        .zip(&compliances)
+        .map(|(part, c)| part * c.value)
+        .sum();
+    (sum, per_unit)
 }

@@ -4,83 +4,53 @@ use nalgebra::Vector3;
 
 use super::chain::FramePlanes;
 use super::model::ModelConstants;
-use super::parts::PartPlanes;
+use super::parts::ResponsePlanes;
+use crate::kernel::lanes::load::{CaseLanes, Worst};
 use crate::kernel::lanes::numbers::{BLOCK, Float, Plane, Planes, Real, Vector, Work, put, vector};
+use crate::spatial::Wrench;
 
 /// Displacements of the tool without load, m, base.
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 pub(in crate::kernel::lanes) struct StillPlanes<T> {
-    /// By gravity, relative to tool setting.
-    pub gravity: Planes<T, 3>,
+    /// Gravity relative to tool setting, geometry and thermal growth.
+    pub sum: Planes<T, 3>,
     pub geometry: Planes<T, 3>,
     /// The constant lengths from base to flange, without the travel of prismatic joints, which thermal growth multiplies.
     pub lengths: Planes<T, 3>,
 }
 
-/// Fills [`StillPlanes`].
-pub(in crate::kernel::lanes) struct FindStill<'a, T> {
+/// Fills geometry and lengths.
+pub(in crate::kernel::lanes) struct FindUnloaded<'a, T> {
     pub model: &'a ModelConstants,
     /// Joint positions, rad (m).
     pub joints: &'a [Plane<T>],
     pub frames: &'a [FramePlanes<T>],
-    /// The frames of the calibrated arm.
-    pub actual: Option<&'a [FramePlanes<T>]>,
-    pub parts: &'a [PartPlanes<T>],
+    /// The tool of the calibrated arm.
+    pub actual: &'a FramePlanes<T>,
     pub still: &'a mut StillPlanes<T>,
 }
 
-impl<T: Float> Work<T> for FindStill<'_, T> {
+impl<T: Float> Work<T> for FindUnloaded<'_, T> {
     #[inline(always)]
     fn run<R: Real<Float = T>>(self) {
-        let FindStill {
+        let FindUnloaded {
             model,
             joints,
             frames,
             actual,
-            parts,
             still,
         } = self;
-        let zero = R::of(0.0);
-        let nothing = Vector::new(zero, zero, zero);
-        for i in 0..BLOCK {
-            R::step();
-            put(&mut still.gravity, i, nothing);
-        }
-        if model.acceleration.is_some() {
-            let mut k = 0;
-            while k < parts.len() {
-                let (constants, part) = (&model.parts[k], &parts[k]);
-                let (c, there) = (
-                    R::of(constants.compliance),
-                    Vector::<R>::of(&constants.reference[0]),
-                );
-                for i in 0..BLOCK {
-                    R::step();
-                    let so_far = vector::<R>(&still.gravity, i) - there;
-                    let turned = c * R::load(part.weight[i]);
-                    put(
-                        &mut still.gravity,
-                        i,
-                        vector::<R>(&part.linear, i).mul_add(turned, so_far),
-                    );
-                }
-                k += 1;
-            }
-        }
         let tool = frames.len() - 1;
-        if let Some(actual) = actual {
+        if model.geometry.is_some() {
             for i in 0..BLOCK {
                 R::step();
-                let away = vector::<R>(&actual[tool].origin, i) - vector::<R>(&frames[tool].origin, i);
+                let away = vector::<R>(&actual.origin, i) - vector::<R>(&frames[tool].origin, i);
                 put(&mut still.geometry, i, away);
             }
         }
         if model.growth.is_some() {
-            for i in 0..BLOCK {
-                R::step();
-                put(&mut still.lengths, i, vector::<R>(&frames[tool - 1].origin, i));
-            }
+            still.lengths.clone_from(&frames[tool - 1].origin);
             // A scale measures the travel of a prismatic joint: it does not grow.
             let mut joint = 0;
             while joint < model.chain.joints() {
@@ -101,64 +71,117 @@ impl<T: Float> Work<T> for FindStill<'_, T> {
     }
 }
 
-/// Fills the displacement of the tool (m, base) under one wrench at the TCP (base): elastic and gravity, then geometry
-/// and thermal growth.
-pub(in crate::kernel::lanes) struct OneWrench<'a, T> {
+/// Fills the sum of what no load causes.
+pub(in crate::kernel::lanes) struct AddStill<'a, T> {
     pub model: &'a ModelConstants,
-    pub parts: &'a [PartPlanes<T>],
-    pub still: &'a StillPlanes<T>,
-    pub force: Vector3<f64>,
-    pub moment: Vector3<f64>,
-    pub deviation: &'a mut Planes<T, 3>,
+    pub response: &'a ResponsePlanes<T>,
+    pub still: &'a mut StillPlanes<T>,
 }
 
-impl<T: Float> Work<T> for OneWrench<'_, T> {
+impl<T: Float> Work<T> for AddStill<'_, T> {
     #[inline(always)]
     fn run<R: Real<Float = T>>(self) {
-        let OneWrench {
+        let AddStill {
             model,
-            parts,
+            response,
             still,
-            force,
-            moment,
-            deviation,
         } = self;
-        let (force, moment) = (Vector::<R>::of(&force), Vector::<R>::of(&moment));
+        let there = Vector::<R>::of(&model.reference);
         for i in 0..BLOCK {
             R::step();
-            put(deviation, i, vector::<R>(&still.gravity, i));
-        }
-        let mut k = 0;
-        while k < parts.len() {
-            let part = &parts[k];
-            let c = R::of(model.parts[k].compliance);
-            for i in 0..BLOCK {
-                R::step();
-                let linear = vector::<R>(&part.linear, i);
-                let torque = linear.dot(force) + vector::<R>(&part.angular, i).dot(moment);
-                let so_far = vector::<R>(deviation, i);
-                put(deviation, i, linear.mul_add(c * torque, so_far));
-            }
-            k += 1;
+            put(&mut still.sum, i, vector::<R>(&response.by_gravity, i) - there);
         }
         if model.geometry.is_some() {
             for i in 0..BLOCK {
                 R::step();
-                let sum = vector::<R>(deviation, i) + vector::<R>(&still.geometry, i);
-                put(deviation, i, sum);
+                let sum = vector::<R>(&still.sum, i) + vector::<R>(&still.geometry, i);
+                put(&mut still.sum, i, sum);
             }
         }
         if let Some([growth, _]) = model.growth {
             let growth = R::of(growth);
             for i in 0..BLOCK {
                 R::step();
-                let so_far = vector::<R>(deviation, i);
-                put(
-                    deviation,
-                    i,
-                    vector::<R>(&still.lengths, i).mul_add(growth, so_far),
-                );
+                let so_far = vector::<R>(&still.sum, i);
+                let sum = vector::<R>(&still.lengths, i).mul_add(growth, so_far);
+                put(&mut still.sum, i, sum);
             }
         }
     }
+}
+
+/// Fills the displacement of the tool (m, base) under one wrench at the TCP (base) by all but backlash; its moment acts
+/// only if `MOMENTS`.
+pub(in crate::kernel::lanes) struct OneWrench<'a, T, const MOMENTS: bool> {
+    pub response: &'a ResponsePlanes<T>,
+    pub still: &'a StillPlanes<T>,
+    pub wrench: &'a Wrench,
+    pub deviation: &'a mut Planes<T, 3>,
+}
+
+impl<T: Float, const MOMENTS: bool> Work<T> for OneWrench<'_, T, MOMENTS> {
+    #[inline(always)]
+    fn run<R: Real<Float = T>>(self) {
+        let (force, moment) = (
+            Vector::<R>::of(&self.wrench.force),
+            Vector::<R>::of(&self.wrench.moment),
+        );
+        let (response, still, deviation) = (self.response, self.still, self.deviation);
+        for i in 0..BLOCK {
+            R::step();
+            put(
+                deviation,
+                i,
+                under::<R, MOMENTS>(response, still, force, moment, i),
+            );
+        }
+    }
+}
+
+/// [`OneWrench`], taken into the worst so far.
+pub(in crate::kernel::lanes) struct OneCase<'a, T, const MOMENTS: bool> {
+    pub response: &'a ResponsePlanes<T>,
+    pub still: &'a StillPlanes<T>,
+    pub case: usize,
+    pub wrench: &'a Wrench,
+    /// Two directions across the normal, then the normal, base.
+    pub plane: &'a [Vector3<f64>; 3],
+    pub deviation: &'a mut Planes<T, 3>,
+    pub worst: &'a mut Worst<T>,
+}
+
+impl<T: Float, const MOMENTS: bool> Work<T> for OneCase<'_, T, MOMENTS> {
+    #[inline(always)]
+    fn run<R: Real<Float = T>>(self) {
+        let Wrench { force, moment } = self.wrench;
+        let case = CaseLanes::<R>::new(self.case, force, moment, self.plane);
+        let (response, still, deviation) = (self.response, self.still, self.deviation);
+        for i in 0..BLOCK {
+            R::step();
+            let delta = under::<R, MOMENTS>(response, still, case.force, case.moment, i);
+            put(deviation, i, delta);
+            case.take::<MOMENTS>(delta, i, self.worst);
+        }
+    }
+}
+
+#[inline(always)]
+fn under<R: Real, const MOMENTS: bool>(
+    response: &ResponsePlanes<R::Float>,
+    still: &StillPlanes<R::Float>,
+    force: Vector<R>,
+    moment: Vector<R>,
+    i: usize,
+) -> Vector<R> {
+    let mut delta = response.by::<R>(force, i) + vector::<R>(&still.sum, i);
+    if MOMENTS {
+        let by_moment = &response.by_moment;
+        delta = delta
+            + Vector::new(
+                vector::<R>(&by_moment[0..3], i).dot(moment),
+                vector::<R>(&by_moment[3..6], i).dot(moment),
+                vector::<R>(&by_moment[6..9], i).dot(moment),
+            );
+    }
+    delta
 }

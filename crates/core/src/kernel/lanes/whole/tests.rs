@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, Point3, Unit, Vector3};
 
-use super::{WholeAnswers, WholeModel};
+use super::{OneWrench, WholeAnswers, WholeModel};
 use crate::arms;
 use crate::frame::{Isometry, both_across};
 use crate::kernel::answer::AnswerDetail;
@@ -138,7 +138,13 @@ fn the_whole_model_in_lanes_is_that_of_the_plain_row() {
             let mut lanes = WholeModel::of(&arm, backend).unwrap();
             lanes.set_joints(&joints);
             let mut found = planes();
-            lanes.deviate(&wrench, &mut found);
+            lanes.respond::<true>();
+            backend.run(OneWrench::<f64, true> {
+                response: &lanes.response,
+                still: &lanes.still,
+                wrench: &wrench,
+                deviation: &mut found,
+            });
             for (i, expected) in expected.iter().enumerate() {
                 let found = Vector3::new(found[0][i], found[1][i], found[2][i]);
                 let away = (found - expected).norm() / expected.norm();

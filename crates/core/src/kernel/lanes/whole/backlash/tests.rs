@@ -26,6 +26,7 @@ fn the_chosen_sides_are_those_of_the_plain_row() {
     let mut stream = arms::Stream(3);
     for backend in Backend::available() {
         let mut parts = vec![PartPlanes::unknown(); 6];
+        let frames = vec![FramePlanes::unknown(); 9];
         let mut gaps = vec![GapPlanes::unknown(); 6];
         let mut deviation: Planes<f64, 3> = planes();
         let whole = |stream: &mut arms::Stream, most: f64| {
@@ -35,8 +36,9 @@ fn the_chosen_sides_are_those_of_the_plain_row() {
         let mut halves = vec![[Vector2::zeros(); 6]; BLOCK];
         let mut from = vec![Vector2::zeros(); BLOCK];
         for i in 0..BLOCK {
-            for (part, half) in parts.iter_mut().zip(&mut halves[i]) {
+            for (gap, half) in model.backlash.iter().zip(&mut halves[i]) {
                 *half = whole(&mut stream, 2.4);
+                let part = &mut parts[gap.part];
                 (part.linear[0][i], part.linear[1][i]) = (half.x, half.y);
             }
             from[i] = whole(&mut stream, 9.0) / 4.0;
@@ -44,7 +46,15 @@ fn the_chosen_sides_are_those_of_the_plain_row() {
         }
         let plane = [Vector3::x(), Vector3::y(), Vector3::z()];
         let case = (0, &Wrench::ZERO);
-        settle(backend, &model, &parts, case, &plane, &mut gaps, &mut deviation);
+        settle(
+            backend,
+            &model,
+            (&frames, &parts),
+            case,
+            &plane,
+            &mut gaps,
+            &mut deviation,
+        );
         for i in 0..BLOCK {
             let mut signs = [0.0; 6];
             farthest(from[i], &halves[i], &mut signs);
