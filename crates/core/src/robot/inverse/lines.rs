@@ -9,6 +9,38 @@ use super::super::chain::{Chain, Motion};
 /// Greatest deviation (rad, m) of a geometry from the ideal that is still solved in closed form.
 pub(super) const IDEAL: f64 = 1e-9;
 
+/// The largest deviations of axes from those of an ideal arm.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct AxisDeviation {
+    /// rad
+    angle: f64,
+    /// m
+    distance: f64,
+}
+
+/// Axes of an arm that may deviate in the same sense.
+const IN_ONE_SENSE: f64 = 4.0;
+
+impl AxisDeviation {
+    /// The largest of these sines of angles and distances (m).
+    pub fn of<const A: usize, const D: usize>(sines: [f64; A], distances: [f64; D]) -> AxisDeviation {
+        AxisDeviation {
+            angle: sines.into_iter().fold(0.0, f64::max),
+            distance: distances.into_iter().fold(0.0, f64::max),
+        }
+    }
+
+    /// The larger of both, compared by number.
+    pub fn largest(self) -> f64 {
+        self.angle.max(self.distance)
+    }
+
+    /// How far (m) an arm of this length (m) may reach beyond the ideal one; more than zero.
+    pub fn slack(self, length: f64) -> f64 {
+        IN_ONE_SENSE * (self.distance + self.angle * length).max(IDEAL)
+    }
+}
+
 /// The axis of a revolute joint at chain zero.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Line {

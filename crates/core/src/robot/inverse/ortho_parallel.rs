@@ -25,7 +25,9 @@ use super::super::branch::{Branch, Shoulder, Wrist};
 use super::super::chain::Chain;
 use super::super::posture::Singularity;
 use super::super::unreachable::Unreachable;
-use super::lines::{IDEAL, Line, Turn, across, base_from_arm, lines_at_zero, sense_of, up_to_noise};
+use super::lines::{
+    AxisDeviation, IDEAL, Line, Turn, across, base_from_arm, lines_at_zero, sense_of, up_to_noise,
+};
 use super::two_links::{TwoLinks, WRIST_SINGULAR};
 use crate::frame::Isometry;
 
@@ -58,17 +60,18 @@ impl OrthoParallel {
     pub fn recognise(chain: &Chain) -> Option<OrthoParallel> {
         let lines = lines_at_zero(chain)?;
         let wrist = lines[3].nearest_to(&lines[4])?;
-        (deviation_from_ideal(&lines, wrist) < IDEAL)
+        (deviation_from_ideal(&lines, wrist).largest() < IDEAL)
             .then(|| OrthoParallel::of_lines(chain, &lines, wrist))
             .flatten()
     }
 
     /// The ortho-parallel geometry next to that of `chain`, if that deviates from it by less than `within` (m, rad);
-    /// it answers up to `slack` (m) beyond its reach.
+    /// beyond its reach it answers as far as such an arm may reach, up to `slack` (m).
     pub(super) fn next_to(chain: &Chain, within: f64, slack: f64) -> Option<OrthoParallel> {
         let mut lines = lines_at_zero(chain)?;
         let wrist = lines[4].nearest_to(&lines[3])?;
-        if deviation_from_ideal(&lines, wrist) >= within {
+        let deviation = deviation_from_ideal(&lines, wrist);
+        if deviation.largest() >= within {
             return None;
         }
         lines = lines.map(|line| line.with_point_near(wrist));
@@ -77,7 +80,7 @@ impl OrthoParallel {
         lines[4].axis = across(lines[4].axis, &lines[3].axis);
         lines[5].axis = across(lines[5].axis, &lines[4].axis);
         let mut arm = OrthoParallel::of_lines(chain, &lines, wrist)?;
-        arm.links.slack = slack;
+        arm.links.slack = deviation.slack(arm.links.l2 + arm.links.l3).min(slack);
         Some(arm)
     }
 
@@ -217,17 +220,20 @@ impl OrthoParallel {
     }
 }
 
-/// Deviation (m, rad) of these axes from an ortho-parallel arm with spherical wrist.
-fn deviation_from_ideal(lines: &[Line; 6], wrist: Point3<f64>) -> f64 {
+/// Deviation of these axes from an ortho-parallel arm with spherical wrist.
+fn deviation_from_ideal(lines: &[Line; 6], wrist: Point3<f64>) -> AxisDeviation {
     let [z1, z2, z3, z4, z5, z6] = lines.map(|line| line.axis);
-    let deviations = [
-        z1.dot(&z2).abs(),
-        z2.cross(&z3).norm(),
-        z4.dot(&z5).abs(),
-        z5.dot(&z6).abs(),
-        lines[3].distance(wrist),
-        lines[4].distance(wrist),
-        lines[5].distance(wrist),
-    ];
-    deviations.into_iter().fold(0.0, f64::max)
+    AxisDeviation::of(
+        [
+            z1.dot(&z2).abs(),
+            z2.cross(&z3).norm(),
+            z4.dot(&z5).abs(),
+            z5.dot(&z6).abs(),
+        ],
+        [
+            lines[3].distance(wrist),
+            lines[4].distance(wrist),
+            lines[5].distance(wrist),
+        ],
+    )
 }

@@ -5,8 +5,8 @@
 //! J J^T = [A B; B^T D]           S = A - B D^-1 B^T                 x = S^-1 (e_v - B D^-1 e_w), y = D^-1 (e_w - B^T x)
 //! ```
 //!
-//! `l` a length of the arm (m), `lambda` as small as rounding: the sum over joints and two symmetric 3 x 3 inverses need
-//! no pivots. Points where the step does not become small are undecided.
+//! `l` a length of the arm (m), `lambda = 1e-2 e^2` and rounding, as in `robot::inverse::descent`: the sum over joints and
+//! two symmetric 3 x 3 inverses need no pivots. Points where the step does not become small are undecided.
 
 use super::state;
 use crate::kernel::lanes::numbers::{
@@ -18,11 +18,13 @@ use crate::robot::Chain;
 /// Joints of an arm with named branches.
 const JOINTS: usize = 6;
 /// Maximum number of steps: from 10 mm and 10 mrad away three are enough, near a singularity more.
-const MOST_STEPS: usize = 6;
+const MOST_STEPS: usize = 8;
 /// Largest step (rad) after which the rest is rounding.
 const LAST_STEP: f64 = 1e-7;
 /// Damping relative to the sum of squares: rounding.
 const DAMPING: f64 = 1e-15;
+/// Damping relative to the square of the error: it vanishes as the error does.
+const FAR: f64 = 1e-2;
 
 /// A chain, and memory for a block of points.
 #[derive(Clone, Debug)]
@@ -127,7 +129,10 @@ impl<T: Float> Work<T> for Step<'_, T> {
             let turned = vector::<R>(&flange.axes[0], i).cross(vector::<R>(&targets.axes[0], i))
                 + vector::<R>(&flange.axes[1], i).cross(vector::<R>(&targets.axes[1], i))
                 + vector::<R>(&flange.axes[2], i).cross(vector::<R>(&targets.axes[2], i));
-            let [x, y] = gram.damped(R::of(DAMPING)).solve(away, turned.scaled(half));
+            let turned = turned.scaled(half);
+            let size = away.dot(away) + turned.dot(turned);
+            let damping = R::of(DAMPING).mul_add(gram.trace(), R::of(FAR) * size);
+            let [x, y] = gram.damped(damping).solve(away, turned);
             put(&mut solved[0..3], i, x);
             put(&mut solved[3..6], i, y);
             step[i] = R::of(0.0).store();
@@ -285,13 +290,17 @@ impl<R: Real> Gram<R> {
     }
 
     #[inline(always)]
-    fn damped(self, relative: R) -> Self {
-        let damping = (self.linear.trace() + self.angular.trace()) * relative;
+    fn damped(self, damping: R) -> Self {
         Gram {
             linear: self.linear.plus_diagonal(damping),
             mixed: self.mixed,
             angular: self.angular.plus_diagonal(damping),
         }
+    }
+
+    #[inline(always)]
+    fn trace(self) -> R {
+        self.linear.trace() + self.angular.trace()
     }
 
     /// The two parts of the solution for the right side (`linear`, `angular`).
