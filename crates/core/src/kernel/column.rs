@@ -9,8 +9,11 @@
 //! | `delta` | elastic deviation of the tip, with gravity ([`crate::predict`]); [at single points](Columns::at_single_points) with backlash and geometry | m |
 //!
 //! A column contains the poses of one point of a path with the tool turned about its axis: all have the same forces.
-//! Ortho-parallel arms whose only springs are the drives go through lanes, a block of turns at once; any other arm is
-//! computed one pose after the other. Both agree to rounding (`tests`).
+//! Arms with named branches go through lanes, a block of turns at once: ortho-parallel ones whose only springs are the
+//! drives without any angle, the others by the whole model (`whole_columns`). Any other arm is computed one pose after
+//! the other. All agree to rounding (`tests`).
+
+mod whole_columns;
 
 use nalgebra::Vector3;
 
@@ -24,6 +27,7 @@ use crate::robot::inverse::{Finder, InverseSolution, InverseTarget};
 use crate::robot::{Branch, Joint, PostureName, Robot, Singularity};
 use crate::source::{Arm, ArmState, Links};
 use crate::spatial::{Twist, Wrench};
+use whole_columns::WholeColumns;
 
 /// Number of postures stored for a pose. Of arms without branch names, the first postures found are stored.
 pub const SLOTS: usize = 8;
@@ -126,6 +130,13 @@ struct Slots<'a> {
     joints: &'a mut [f64],
 }
 
+impl Slots<'_> {
+    fn clear(&mut self) {
+        self.statuses.fill(PostureStatus::OutOfReach);
+        self.deviations.fill(f64::INFINITY);
+    }
+}
+
 /// Computes columns; one per thread.
 pub struct Columns<'q> {
     margins: ArmMargins<'q>,
@@ -146,6 +157,7 @@ struct ArmMargins<'q> {
 /// By lanes or one after the other.
 enum ColumnMethod<'q> {
     Lanes(Box<Batch<f64>>),
+    Whole(Box<WholeColumns>, Box<OneByOne<'q>>),
     General(Box<OneByOne<'q>>),
 }
 
@@ -167,8 +179,23 @@ impl<'q> Columns<'q> {
                 },
                 method: ColumnMethod::Lanes(Box::new(Batch::new(&question, form, Backend::fastest()))),
             },
-            None => Columns::one_by_one(arm, home, [wrist, 0.0]),
+            None => Columns::whole(arm, home, [wrist, 0.0]),
         }
+    }
+
+    /// [`Columns::new`] by the whole model, with the margins of [`Columns::one_by_one`].
+    pub(super) fn whole(arm: Arm<'q>, home: Option<&'q [f64]>, margins: [f64; 2]) -> Columns<'q> {
+        Columns::one_by_one(arm, home, margins).in_lanes(false)
+    }
+
+    /// In lanes, if these know the arm.
+    fn in_lanes(self, unloaded: bool) -> Columns<'q> {
+        let Columns { margins, method } = self;
+        let method = match (method, WholeColumns::of(&margins, unloaded)) {
+            (ColumnMethod::General(rest), Some(lanes)) => ColumnMethod::Whole(Box::new(lanes), rest),
+            (method, _) => method,
+        };
+        Columns { margins, method }
     }
 
     /// [`Columns::new`] for points that are not on a path: backlash and geometry are included as in
@@ -181,7 +208,7 @@ impl<'q> Columns<'q> {
         if let ColumnMethod::General(one_by_one) = &mut columns.method {
             one_by_one.link_offsets = Some(vec![0.0; arm.robot.joints().len()]);
         }
-        columns
+        columns.in_lanes(true)
     }
 
     /// [`Columns::new`] for any arm, one pose after the other. Every joint also keeps `margin` (rad) from its limits,
@@ -262,6 +289,7 @@ impl<'q> Columns<'q> {
                     });
                 }
             }
+            ColumnMethod::Whole(lanes, rest) => lanes.fill(&self.margins, poses, push, rest, out),
             ColumnMethod::General(one_by_one) => {
                 for (i, pose) in poses.iter().enumerate() {
                     one_by_one.pose(&self.margins, pose, push, out.slots_of(i, joint_count));
@@ -316,7 +344,9 @@ impl OneByOne<'_> {
                 PostureName::Branch(branch) if named => Branch::ALL.iter().position(|other| *other == branch),
                 _ => (order < SLOTS).then_some(order),
             };
-            let Some(slot) = slot else {
+            // Of two postures with one name, which a calibrated arm may have near a singularity, the first is stored.
+            let free = |slot: &usize| out.statuses[*slot] == PostureStatus::OutOfReach;
+            let Some(slot) = slot.filter(free) else {
                 continue;
             };
             let joint_count = one.joints.len();
@@ -367,7 +397,7 @@ impl OneByOne<'_> {
 fn is_singular(named: bool, found: &InverseSolution, screws: &[Twist], wrist: f64) -> bool {
     match (found.singularity, screws) {
         (Some(Singularity::Elbow | Singularity::Shoulder), _) => true,
-        (_, [_, _, _, fourth, _, sixth]) if named => {
+        (_, [_, _, _, fourth, _, sixth, ..]) if named => {
             fourth.angular.cross(&sixth.angular).norm() < wrist.sin()
         }
         (singularity, _) => singularity.is_some(),

@@ -4,8 +4,11 @@
 //! ([`PartPlacement`]) then specifies the pose of the part and the spin of the tool. Each posture of the arm is
 //! evaluated over all points ([`PathTotals`]).
 //!
-//! Ortho-parallel arms whose only springs are the drives go through lanes; any other arm is computed one pose after the
-//! other. Both agree to rounding (`tests`).
+//! Arms with named branches go through lanes: ortho-parallel ones whose only springs are the drives without any angle,
+//! the others by the whole model (`whole_placer`). Any other arm is computed one pose after the other. All agree to
+//! rounding (`tests`).
+
+mod whole_placer;
 
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -19,6 +22,7 @@ use crate::frame::Isometry;
 use crate::robot::{Branch, BranchPattern};
 use crate::source::Arm;
 use crate::spatial::Wrench;
+use whole_placer::WholePlacer;
 
 /// Totals of one posture over all points.
 ///
@@ -123,9 +127,11 @@ enum PlacementMethod<'q> {
     General(Box<GeneralPlacer<'q>>),
 }
 
-/// Evaluates placements one pose after the other.
+/// Evaluates placements by the whole model.
 struct GeneralPlacer<'q> {
     columns: Columns<'q>,
+    /// For arms that lanes know.
+    lanes: Option<WholePlacer>,
     /// The excess of deviations over it is summed, m.
     tolerance: f64,
 }
@@ -146,7 +152,8 @@ impl<'q> PlacementEvaluator<'q> {
 
     fn general(arm: Arm<'q>, home: Option<&'q [f64]>, margins: PostureMargins) -> PlacementMethod<'q> {
         PlacementMethod::General(Box::new(GeneralPlacer {
-            columns: Columns::one_by_one(arm, home, [margins.wrist, margins.margin]),
+            columns: Columns::whole(arm, home, [margins.wrist, margins.margin]),
+            lanes: WholePlacer::of(arm, home, &margins),
             tolerance: margins.tolerance,
         }))
     }
@@ -219,6 +226,18 @@ impl PlacementEvaluator<'_> {
 }
 
 impl PlacedPath {
+    /// The wrenches at point `index` at a placement, base.
+    fn wrenches_at(&self, index: usize, placement: &PartPlacement) -> impl ExactSizeIterator<Item = Wrench> {
+        let axes = match self.load.wrench_axes {
+            WrenchAxes::Base => UnitQuaternion::identity(),
+            WrenchAxes::Part => placement.base_from_part.rotation,
+        };
+        self.wrenches(index).iter().map(move |given| Wrench {
+            force: axes * given.force,
+            moment: axes * given.moment,
+        })
+    }
+
     /// Fills `out` with the postures at point `index` at the placements `tried`.
     fn fill_column(
         &self,
@@ -228,15 +247,7 @@ impl PlacedPath {
         out: &mut Column,
     ) {
         let SpunPlacement { placement, spins } = tried;
-        let axes = match self.load.wrench_axes {
-            WrenchAxes::Base => UnitQuaternion::identity(),
-            WrenchAxes::Part => placement.base_from_part.rotation,
-        };
-        let turned = |given: &Wrench| Wrench {
-            force: axes * given.force,
-            moment: axes * given.moment,
-        };
-        let cases: Vec<Wrench> = self.wrenches(index).iter().map(turned).collect();
+        let cases: Vec<Wrench> = self.wrenches_at(index, placement).collect();
         let point = &self.points[index];
         let pose = |spin: &f64| {
             let about = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), placement.spin + spin);
@@ -334,7 +345,14 @@ impl GeneralPlacer<'_> {
         mut open: [bool; SLOTS],
         mut keep: impl FnMut(&PathTotals) -> bool,
     ) -> [Option<PathTotals>; SLOTS] {
-        let GeneralPlacer { columns, tolerance } = self;
+        let GeneralPlacer {
+            columns,
+            lanes,
+            tolerance,
+        } = self;
+        if let Some(lanes) = lanes {
+            return lanes.evaluate(path, placement, open, columns, keep);
+        }
         let named = columns.slots_are_branches();
         if !named {
             // A single result: the best posture at each point.

@@ -2,15 +2,16 @@
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-use nalgebra::{Unit, Vector3};
+use nalgebra::{Point3, Unit, Vector3};
 
 use super::*;
 use crate::arms::{self, Stream};
 use crate::load::InputUncertainty;
 use crate::robot::inverse::{ToolAt, postures};
 use crate::robot::{
-    Attachment, BranchPattern, JointCompliance, PostureName, Robot, Spring, Structure, Unreachable,
+    Attachment, BranchPattern, JointCompliance, Mass, PostureName, Robot, Spring, Structure, Unreachable,
 };
+use crate::source::stiffness_model::Gravity;
 use crate::source::{Arm, StiffnessModel};
 use crate::spatial::Wrench;
 
@@ -73,6 +74,31 @@ pub(super) fn springy() -> StiffnessModel {
         },
         ..StiffnessModel::DRIVES.clone()
     }
+}
+
+/// Arms and models that lanes know: drives alone, a spring and gravity, calibrated arms, three parallel axes.
+pub(super) fn subjects() -> Vec<(Robot, StiffnessModel)> {
+    let mut heavy = springy();
+    heavy.structure.masses = vec![Mass {
+        attachment: Attachment::Joint(2),
+        mass: 40.0,
+        centre: Point3::new(0.1, 0.0, 0.3),
+    }];
+    heavy.gravity = Some(Gravity {
+        acceleration: Vector3::new(0.0, 0.0, -9.81),
+        reference: vec![0.2; 6],
+    });
+    let calibrated = arms::other::calibrated(&arms::kr120(), 1e-3);
+    let drives = || StiffnessModel::DRIVES.clone();
+    let all = arms::all().into_iter().map(|robot| (robot, drives()));
+    let others = [
+        (arms::mh12(), heavy.clone()),
+        (calibrated.clone(), drives()),
+        (calibrated, heavy.clone()),
+        (arms::other::ur10(), drives()),
+        (arms::other::ur10e(), heavy),
+    ];
+    all.chain(others).collect()
 }
 
 /// A watch that cancels once this number of points is finished; returns the number finished.

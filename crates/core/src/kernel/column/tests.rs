@@ -3,17 +3,18 @@ use nalgebra::{Rotation3, UnitQuaternion};
 use super::*;
 use crate::arms::{self, Stream};
 use crate::frame::tool_orientation;
-use crate::robot::inverse::{ToolAt, postures};
+use crate::kernel::tests::subjects;
+use crate::robot::inverse::{Inverse, ToolAt, postures};
 use crate::source::StiffnessModel;
 
 const WRIST: f64 = 0.1;
 
-fn arm<'a>(robot: &'a Robot, tool: &'a Isometry) -> Arm<'a> {
+fn arm<'a>(robot: &'a Robot, tool: &'a Isometry, model: &'a StiffnessModel) -> Arm<'a> {
     Arm {
         robot,
         compliance: robot.compliance().unwrap(),
         flange_from_tool: tool,
-        model: StiffnessModel::DRIVES,
+        model,
     }
 }
 
@@ -36,10 +37,14 @@ fn lanes_agree_with_one_pose_after_the_other() {
         UnitQuaternion::from_scaled_axis(Vector3::new(0.2, 0.4, -0.1)),
     );
     let mut counts = [0; 5];
-    for robot in arms::all() {
-        let arm = arm(&robot, &tool);
+    for (robot, model) in subjects() {
+        let arm = arm(&robot, &tool, &model);
         let mut lanes = Columns::new(arm, None, WRIST);
-        assert!(matches!(lanes.method, ColumnMethod::Lanes(_)));
+        match model.is_drives_alone() && robot.ortho_parallel().is_some() {
+            true => assert!(matches!(lanes.method, ColumnMethod::Lanes(_))),
+            false => assert!(matches!(lanes.method, ColumnMethod::Whole(..))),
+        }
+        let exact = matches!(robot.inverse(), Inverse::Closed(_));
         let mut plain = Columns::one_by_one(arm, None, [WRIST, 0.0]);
         let (mut one, mut other) = (Column::default(), Column::default());
         for round in 0..40 {
@@ -62,14 +67,18 @@ fn lanes_agree_with_one_pose_after_the_other() {
             for slot in 0..poses.len() * SLOTS {
                 let statuses = [one.statuses[slot], other.statuses[slot]];
                 counts[statuses[0] as usize] += 1;
-                // If two reasons apply, lanes and the plain method test in another order only at the edge of reach.
-                assert_eq!(statuses[0], statuses[1], "{} {round} slot {slot}", robot.name());
+                // A calibrated arm may lose a posture near a singularity, where it cannot be used.
+                let usable = statuses.map(|status| status == PostureStatus::Usable);
+                assert_eq!(usable[0], usable[1], "{} {round} slot {slot}", robot.name());
+                if exact {
+                    assert_eq!(statuses[0], statuses[1], "{} {round} slot {slot}", robot.name());
+                }
                 if statuses[0] != PostureStatus::Usable {
                     assert!(one.deviations[slot].is_infinite());
                     continue;
                 }
                 let (a, b) = (one.deviations[slot], other.deviations[slot]);
-                assert!((a - b).abs() < 1e-10 * b, "{}: {a} {b}", robot.name());
+                assert!((a - b).abs() < 1e-9 * b, "{}: {a} {b}", robot.name());
                 for (a, b) in one.joints_of(slot, 6).iter().zip(other.joints_of(slot, 6)) {
                     assert!(
                         (a - b).abs() < 1e-9,
@@ -94,7 +103,7 @@ fn lanes_agree_with_one_pose_after_the_other() {
 fn a_posture_of_a_column_is_one_of_the_postures_of_its_pose_and_deviates_as_predicted() {
     let robot = arms::mh12();
     let tool = Isometry::translation(0.0, 0.0, 0.2);
-    let mut columns = Columns::new(arm(&robot, &tool), None, WRIST);
+    let mut columns = Columns::new(arm(&robot, &tool, StiffnessModel::DRIVES), None, WRIST);
     let mut column = Column::default();
     let mut random = Stream(5);
     let (cases, along) = push(&mut random);

@@ -60,7 +60,9 @@ pub use by_block::{Arrays, Batch, Envelopes, Poses};
 pub use numbers::{Backend, Float, Precision, Real};
 pub use solve::flag;
 
-pub(super) use by_block::{EveryBranch, POINTS, Points, WholePoints};
+pub(super) use by_block::{
+    BranchMargins, BranchStatus, EveryBranch, LoadedBranches, POINTS, PointLoads, Points, WholePoints,
+};
 pub(super) use placement::{PlacementPoints, Placer, Tallied};
 
 #[cfg(test)]

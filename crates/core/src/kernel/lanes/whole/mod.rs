@@ -28,8 +28,10 @@ use chain::FindTool;
 pub(in crate::kernel::lanes) use chain::{ChainConstants, Displacement, FindFrames, FramePlanes};
 use inputs::AddInputs;
 use model::ModelConstants;
-use parts::{FindParts, PartPlanes, ResponsePlanes};
-use sum::{AddStill, FindUnloaded, OneCase, OneWrench, StillPlanes};
+pub(in crate::kernel::lanes) use parts::ResponsePlanes;
+use parts::{FindParts, PartPlanes};
+use sum::{AddStill, FindUnloaded, OneCase, OneWrench};
+pub(in crate::kernel::lanes) use sum::{StillPlanes, under};
 
 /// An arm with all parts of its model, and memory for a block of points; one per thread.
 #[derive(Clone, Debug)]
@@ -144,13 +146,33 @@ impl WholeModel {
         }
     }
 
+    /// Frames at the joint positions set, by rank.
+    pub(in crate::kernel::lanes) fn frames(&self) -> &[FramePlanes<f64>] {
+        &self.frames
+    }
+
+    /// Axis of joint `index` in its own frame: 0, 1, 2 for x, y, z.
+    pub(in crate::kernel::lanes) fn axis(&self, index: usize) -> usize {
+        self.model.chain.axis(index).0
+    }
+
+    /// The response of the tool, and its displacement without load, after [`WholeModel::respond`].
+    pub(in crate::kernel::lanes) fn response(&self) -> (&ResponsePlanes<f64>, &StillPlanes<f64>) {
+        (&self.response, &self.still)
+    }
+
+    /// Whether a joint has backlash, which the response does not contain.
+    pub(in crate::kernel::lanes) fn has_backlash(&self) -> bool {
+        !self.gaps.is_empty()
+    }
+
     /// Frames of the flange at the joint positions set.
     pub(in crate::kernel::lanes) fn flange(&self) -> &FramePlanes<f64> {
         &self.frames[self.frames.len() - 2]
     }
 
     /// Computes the response of the tool; that to moments only if `MOMENTS`.
-    fn respond<const MOMENTS: bool>(&mut self) {
+    pub(in crate::kernel::lanes) fn respond<const MOMENTS: bool>(&mut self) {
         let WholeModel {
             model,
             backend,

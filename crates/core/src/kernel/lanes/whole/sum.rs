@@ -166,7 +166,7 @@ impl<T: Float, const MOMENTS: bool> Work<T> for OneCase<'_, T, MOMENTS> {
 }
 
 #[inline(always)]
-fn under<R: Real, const MOMENTS: bool>(
+pub(in crate::kernel::lanes) fn under<R: Real, const MOMENTS: bool>(
     response: &ResponsePlanes<R::Float>,
     still: &StillPlanes<R::Float>,
     force: Vector<R>,
