@@ -33,6 +33,10 @@ pub(in crate::kernel::lanes) struct GapConstants {
     pub by_torque: bool,
 }
 
+/// Most gaps that lanes know. They are computed six or eight at once; those that an arm lacks are zero.
+pub(in crate::kernel::lanes) const MOST_GAPS: usize = 8;
+const FEW_GAPS: usize = 6;
+
 /// A gap at each point.
 #[derive(Clone, Debug)]
 #[repr(align(64))]
@@ -40,6 +44,8 @@ pub(in crate::kernel::lanes) struct GapPlanes<T> {
     /// Offset of the link from its motor under the current case, and under the worst so far, rad (m).
     offset: Plane<T>,
     worst: Plane<T>,
+    /// Offset where a torque decides, otherwise 0.
+    decided: Plane<T>,
     /// Half of the gap in the plane where no torque decides its side, m, base.
     half: Planes<T, 2>,
     /// Sums of the halves on both sides of this one, and along it.
@@ -47,82 +53,94 @@ pub(in crate::kernel::lanes) struct GapPlanes<T> {
     along: Planes<T, 2>,
 }
 
-impl<T: Float> GapPlanes<T> {
-    /// A gap of which nothing is known yet.
-    pub fn unknown() -> GapPlanes<T> {
-        GapPlanes {
-            offset: [T::default(); BLOCK],
-            worst: [T::default(); BLOCK],
-            half: planes(),
-            across: planes(),
-            along: planes(),
-        }
-    }
+/// Memory for the gaps of this arm.
+pub(in crate::kernel::lanes) fn gaps_of<T: Float>(model: &ModelConstants) -> Vec<GapPlanes<T>> {
+    let count = match model.backlash.len() {
+        0 => 0,
+        1..=FEW_GAPS => FEW_GAPS,
+        _ => MOST_GAPS,
+    };
+    let unknown = GapPlanes {
+        offset: [T::default(); BLOCK],
+        worst: [T::default(); BLOCK],
+        decided: [T::default(); BLOCK],
+        half: planes(),
+        across: planes(),
+        along: planes(),
+    };
+    vec![unknown; count]
 }
 
-/// Adds the displacement by backlash under one load case to `deviation` (m, base), which is that by all other sources.
+/// One load case: index, wrench, and two directions across the normal, then the normal, base.
+#[derive(Clone, Copy)]
+pub(in crate::kernel::lanes) struct CaseOnPlane<'a> {
+    pub case: usize,
+    pub wrench: &'a Wrench,
+    pub plane: &'a [Vector3<f64>; 3],
+}
+
+/// Adds the displacement by backlash under one load case to `deviation` (m, base), which is that by all other sources;
+/// the cases in their order.
 pub(in crate::kernel::lanes) fn settle(
     backend: Backend,
     model: &ModelConstants,
     (frames, parts): (&[FramePlanes<f64>], &[PartPlanes<f64>]),
-    (case, wrench): (usize, &Wrench),
-    plane: &[Vector3<f64>; 3],
+    case: CaseOnPlane<'_>,
     gaps: &mut [GapPlanes<f64>],
     deviation: &mut Planes<f64, 3>,
 ) {
-    let (mut free, mut from) = ([0.0; BLOCK], planes());
-    backend.run(FindSides {
-        model,
-        frames,
-        parts,
-        wrench,
-        plane,
-        gaps,
-        deviation,
-        from: &mut from,
-        free: &mut free,
-    });
-    if free.iter().all(|free| *free == 0.0) {
-        return;
-    }
-    // The same under every case, unless a torque decides.
-    if case == 0 || model.backlash.iter().any(|gap| gap.by_torque) {
-        backend.run(FindCorners { gaps });
+    // The halves are the same under every case, unless a torque decides.
+    let by_torque = model.backlash.iter().any(|gap| gap.by_torque);
+    if by_torque || case.case == 0 {
+        let mut free = [0.0; BLOCK];
+        backend.run(FindSides {
+            model,
+            frames,
+            parts,
+            case,
+            gaps,
+            free: &mut free,
+        });
+        if free.iter().any(|free| *free != 0.0) {
+            backend.run(FindCorners { gaps });
+        } else {
+            backend.run(TakeDecided {
+                model,
+                parts,
+                gaps,
+                deviation,
+            });
+            return;
+        }
     }
     backend.run(TakeFarthest {
         model,
         parts,
-        from: &from,
+        case,
         gaps,
         deviation,
     });
 }
 
-/// Puts the links whose side a torque decides; fills the halves of the others, and marks the points that have any.
+/// Finds where a torque decides; fills the halves of the others, and marks the points that have any.
 struct FindSides<'a, T> {
     model: &'a ModelConstants,
     frames: &'a [FramePlanes<T>],
     parts: &'a [PartPlanes<T>],
-    wrench: &'a Wrench,
-    plane: &'a [Vector3<f64>; 3],
+    case: CaseOnPlane<'a>,
     gaps: &'a mut [GapPlanes<T>],
-    deviation: &'a mut Planes<T, 3>,
-    /// The deviation in the plane with the links that are put.
-    from: &'a mut Planes<T, 2>,
     free: &'a mut Plane<T>,
 }
 
 impl<T: Float> Work<T> for FindSides<'_, T> {
     #[inline(always)]
     fn run<R: Real<Float = T>>(self) {
-        let (force, moment) = (
-            Vector::<R>::of(&self.wrench.force),
-            Vector::<R>::of(&self.wrench.moment),
-        );
-        let (first, second) = (Vector::<R>::of(&self.plane[0]), Vector::<R>::of(&self.plane[1]));
+        let CaseOnPlane { wrench, plane, .. } = self.case;
+        let (force, moment) = (Vector::<R>::of(&wrench.force), Vector::<R>::of(&wrench.moment));
+        let (first, second) = (Vector::<R>::of(&plane[0]), Vector::<R>::of(&plane[1]));
         let (zero, one, nothing) = (R::of(0.0), R::of(1.0), R::of(NO_TORQUE));
         let mut g = 0;
-        while g < self.gaps.len() {
+        while g < self.model.backlash.len() {
             let (constants, gap) = (&self.model.backlash[g], &mut self.gaps[g]);
             let part = &self.parts[constants.part];
             let axis = self.model.angular(self.frames, self.parts, constants.part);
@@ -134,22 +152,40 @@ impl<T: Float> Work<T> for FindSides<'_, T> {
                 let torque = linear.dot(force) + vector::<R>(axis, i).dot(moment);
                 let torque = torque + R::load(part.weight[i]);
                 let decides = by_torque & (torque.abs() > nothing);
-                let offset = R::either(decides, half * torque.sign(), zero);
-                gap.offset[i] = offset.store();
+                gap.decided[i] = R::either(decides, half * torque.sign(), zero).store();
                 let open = R::either(decides, zero, half);
                 gap.half[0][i] = (linear.dot(first) * open).store();
                 gap.half[1][i] = (linear.dot(second) * open).store();
-                let so_far = vector::<R>(self.deviation, i);
-                put(self.deviation, i, linear.mul_add(offset, so_far));
                 self.free[i] = R::either(decides, R::load(self.free[i]), one).store();
             }
             g += 1;
         }
-        for i in 0..BLOCK {
-            R::step();
-            let deviation = vector::<R>(self.deviation, i);
-            self.from[0][i] = deviation.dot(first).store();
-            self.from[1][i] = deviation.dot(second).store();
+    }
+}
+
+/// Takes the sides that torques decide, at points where they decide all, and adds their displacement (m, base).
+struct TakeDecided<'a, T> {
+    model: &'a ModelConstants,
+    parts: &'a [PartPlanes<T>],
+    gaps: &'a mut [GapPlanes<T>],
+    deviation: &'a mut Planes<T, 3>,
+}
+
+impl<T: Float> Work<T> for TakeDecided<'_, T> {
+    #[inline(always)]
+    fn run<R: Real<Float = T>>(self) {
+        let mut g = 0;
+        while g < self.model.backlash.len() {
+            let gap = &mut self.gaps[g];
+            let linear = &self.parts[self.model.backlash[g].part].linear;
+            for i in 0..BLOCK {
+                R::step();
+                let offset = R::load(gap.decided[i]);
+                gap.offset[i] = offset.store();
+                let so_far = vector::<R>(self.deviation, i);
+                put(self.deviation, i, vector::<R>(linear, i).mul_add(offset, so_far));
+            }
+            g += 1;
         }
     }
 }
@@ -162,32 +198,39 @@ struct FindCorners<'a, T> {
 impl<T: Float> Work<T> for FindCorners<'_, T> {
     #[inline(always)]
     fn run<R: Real<Float = T>>(self) {
-        let mut edge = 0;
-        while edge < self.gaps.len() {
-            let (mut across, mut along): (Planes<T, 2>, Planes<T, 2>) = (planes(), planes());
+        if let Some(gaps) = self.gaps.first_chunk_mut::<MOST_GAPS>() {
+            find_corners::<R, MOST_GAPS>(gaps);
+        } else if let Some(gaps) = self.gaps.first_chunk_mut::<FEW_GAPS>() {
+            find_corners::<R, FEW_GAPS>(gaps);
+        }
+    }
+}
+
+#[inline(always)]
+fn find_corners<R: Real, const N: usize>(gaps: &mut [GapPlanes<R::Float>; N]) {
+    let zero = R::of(0.0);
+    let mut edge = 0;
+    while edge < N {
+        let (mut across, mut along): (Planes<R::Float, 2>, Planes<R::Float, 2>) = (planes(), planes());
+        let of_edge = &gaps[edge].half;
+        for i in 0..BLOCK {
+            R::step();
+            let e = [R::load(of_edge[0][i]), R::load(of_edge[1][i])];
+            let (mut a, mut b) = ([zero; 2], [zero; 2]);
             let mut g = 0;
-            while g < self.gaps.len() {
-                let (of_edge, of_gap) = (&self.gaps[edge].half, &self.gaps[g].half);
-                for i in 0..BLOCK {
-                    R::step();
-                    let e = [R::load(of_edge[0][i]), R::load(of_edge[1][i])];
-                    let h = [R::load(of_gap[0][i]), R::load(of_gap[1][i])];
-                    let (side, end) = sides(e, h);
-                    let mut axis = 0;
-                    while axis < 2 {
-                        let so_far = R::load(across[axis][i]);
-                        across[axis][i] = side.mul_add(h[axis], so_far).store();
-                        let so_far = R::load(along[axis][i]);
-                        along[axis][i] = end.mul_add(h[axis], so_far).store();
-                        axis += 1;
-                    }
-                }
+            while g < N {
+                let h = [R::load(gaps[g].half[0][i]), R::load(gaps[g].half[1][i])];
+                let (side, end) = sides(e, h);
+                a = [side.mul_add(h[0], a[0]), side.mul_add(h[1], a[1])];
+                b = [end.mul_add(h[0], b[0]), end.mul_add(h[1], b[1])];
                 g += 1;
             }
-            self.gaps[edge].across = across;
-            self.gaps[edge].along = along;
-            edge += 1;
+            (across[0][i], across[1][i]) = (a[0].store(), a[1].store());
+            (along[0][i], along[1][i]) = (b[0].store(), b[1].store());
         }
+        gaps[edge].across = across;
+        gaps[edge].along = along;
+        edge += 1;
     }
 }
 
@@ -205,11 +248,11 @@ fn sides<R: Real>(edge: [R; 2], half: [R; 2]) -> (R, R) {
     )
 }
 
-/// Puts the links whose side no torque decides, and adds their displacement (m, base).
+/// Puts every link: by its torque, or where none decides on the farthest side; adds the displacement (m, base).
 struct TakeFarthest<'a, T> {
     model: &'a ModelConstants,
     parts: &'a [PartPlanes<T>],
-    from: &'a Planes<T, 2>,
+    case: CaseOnPlane<'a>,
     gaps: &'a mut [GapPlanes<T>],
     deviation: &'a mut Planes<T, 3>,
 }
@@ -217,77 +260,97 @@ struct TakeFarthest<'a, T> {
 impl<T: Float> Work<T> for TakeFarthest<'_, T> {
     #[inline(always)]
     fn run<R: Real<Float = T>>(self) {
-        let (zero, one) = (R::of(0.0), R::of(1.0));
-        // The square of the largest in-plane deviation; its edge, side and end.
-        let mut most: Plane<T> = [T::default(); BLOCK];
-        let mut chosen: Planes<T, 2> = planes();
-        let mut signs: Planes<T, 2> = planes();
-        let least = R::of(-1.0);
-        for i in 0..BLOCK {
-            R::step();
-            most[i] = least.store();
-        }
-        let mut edge = 0;
-        while edge < self.gaps.len() {
-            let gap = &self.gaps[edge];
-            for i in 0..BLOCK {
-                R::step();
-                let e = [R::load(gap.half[0][i]), R::load(gap.half[1][i])];
-                let across = [R::load(gap.across[0][i]), R::load(gap.across[1][i])];
-                let along = [R::load(gap.along[0][i]), R::load(gap.along[1][i])];
-                let from = [R::load(self.from[0][i]), R::load(self.from[1][i])];
-                let before = R::load(most[i]);
-                let (mut best, mut side, mut end) = (before, zero, zero);
-                let mut candidate = 0;
-                while candidate < 4 {
-                    let s = R::of(if candidate < 2 { 1.0 } else { -1.0 });
-                    let t = R::of(if candidate % 2 == 0 { 1.0 } else { -1.0 });
-                    let x = from[0] + s.mul_add(across[0], t * along[0]);
-                    let y = from[1] + s.mul_add(across[1], t * along[1]);
-                    let square = x.mul_add(x, y * y);
-                    let more = square > best;
-                    best = R::either(more, square, best);
-                    side = R::either(more, s, side);
-                    end = R::either(more, t, end);
-                    candidate += 1;
-                }
-                let taken = (best > before) & !((e[0] == zero) & (e[1] == zero));
-                most[i] = R::either(taken, best, before).store();
-                signs[0][i] = R::either(taken, side, R::load(signs[0][i])).store();
-                signs[1][i] = R::either(taken, end, R::load(signs[1][i])).store();
-                chosen[0][i] = R::either(taken, e[0], R::load(chosen[0][i])).store();
-                chosen[1][i] = R::either(taken, e[1], R::load(chosen[1][i])).store();
-            }
-            edge += 1;
-        }
-        let mut g = 0;
-        while g < self.gaps.len() {
-            let (constants, gap) = (&self.model.backlash[g], &mut self.gaps[g]);
-            let part = &self.parts[constants.part];
-            let half = R::of(constants.half);
-            for i in 0..BLOCK {
-                R::step();
-                let e = [R::load(chosen[0][i]), R::load(chosen[1][i])];
-                let h = [R::load(gap.half[0][i]), R::load(gap.half[1][i])];
-                let moves = R::either((h[0] == zero) & (h[1] == zero), zero, one);
-                let (side, end) = sides(e, h);
-                let sign = side.mul_add(R::load(signs[0][i]), end * R::load(signs[1][i])) * moves;
-                let offset = half * sign;
-                gap.offset[i] = (R::load(gap.offset[i]) + offset).store();
-                let so_far = vector::<R>(self.deviation, i);
-                put(
-                    self.deviation,
-                    i,
-                    vector::<R>(&part.linear, i).mul_add(offset, so_far),
-                );
-            }
-            g += 1;
+        let (model, parts, plane) = (self.model, self.parts, self.case.plane);
+        if let Some(gaps) = self.gaps.first_chunk_mut::<MOST_GAPS>() {
+            take_farthest::<R, MOST_GAPS>(model, parts, plane, gaps, self.deviation);
+        } else if let Some(gaps) = self.gaps.first_chunk_mut::<FEW_GAPS>() {
+            take_farthest::<R, FEW_GAPS>(model, parts, plane, gaps, self.deviation);
         }
     }
 }
 
+#[inline(always)]
+fn take_farthest<R: Real, const N: usize>(
+    model: &ModelConstants,
+    parts: &[PartPlanes<R::Float>],
+    plane: &[Vector3<f64>; 3],
+    gaps: &mut [GapPlanes<R::Float>; N],
+    deviation: &mut Planes<R::Float, 3>,
+) {
+    let (zero, one, minus) = (R::of(0.0), R::of(1.0), R::of(-1.0));
+    let (first, second) = (Vector::<R>::of(&plane[0]), Vector::<R>::of(&plane[1]));
+    // Gaps that the arm lacks have the screw of any part, and no half.
+    let (mut screws, mut halves) = ([&parts[0].linear; N], [zero; N]);
+    let mut g = 0;
+    while g < model.backlash.len() {
+        screws[g] = &parts[model.backlash[g].part].linear;
+        halves[g] = R::of(model.backlash[g].half);
+        g += 1;
+    }
+    for i in 0..BLOCK {
+        R::step();
+        let mut delta = vector::<R>(deviation, i);
+        let mut g = 0;
+        while g < N {
+            delta = vector::<R>(screws[g], i).mul_add(R::load(gaps[g].decided[i]), delta);
+            g += 1;
+        }
+        let from = [delta.dot(first), delta.dot(second)];
+        // The square of the largest in-plane deviation; its edge, side and end.
+        let (mut most, mut edge, mut side, mut end) = (minus, [zero; 2], zero, zero);
+        let mut g = 0;
+        while g < N {
+            let gap = &gaps[g];
+            let e = [R::load(gap.half[0][i]), R::load(gap.half[1][i])];
+            let a = [R::load(gap.across[0][i]), R::load(gap.across[1][i])];
+            let b = [R::load(gap.along[0][i]), R::load(gap.along[1][i])];
+            let (plus, of_plus) = better_end([from[0] + a[0], from[1] + a[1]], b);
+            let (less, of_less) = better_end([from[0] - a[0], from[1] - a[1]], b);
+            let other = less > plus;
+            let square = R::either(other, less, plus);
+            let moves = (e[0].abs() + e[1].abs()) > zero;
+            let taken = moves & (square > most);
+            most = R::either(taken, square, most);
+            side = R::either(taken, R::either(other, minus, one), side);
+            end = R::either(taken, R::either(other, of_less, of_plus), end);
+            edge[0] = R::either(taken, e[0], edge[0]);
+            edge[1] = R::either(taken, e[1], edge[1]);
+            g += 1;
+        }
+        let mut g = 0;
+        while g < N {
+            let h = [R::load(gaps[g].half[0][i]), R::load(gaps[g].half[1][i])];
+            let moves = (h[0].abs() + h[1].abs()) > zero;
+            let (of_side, of_end) = sides(edge, h);
+            let sign = of_side.mul_add(side, of_end * end);
+            let offset = R::either(moves, halves[g] * sign, zero);
+            delta = vector::<R>(screws[g], i).mul_add(offset, delta);
+            gaps[g].offset[i] = (R::load(gaps[g].decided[i]) + offset).store();
+            g += 1;
+        }
+        put(deviation, i, delta);
+    }
+}
+
+/// The larger square of `at + along` and `at - along`, and which: the first if equal.
+#[inline(always)]
+fn better_end<R: Real>(at: [R; 2], along: [R; 2]) -> (R, R) {
+    let plus = [at[0] + along[0], at[1] + along[1]];
+    let less = [at[0] - along[0], at[1] - along[1]];
+    let (plus, less) = (
+        plus[0].mul_add(plus[0], plus[1] * plus[1]),
+        less[0].mul_add(less[0], less[1] * less[1]),
+    );
+    let other = less > plus;
+    (
+        R::either(other, less, plus),
+        R::either(other, R::of(-1.0), R::of(1.0)),
+    )
+}
+
 /// Keeps the offsets of the points where this case is the worst so far.
 pub(in crate::kernel::lanes) struct KeepOffsets<'a, T> {
+    pub model: &'a ModelConstants,
     pub case: usize,
     pub worst: &'a Worst<T>,
     pub gaps: &'a mut [GapPlanes<T>],
@@ -298,7 +361,7 @@ impl<T: Float> Work<T> for KeepOffsets<'_, T> {
     fn run<R: Real<Float = T>>(self) {
         let index = R::of(self.case as f64);
         let mut g = 0;
-        while g < self.gaps.len() {
+        while g < self.model.backlash.len() {
             let gap = &mut self.gaps[g];
             for i in 0..BLOCK {
                 R::step();
@@ -326,7 +389,7 @@ impl<T: Float> Work<T> for ShareBacklash<'_, T> {
     #[inline(always)]
     fn run<R: Real<Float = T>>(self) {
         let mut g = 0;
-        while g < self.gaps.len() {
+        while g < self.model.backlash.len() {
             let (constants, gap) = (&self.model.backlash[g], &self.gaps[g]);
             let (part, share) = (
                 &self.parts[constants.part],

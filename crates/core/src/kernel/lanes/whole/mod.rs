@@ -23,7 +23,7 @@ use crate::load::InputUncertainty;
 use crate::source::Arm;
 use crate::spatial::Wrench;
 use answer::{FindShares, TakeCase, TakeRoot};
-use backlash::{GapPlanes, KeepOffsets, ShareBacklash, settle};
+use backlash::{CaseOnPlane, GapPlanes, KeepOffsets, ShareBacklash, gaps_of, settle};
 use chain::{FindFrames, FindTool, FramePlanes};
 use inputs::AddInputs;
 use model::ModelConstants;
@@ -98,7 +98,7 @@ impl WholeModel {
             along: planes(),
             response: Box::new(ResponsePlanes::none()),
             by_unit: vec![[0.0; BLOCK]; model.parts.len()],
-            gaps: vec![GapPlanes::unknown(); model.backlash.len()],
+            gaps: gaps_of(&model),
             model,
             shares,
             backend,
@@ -228,15 +228,8 @@ impl WholeModel {
                 wrench,
                 deviation,
             });
-            settle(
-                *backend,
-                model,
-                (frames, parts),
-                (case, wrench),
-                plane,
-                gaps,
-                deviation,
-            );
+            let on_plane = CaseOnPlane { case, wrench, plane };
+            settle(*backend, model, (frames, parts), on_plane, gaps, deviation);
             backend.run(TakeCase {
                 case,
                 force: wrench.force,
@@ -245,7 +238,12 @@ impl WholeModel {
                 deviation,
                 worst,
             });
-            backend.run(KeepOffsets { case, worst, gaps });
+            backend.run(KeepOffsets {
+                model,
+                case,
+                worst,
+                gaps,
+            });
         }
     }
 
