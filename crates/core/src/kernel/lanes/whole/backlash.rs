@@ -2,13 +2,14 @@
 //! the largest in-plane deviation, as in `source/backlash.rs`.
 //!
 //! ```text
-//! h_g = P v_g b_g / 2                                       half of gap g in the plane; 0 where its torque decides
-//! A_e = sum sign(h_e x h_g) h_g    B_e = sum of the halves along h_e, in its direction
-//! farthest of  d + A_e + B_e,  d + A_e - B_e,  d - A_e + B_e,  d - A_e - B_e  over all e
+//! h_g = v_g b_g / 2                                         half of gap g; 0 where its torque decides
+//! A_e = sum sign(P h_e x P h_g) h_g    B_e = sum of the halves along P h_e, in its direction
+//! farthest of  d + (A_e + B_e),  d + (A_e - B_e),  d - (A_e - B_e),  d - (A_e + B_e)  over all e:
+//! |P (d +- s)|^2 = |P d|^2 + |P s|^2 +- 2 P d . P s
 //! ```
 //!
-//! The candidates, their order and the choice of equal ones are those of the plain row; only their sums are rounded
-//! otherwise.
+//! `P` projects on the plane. The candidates, their order and the choice of equal ones are those of the plain row; only
+//! their sums are rounded otherwise.
 
 use nalgebra::Vector3;
 
@@ -46,11 +47,11 @@ pub(in crate::kernel::lanes) struct GapPlanes<T> {
     worst: Plane<T>,
     /// Offset where a torque decides, otherwise 0.
     decided: Plane<T>,
-    /// Half of the gap in the plane where no torque decides its side, m, base.
-    half: Planes<T, 2>,
-    /// Sums of the halves on both sides of this one, and along it.
-    across: Planes<T, 2>,
-    along: Planes<T, 2>,
+    /// Half of the gap where no torque decides its side, m: along two directions of the plane, and along the normal.
+    half: Planes<T, 3>,
+    /// The sum and the difference of the halves across this one and along it, and the squares of their in-plane parts.
+    corners: [Planes<T, 3>; 2],
+    squares: Planes<T, 2>,
 }
 
 /// Memory for the gaps of this arm.
@@ -65,8 +66,8 @@ pub(in crate::kernel::lanes) fn gaps_of<T: Float>(model: &ModelConstants) -> Vec
         worst: [T::default(); BLOCK],
         decided: [T::default(); BLOCK],
         half: planes(),
-        across: planes(),
-        along: planes(),
+        corners: [planes(), planes()],
+        squares: planes(),
     };
     vec![unknown; count]
 }
@@ -80,8 +81,8 @@ pub(in crate::kernel::lanes) struct CaseOnPlane<'a> {
 }
 
 /// Adds the displacement by backlash under one load case to `deviation` (m, base), which is that by all other sources;
-/// the cases in their order.
-pub(in crate::kernel::lanes) fn settle(
+/// the cases in their order. The offsets of the links are found only if `OFFSETS`.
+pub(in crate::kernel::lanes) fn settle<const OFFSETS: bool>(
     backend: Backend,
     model: &ModelConstants,
     (frames, parts): (&[FramePlanes<f64>], &[PartPlanes<f64>]),
@@ -89,6 +90,7 @@ pub(in crate::kernel::lanes) fn settle(
     gaps: &mut [GapPlanes<f64>],
     deviation: &mut Planes<f64, 3>,
 ) {
+    let plane = case.plane;
     // The halves are the same under every case, unless a torque decides.
     let by_torque = model.backlash.iter().any(|gap| gap.by_torque);
     if by_torque || case.case == 0 {
@@ -99,36 +101,36 @@ pub(in crate::kernel::lanes) fn settle(
             parts,
             case,
             gaps,
+            deviation,
             free: &mut free,
         });
-        if free.iter().any(|free| *free != 0.0) {
-            backend.run(FindCorners { gaps });
-        } else {
-            backend.run(TakeDecided {
+        if by_torque && free.iter().all(|free| *free <= 1.0) {
+            backend.run(TakeAlone {
                 model,
-                parts,
+                plane,
                 gaps,
                 deviation,
             });
             return;
         }
+        backend.run(FindCorners { gaps });
     }
-    backend.run(TakeFarthest {
+    backend.run(TakeFarthest::<f64, OFFSETS> {
         model,
-        parts,
-        case,
+        plane,
         gaps,
         deviation,
     });
 }
 
-/// Finds where a torque decides; fills the halves of the others, and marks the points that have any.
+/// Finds where a torque decides and adds the displacement (m, base); fills the halves of the others and counts them.
 struct FindSides<'a, T> {
     model: &'a ModelConstants,
     frames: &'a [FramePlanes<T>],
     parts: &'a [PartPlanes<T>],
     case: CaseOnPlane<'a>,
     gaps: &'a mut [GapPlanes<T>],
+    deviation: &'a mut Planes<T, 3>,
     free: &'a mut Plane<T>,
 }
 
@@ -137,7 +139,7 @@ impl<T: Float> Work<T> for FindSides<'_, T> {
     fn run<R: Real<Float = T>>(self) {
         let CaseOnPlane { wrench, plane, .. } = self.case;
         let (force, moment) = (Vector::<R>::of(&wrench.force), Vector::<R>::of(&wrench.moment));
-        let (first, second) = (Vector::<R>::of(&plane[0]), Vector::<R>::of(&plane[1]));
+        let plane = Plane3::<R>::new(plane);
         let (zero, one, nothing) = (R::of(0.0), R::of(1.0), R::of(NO_TORQUE));
         let mut g = 0;
         while g < self.model.backlash.len() {
@@ -152,45 +154,83 @@ impl<T: Float> Work<T> for FindSides<'_, T> {
                 let torque = linear.dot(force) + vector::<R>(axis, i).dot(moment);
                 let torque = torque + R::load(part.weight[i]);
                 let decides = by_torque & (torque.abs() > nothing);
-                gap.decided[i] = R::either(decides, half * torque.sign(), zero).store();
-                let open = R::either(decides, zero, half);
-                gap.half[0][i] = (linear.dot(first) * open).store();
-                gap.half[1][i] = (linear.dot(second) * open).store();
-                self.free[i] = R::either(decides, R::load(self.free[i]), one).store();
+                let offset = R::either(decides, half * torque.sign(), zero);
+                gap.decided[i] = offset.store();
+                let so_far = vector::<R>(self.deviation, i);
+                put(self.deviation, i, linear.mul_add(offset, so_far));
+                let along = plane.along(linear);
+                // A half across the plane is on no side.
+                let moves = (along.x.abs() + along.y.abs()) > zero;
+                let open = R::either(moves & !decides, half, zero);
+                put(&mut gap.half, i, along.scaled(open));
+                self.free[i] = (R::load(self.free[i]) + R::either(decides, zero, one)).store();
             }
             g += 1;
         }
     }
 }
 
-/// Takes the sides that torques decide, at points where they decide all, and adds their displacement (m, base).
-struct TakeDecided<'a, T> {
+/// Two directions across the normal, then the normal, in every lane.
+#[derive(Clone, Copy)]
+struct Plane3<R>([Vector<R>; 3]);
+
+impl<R: Real> Plane3<R> {
+    #[inline(always)]
+    fn new(plane: &[Vector3<f64>; 3]) -> Self {
+        Plane3([
+            Vector::of(&plane[0]),
+            Vector::of(&plane[1]),
+            Vector::of(&plane[2]),
+        ])
+    }
+
+    /// Components along the three.
+    #[inline(always)]
+    fn along(&self, v: Vector<R>) -> Vector<R> {
+        Vector::new(v.dot(self.0[0]), v.dot(self.0[1]), v.dot(self.0[2]))
+    }
+
+    /// `to` and the vector with these components.
+    #[inline(always)]
+    fn add(&self, by: Vector<R>, to: Vector<R>) -> Vector<R> {
+        let [first, second, normal] = self.0;
+        first.mul_add(by.x, second.mul_add(by.y, normal.mul_add(by.z, to)))
+    }
+}
+
+/// Puts the links of points of which at most one is not decided by its torque; adds its displacement (m, base).
+struct TakeAlone<'a, T> {
     model: &'a ModelConstants,
-    parts: &'a [PartPlanes<T>],
+    plane: &'a [Vector3<f64>; 3],
     gaps: &'a mut [GapPlanes<T>],
     deviation: &'a mut Planes<T, 3>,
 }
 
-impl<T: Float> Work<T> for TakeDecided<'_, T> {
+impl<T: Float> Work<T> for TakeAlone<'_, T> {
     #[inline(always)]
     fn run<R: Real<Float = T>>(self) {
+        let plane = Plane3::<R>::new(self.plane);
+        let zero = R::of(0.0);
         let mut g = 0;
         while g < self.model.backlash.len() {
             let gap = &mut self.gaps[g];
-            let linear = &self.parts[self.model.backlash[g].part].linear;
+            let half = R::of(self.model.backlash[g].half);
             for i in 0..BLOCK {
                 R::step();
-                let offset = R::load(gap.decided[i]);
-                gap.offset[i] = offset.store();
-                let so_far = vector::<R>(self.deviation, i);
-                put(self.deviation, i, vector::<R>(linear, i).mul_add(offset, so_far));
+                let (delta, h) = (vector::<R>(self.deviation, i), vector::<R>(&gap.half, i));
+                let in_plane = plane.along(delta);
+                let sign = (in_plane.x * h.x + in_plane.y * h.y).sign();
+                put(self.deviation, i, plane.add(h.scaled(sign), delta));
+                let moves = (h.x.abs() + h.y.abs()) > zero;
+                let offset = R::either(moves, half * sign, zero);
+                gap.offset[i] = (R::load(gap.decided[i]) + offset).store();
             }
             g += 1;
         }
     }
 }
 
-/// Fills the sums of halves on both sides of each half, and along it.
+/// Fills the corners at the ends of the edge along each half.
 struct FindCorners<'a, T> {
     gaps: &'a mut [GapPlanes<T>],
 }
@@ -209,38 +249,48 @@ impl<T: Float> Work<T> for FindCorners<'_, T> {
 #[inline(always)]
 fn find_corners<R: Real, const N: usize>(gaps: &mut [GapPlanes<R::Float>; N]) {
     let zero = R::of(0.0);
+    let none = Vector::new(zero, zero, zero);
     let mut edge = 0;
     while edge < N {
-        let (mut across, mut along): (Planes<R::Float, 2>, Planes<R::Float, 2>) = (planes(), planes());
+        let mut corners: [Planes<R::Float, 3>; 2] = [planes(), planes()];
+        let mut squares: Planes<R::Float, 2> = planes();
         let of_edge = &gaps[edge].half;
         for i in 0..BLOCK {
             R::step();
-            let e = [R::load(of_edge[0][i]), R::load(of_edge[1][i])];
-            let (mut a, mut b) = ([zero; 2], [zero; 2]);
+            let e = vector::<R>(of_edge, i);
+            let (mut across, mut along) = (none, none);
             let mut g = 0;
             while g < N {
-                let h = [R::load(gaps[g].half[0][i]), R::load(gaps[g].half[1][i])];
+                let h = vector::<R>(&gaps[g].half, i);
                 let (side, end) = sides(e, h);
-                a = [side.mul_add(h[0], a[0]), side.mul_add(h[1], a[1])];
-                b = [end.mul_add(h[0], b[0]), end.mul_add(h[1], b[1])];
+                across = h.mul_add(side, across);
+                along = h.mul_add(end, along);
                 g += 1;
             }
-            (across[0][i], across[1][i]) = (a[0].store(), a[1].store());
-            (along[0][i], along[1][i]) = (b[0].store(), b[1].store());
+            let (sum, difference) = (across + along, across - along);
+            put(&mut corners[0], i, sum);
+            put(&mut corners[1], i, difference);
+            // No corner where there is no edge.
+            let moves = (e.x.abs() + e.y.abs()) > zero;
+            let none = R::of(-1.0);
+            squares[0][i] = R::either(moves, sum.x.mul_add(sum.x, sum.y * sum.y), none).store();
+            let square = difference.x.mul_add(difference.x, difference.y * difference.y);
+            squares[1][i] = R::either(moves, square, none).store();
         }
-        gaps[edge].across = across;
-        gaps[edge].along = along;
+        gaps[edge].corners = corners;
+        gaps[edge].squares = squares;
         edge += 1;
     }
 }
 
-/// Sign of a half by its side of an edge, and by its direction where it is along it; 0 for the other of the two.
+/// Sign of a half by its side of an edge, and by its direction where it is along it, both in the plane; 0 for the other
+/// of the two.
 #[inline(always)]
-fn sides<R: Real>(edge: [R; 2], half: [R; 2]) -> (R, R) {
+fn sides<R: Real>(edge: Vector<R>, half: Vector<R>) -> (R, R) {
     let zero = R::of(0.0);
     // Rounded one after the other: exactly zero for the edge itself.
-    let across = edge[0] * half[1] - edge[1] * half[0];
-    let along = edge[0] * half[0] + edge[1] * half[1];
+    let across = edge.x * half.y - edge.y * half.x;
+    let along = edge.x * half.x + edge.y * half.y;
     let parallel = across == zero;
     (
         R::either(parallel, zero, across.sign()),
@@ -248,104 +298,96 @@ fn sides<R: Real>(edge: [R; 2], half: [R; 2]) -> (R, R) {
     )
 }
 
-/// Puts every link: by its torque, or where none decides on the farthest side; adds the displacement (m, base).
-struct TakeFarthest<'a, T> {
+/// Puts the links that no torque decides on the farthest side and adds the displacement (m, base).
+struct TakeFarthest<'a, T, const OFFSETS: bool> {
     model: &'a ModelConstants,
-    parts: &'a [PartPlanes<T>],
-    case: CaseOnPlane<'a>,
+    plane: &'a [Vector3<f64>; 3],
     gaps: &'a mut [GapPlanes<T>],
     deviation: &'a mut Planes<T, 3>,
 }
 
-impl<T: Float> Work<T> for TakeFarthest<'_, T> {
+impl<T: Float, const OFFSETS: bool> Work<T> for TakeFarthest<'_, T, OFFSETS> {
     #[inline(always)]
     fn run<R: Real<Float = T>>(self) {
-        let (model, parts, plane) = (self.model, self.parts, self.case.plane);
+        let plane = Plane3::<R>::new(self.plane);
         if let Some(gaps) = self.gaps.first_chunk_mut::<MOST_GAPS>() {
-            take_farthest::<R, MOST_GAPS>(model, parts, plane, gaps, self.deviation);
+            take_farthest::<R, MOST_GAPS, OFFSETS>(self.model, plane, gaps, self.deviation);
         } else if let Some(gaps) = self.gaps.first_chunk_mut::<FEW_GAPS>() {
-            take_farthest::<R, FEW_GAPS>(model, parts, plane, gaps, self.deviation);
+            take_farthest::<R, FEW_GAPS, OFFSETS>(self.model, plane, gaps, self.deviation);
         }
     }
 }
 
 #[inline(always)]
-fn take_farthest<R: Real, const N: usize>(
+fn take_farthest<R: Real, const N: usize, const OFFSETS: bool>(
     model: &ModelConstants,
-    parts: &[PartPlanes<R::Float>],
-    plane: &[Vector3<f64>; 3],
+    plane: Plane3<R>,
     gaps: &mut [GapPlanes<R::Float>; N],
     deviation: &mut Planes<R::Float, 3>,
 ) {
-    let (zero, one, minus) = (R::of(0.0), R::of(1.0), R::of(-1.0));
-    let (first, second) = (Vector::<R>::of(&plane[0]), Vector::<R>::of(&plane[1]));
-    // Gaps that the arm lacks have the screw of any part, and no half.
-    let (mut screws, mut halves) = ([&parts[0].linear; N], [zero; N]);
+    let (zero, two) = (R::of(0.0), R::of(2.0));
+    let mut halves = [zero; N];
     let mut g = 0;
     while g < model.backlash.len() {
-        screws[g] = &parts[model.backlash[g].part].linear;
         halves[g] = R::of(model.backlash[g].half);
         g += 1;
     }
     for i in 0..BLOCK {
         R::step();
-        let mut delta = vector::<R>(deviation, i);
-        let mut g = 0;
-        while g < N {
-            delta = vector::<R>(screws[g], i).mul_add(R::load(gaps[g].decided[i]), delta);
-            g += 1;
-        }
-        let from = [delta.dot(first), delta.dot(second)];
-        // The square of the largest in-plane deviation; its edge, side and end.
-        let (mut most, mut edge, mut side, mut end) = (minus, [zero; 2], zero, zero);
+        let delta = vector::<R>(deviation, i);
+        let from = plane.along(delta);
+        let (twice_x, twice_y) = (from.x * two, from.y * two);
+        // By how much the square of the in-plane deviation grows at most, and there: the displacement; its edge, side
+        // and end.
+        let mut most = R::of(-1.0);
+        let mut by = Vector::new(zero, zero, zero);
+        let (mut edge, mut side, mut end) = (by, zero, zero);
         let mut g = 0;
         while g < N {
             let gap = &gaps[g];
-            let e = [R::load(gap.half[0][i]), R::load(gap.half[1][i])];
-            let a = [R::load(gap.across[0][i]), R::load(gap.across[1][i])];
-            let b = [R::load(gap.along[0][i]), R::load(gap.along[1][i])];
-            let (plus, of_plus) = better_end([from[0] + a[0], from[1] + a[1]], b);
-            let (less, of_less) = better_end([from[0] - a[0], from[1] - a[1]], b);
-            let other = less > plus;
-            let square = R::either(other, less, plus);
-            let moves = (e[0].abs() + e[1].abs()) > zero;
-            let taken = moves & (square > most);
-            most = R::either(taken, square, most);
-            side = R::either(taken, R::either(other, minus, one), side);
-            end = R::either(taken, R::either(other, of_less, of_plus), end);
-            edge[0] = R::either(taken, e[0], edge[0]);
-            edge[1] = R::either(taken, e[1], edge[1]);
+            let (sum, difference) = (vector::<R>(&gap.corners[0], i), vector::<R>(&gap.corners[1], i));
+            let of_sum = twice_x.mul_add(sum.x, twice_y * sum.y);
+            let of_difference = twice_x.mul_add(difference.x, twice_y * difference.y);
+            let far = R::load(gap.squares[0][i]) + of_sum.abs();
+            let other_far = R::load(gap.squares[1][i]) + of_difference.abs();
+            // Of equal ones: the sum, the difference, the difference reversed, the sum reversed.
+            let other = (other_far > far) | ((other_far == far) & (of_sum < zero));
+            let (far, along) = (
+                R::either(other, other_far, far),
+                R::either(other, of_difference, of_sum),
+            );
+            let edge_there = R::load(gap.squares[0][i]) >= zero;
+            let taken = edge_there & (far > most);
+            let sign = along.sign();
+            most = R::either(taken, far, most);
+            by = Vector::new(
+                R::either(taken, R::either(other, difference.x, sum.x) * sign, by.x),
+                R::either(taken, R::either(other, difference.y, sum.y) * sign, by.y),
+                R::either(taken, R::either(other, difference.z, sum.z) * sign, by.z),
+            );
+            if OFFSETS {
+                let e = vector::<R>(&gap.half, i);
+                edge.x = R::either(taken, e.x, edge.x);
+                edge.y = R::either(taken, e.y, edge.y);
+                side = R::either(taken, sign, side);
+                end = R::either(taken, R::either(other, -sign, sign), end);
+            }
             g += 1;
         }
-        let mut g = 0;
-        while g < N {
-            let h = [R::load(gaps[g].half[0][i]), R::load(gaps[g].half[1][i])];
-            let moves = (h[0].abs() + h[1].abs()) > zero;
-            let (of_side, of_end) = sides(edge, h);
-            let sign = of_side.mul_add(side, of_end * end);
-            let offset = R::either(moves, halves[g] * sign, zero);
-            delta = vector::<R>(screws[g], i).mul_add(offset, delta);
-            gaps[g].offset[i] = (R::load(gaps[g].decided[i]) + offset).store();
-            g += 1;
+        put(deviation, i, plane.add(by, delta));
+        if OFFSETS {
+            let mut g = 0;
+            while g < N {
+                let h = vector::<R>(&gaps[g].half, i);
+                let moves = (h.x.abs() + h.y.abs()) > zero;
+                let (of_side, of_end) = sides(edge, h);
+                let sign = of_side.mul_add(side, of_end * end);
+                let offset = R::either(moves, halves[g] * sign, zero);
+                gaps[g].offset[i] = (R::load(gaps[g].decided[i]) + offset).store();
+                g += 1;
+            }
         }
-        put(deviation, i, delta);
     }
-}
-
-/// The larger square of `at + along` and `at - along`, and which: the first if equal.
-#[inline(always)]
-fn better_end<R: Real>(at: [R; 2], along: [R; 2]) -> (R, R) {
-    let plus = [at[0] + along[0], at[1] + along[1]];
-    let less = [at[0] - along[0], at[1] - along[1]];
-    let (plus, less) = (
-        plus[0].mul_add(plus[0], plus[1] * plus[1]),
-        less[0].mul_add(less[0], less[1] * less[1]),
-    );
-    let other = less > plus;
-    (
-        R::either(other, less, plus),
-        R::either(other, R::of(-1.0), R::of(1.0)),
-    )
 }
 
 /// Keeps the offsets of the points where this case is the worst so far.

@@ -143,8 +143,8 @@ impl WholeModel {
         }
     }
 
-    /// Computes the response of the tool; that to moments only if `MOMENTS`.
-    fn respond<const MOMENTS: bool>(&mut self) {
+    /// Computes the response of the tool; that to moments only if `MOMENTS`, its parts if `PARTS`.
+    fn respond<const MOMENTS: bool, const PARTS: bool>(&mut self) {
         let WholeModel {
             model,
             backend,
@@ -154,7 +154,7 @@ impl WholeModel {
             still,
             ..
         } = self;
-        backend.run(FindParts::<f64, MOMENTS> {
+        backend.run(FindParts::<f64, MOMENTS, PARTS> {
             model,
             frames,
             parts,
@@ -183,19 +183,24 @@ impl WholeModel {
         out: &mut WholeAnswers,
     ) {
         if have_moments(cases) {
-            self.envelope_of::<true>(cases, plane, out);
+            self.envelope_of::<true, false>(cases, plane, out);
         } else {
-            self.envelope_of::<false>(cases, plane, out);
+            self.envelope_of::<false, false>(cases, plane, out);
         }
     }
 
-    fn envelope_of<const MOMENTS: bool>(
+    /// The envelope; with the parts and the offsets of links that shares need if `DETAILS`.
+    fn envelope_of<const MOMENTS: bool, const DETAILS: bool>(
         &mut self,
         cases: &[Wrench],
         plane: &[Vector3<f64>; 3],
         out: &mut WholeAnswers,
     ) {
-        self.respond::<MOMENTS>();
+        if DETAILS || !self.gaps.is_empty() {
+            self.respond::<MOMENTS, true>();
+        } else {
+            self.respond::<MOMENTS, false>();
+        }
         let WholeModel {
             model,
             backend,
@@ -229,7 +234,7 @@ impl WholeModel {
                 deviation,
             });
             let on_plane = CaseOnPlane { case, wrench, plane };
-            settle(*backend, model, (frames, parts), on_plane, gaps, deviation);
+            settle::<DETAILS>(*backend, model, (frames, parts), on_plane, gaps, deviation);
             backend.run(TakeCase {
                 case,
                 force: wrench.force,
@@ -238,12 +243,14 @@ impl WholeModel {
                 deviation,
                 worst,
             });
-            backend.run(KeepOffsets {
-                model,
-                case,
-                worst,
-                gaps,
-            });
+            if DETAILS {
+                backend.run(KeepOffsets {
+                    model,
+                    case,
+                    worst,
+                    gaps,
+                });
+            }
         }
     }
 
@@ -269,7 +276,7 @@ impl WholeModel {
         inputs: &InputUncertainty,
         out: &mut WholeAnswers,
     ) {
-        self.envelope_of::<MOMENTS>(cases, plane, out);
+        self.envelope_of::<MOMENTS, true>(cases, plane, out);
         if !self.shares {
             return;
         }

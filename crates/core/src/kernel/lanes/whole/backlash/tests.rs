@@ -58,7 +58,7 @@ fn the_chosen_sides_are_those_of_the_plain_row() {
             from[i] = whole(9.0) / 4.0;
             (deviation[0][i], deviation[1][i]) = (from[i].x, from[i].y);
         }
-        settle(
+        settle::<true>(
             backend,
             &model,
             (&frames, &parts),
