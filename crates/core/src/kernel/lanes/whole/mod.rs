@@ -1,4 +1,4 @@
-//! The whole model in lanes: any chain at known joint positions, springs, masses, geometry, thermal growth.
+//! The whole model in lanes: any chain at known joint positions, springs, masses, geometry, thermal growth, backlash.
 //!
 //! The same sum as `predict.rs`, a block of points at a time. Loops over parts are outside, loops over points inside:
 //! only the latter become vectors.
