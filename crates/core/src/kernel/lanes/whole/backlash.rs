@@ -80,16 +80,29 @@ pub(in crate::kernel::lanes) struct CaseOnPlane<'a> {
     pub plane: &'a [Vector3<f64>; 3],
 }
 
+/// An arm with backlash at each point.
+#[derive(Debug)]
+pub(in crate::kernel::lanes) struct Worn<'a> {
+    pub model: &'a ModelConstants,
+    pub frames: &'a [FramePlanes<f64>],
+    pub parts: &'a [PartPlanes<f64>],
+    pub gaps: &'a mut [GapPlanes<f64>],
+}
+
 /// Adds the displacement by backlash under one load case to `deviation` (m, base), which is that by all other sources;
 /// the cases in their order. The offsets of the links are found only if `OFFSETS`.
 pub(in crate::kernel::lanes) fn settle<const OFFSETS: bool>(
     backend: Backend,
-    model: &ModelConstants,
-    (frames, parts): (&[FramePlanes<f64>], &[PartPlanes<f64>]),
+    arm: Worn<'_>,
     case: CaseOnPlane<'_>,
-    gaps: &mut [GapPlanes<f64>],
     deviation: &mut Planes<f64, 3>,
 ) {
+    let Worn {
+        model,
+        frames,
+        parts,
+        gaps,
+    } = arm;
     let plane = case.plane;
     // The halves are the same under every case, unless a torque decides.
     let by_torque = model.backlash.iter().any(|gap| gap.by_torque);

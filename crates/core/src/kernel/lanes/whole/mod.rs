@@ -23,7 +23,7 @@ use crate::load::InputUncertainty;
 use crate::source::Arm;
 use crate::spatial::Wrench;
 use answer::{FindShares, TakeCase, TakeRoot};
-use backlash::{CaseOnPlane, GapPlanes, KeepOffsets, ShareBacklash, gaps_of, settle};
+use backlash::{CaseOnPlane, GapPlanes, KeepOffsets, ShareBacklash, Worn, gaps_of, settle};
 use chain::{FindFrames, FindTool, FramePlanes};
 use inputs::AddInputs;
 use model::ModelConstants;
@@ -234,7 +234,13 @@ impl WholeModel {
                 deviation,
             });
             let on_plane = CaseOnPlane { case, wrench, plane };
-            settle::<DETAILS>(*backend, model, (frames, parts), on_plane, gaps, deviation);
+            let arm = Worn {
+                model,
+                frames,
+                parts,
+                gaps,
+            };
+            settle::<DETAILS>(*backend, arm, on_plane, deviation);
             backend.run(TakeCase {
                 case,
                 force: wrench.force,

@@ -210,7 +210,7 @@ fn groups(parts: &[PartConstants]) -> Vec<Group> {
     for (k, part) in parts.iter().enumerate() {
         match groups.last_mut() {
             Some(last) if last.rank == part.rank && last.about && part.about && last.count < 3 => {
-                last.count += 1
+                last.count += 1;
             }
             _ => groups.push(Group {
                 rank: part.rank,

@@ -58,14 +58,13 @@ fn the_chosen_sides_are_those_of_the_plain_row() {
             from[i] = whole(9.0) / 4.0;
             (deviation[0][i], deviation[1][i]) = (from[i].x, from[i].y);
         }
-        settle::<true>(
-            backend,
-            &model,
-            (&frames, &parts),
-            case,
-            &mut gaps,
-            &mut deviation,
-        );
+        let arm = Worn {
+            model: &model,
+            frames: &frames,
+            parts: &parts,
+            gaps: &mut gaps,
+        };
+        settle::<true>(backend, arm, case, &mut deviation);
         for i in 0..BLOCK {
             let mut signs = vec![0.0; count];
             farthest(from[i], &halves[i], &mut signs);
