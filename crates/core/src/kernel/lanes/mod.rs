@@ -4,8 +4,8 @@
 //! for each instruction set. In reading order: `numbers` (a number of one lane, planes, [`Backend`]: the instruction
 //! set); `geometry` (the arm, a prepared question, poses in the arm's axes); `solve` (postures, joint limits and
 //! positions, screws); `load` (compliance and deviations); `by_block` ([`Batch`]: entry point for many poses; whole
-//! answers for [`super::evaluate`]); `placement` (a path at placements of its part); `whole` (springs, masses, geometry and
-//! thermal growth of any chain at known joint positions).
+//! answers for [`super::evaluate`]); `placement` (a path at placements of its part); `whole` (springs, masses, geometry,
+//! thermal growth and backlash of any chain at known joint positions).
 //!
 //! Theory and accuracy: `docs/theory/lanes.md`.
 //!

@@ -149,9 +149,9 @@ impl LoadedBranches {
         }
         model.set_joints(&found.joints);
         if self.moments {
-            model.respond::<true>();
+            model.respond::<true, false>();
         } else {
-            model.respond::<false>();
+            model.respond::<false, false>();
         }
         backend.run(find_missed(branches.targets(), model.flange(), missed));
         let (frames, axis) = (model.frames(), |joint| model.axis(joint));

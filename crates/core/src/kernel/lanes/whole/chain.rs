@@ -140,8 +140,7 @@ impl<T: Float> Work<T> for FindFrames<'_, T> {
             let (before, after) = self.frames.split_at_mut(rank);
             let tool = self.flange_from_tool;
             follow::<R>(
-                self.chain,
-                tool,
+                (self.chain, tool),
                 self.joints,
                 rank,
                 &before[rank - 1],
@@ -174,7 +173,7 @@ impl<T: Float> Work<T> for FindTool<'_, T> {
         let mut rank = 1;
         while rank <= last {
             let tool = self.flange_from_tool;
-            follow::<R>(self.chain, tool, self.joints, rank, before, after);
+            follow::<R>((self.chain, tool), self.joints, rank, before, after);
             std::mem::swap(&mut before, &mut after);
             rank += 1;
         }
@@ -196,8 +195,7 @@ fn place_base<R: Real>(base: &mut FramePlanes<R::Float>) {
 /// The frame of this rank after that before it.
 #[inline(always)]
 fn follow<R: Real>(
-    chain: &ChainConstants,
-    flange_from_tool: &Displacement,
+    (chain, flange_from_tool): (&ChainConstants, &Displacement),
     joints: &[Plane<R::Float>],
     rank: usize,
     before: &FramePlanes<R::Float>,

@@ -1,4 +1,4 @@
-//! The whole model in lanes: any chain at known joint positions, springs, masses, geometry, thermal growth.
+//! The whole model in lanes: any chain at known joint positions, springs, masses, geometry, thermal growth, backlash.
 //!
 //! The same sum as `predict.rs`, a block of points at a time. Loops over parts are outside, loops over points inside:
 //! only the latter become vectors.
@@ -23,7 +23,7 @@ use crate::load::InputUncertainty;
 use crate::source::Arm;
 use crate::spatial::Wrench;
 use answer::{FindShares, TakeCase, TakeRoot};
-use backlash::{GapPlanes, KeepOffsets, ShareBacklash, settle};
+use backlash::{CaseOnPlane, GapPlanes, KeepOffsets, ShareBacklash, Worn, gaps_of, settle};
 use chain::FindTool;
 pub(in crate::kernel::lanes) use chain::{ChainConstants, Displacement, FindFrames, FramePlanes};
 use inputs::AddInputs;
@@ -101,7 +101,7 @@ impl WholeModel {
             along: planes(),
             response: Box::new(ResponsePlanes::none()),
             by_unit: vec![[0.0; BLOCK]; model.parts.len()],
-            gaps: vec![GapPlanes::unknown(); model.backlash.len()],
+            gaps: gaps_of(&model),
             model,
             shares,
             backend,
@@ -171,8 +171,8 @@ impl WholeModel {
         &self.frames[self.frames.len() - 2]
     }
 
-    /// Computes the response of the tool; that to moments only if `MOMENTS`.
-    pub(in crate::kernel::lanes) fn respond<const MOMENTS: bool>(&mut self) {
+    /// Computes the response of the tool; that to moments only if `MOMENTS`, its parts if `PARTS`.
+    pub(in crate::kernel::lanes) fn respond<const MOMENTS: bool, const PARTS: bool>(&mut self) {
         let WholeModel {
             model,
             backend,
@@ -182,7 +182,7 @@ impl WholeModel {
             still,
             ..
         } = self;
-        backend.run(FindParts::<f64, MOMENTS> {
+        backend.run(FindParts::<f64, MOMENTS, PARTS> {
             model,
             frames,
             parts,
@@ -211,19 +211,24 @@ impl WholeModel {
         out: &mut WholeAnswers,
     ) {
         if have_moments(cases) {
-            self.envelope_of::<true>(cases, plane, out);
+            self.envelope_of::<true, false>(cases, plane, out);
         } else {
-            self.envelope_of::<false>(cases, plane, out);
+            self.envelope_of::<false, false>(cases, plane, out);
         }
     }
 
-    fn envelope_of<const MOMENTS: bool>(
+    /// The envelope; with the parts and the offsets of links that shares need if `DETAILS`.
+    fn envelope_of<const MOMENTS: bool, const DETAILS: bool>(
         &mut self,
         cases: &[Wrench],
         plane: &[Vector3<f64>; 3],
         out: &mut WholeAnswers,
     ) {
-        self.respond::<MOMENTS>();
+        if DETAILS || !self.gaps.is_empty() {
+            self.respond::<MOMENTS, true>();
+        } else {
+            self.respond::<MOMENTS, false>();
+        }
         let WholeModel {
             model,
             backend,
@@ -256,15 +261,14 @@ impl WholeModel {
                 wrench,
                 deviation,
             });
-            settle(
-                *backend,
+            let on_plane = CaseOnPlane { case, wrench, plane };
+            let arm = Worn {
                 model,
-                (frames, parts),
-                (case, wrench),
-                plane,
+                frames,
+                parts,
                 gaps,
-                deviation,
-            );
+            };
+            settle::<DETAILS>(*backend, arm, on_plane, deviation);
             backend.run(TakeCase {
                 case,
                 force: wrench.force,
@@ -273,7 +277,14 @@ impl WholeModel {
                 deviation,
                 worst,
             });
-            backend.run(KeepOffsets { case, worst, gaps });
+            if DETAILS {
+                backend.run(KeepOffsets {
+                    model,
+                    case,
+                    worst,
+                    gaps,
+                });
+            }
         }
     }
 
@@ -299,7 +310,7 @@ impl WholeModel {
         inputs: &InputUncertainty,
         out: &mut WholeAnswers,
     ) {
-        self.envelope_of::<MOMENTS>(cases, plane, out);
+        self.envelope_of::<MOMENTS, true>(cases, plane, out);
         if !self.shares {
             return;
         }

@@ -4,7 +4,7 @@ use std::cmp::Reverse;
 
 use nalgebra::{DMatrix, Vector3};
 
-use super::backlash::GapConstants;
+use super::backlash::{GapConstants, MOST_GAPS};
 use super::chain::{ChainConstants, Displacement, FramePlanes};
 use super::parts::PartPlanes;
 use crate::kernel::lanes::numbers::Planes;
@@ -105,7 +105,8 @@ impl ModelConstants {
     }
 
     /// The constants of `arm`, with or without geometry, thermal growth and backlash (`unloaded`); none if it has a part
-    /// that lanes do not know: torque curves, a compensator, a load-dependent equilibrium.
+    /// that lanes do not know: torque curves, a compensator, a load-dependent equilibrium, more than
+    /// [`MOST_GAPS`] joints with backlash.
     pub fn of(arm: &Arm<'_>, unloaded: bool) -> Option<ModelConstants> {
         let (robot, model) = (arm.robot, arm.model);
         let structure = &model.structure;
@@ -154,6 +155,10 @@ impl ModelConstants {
                 by_torque: gap.side == BacklashSide::Torque,
             })
         });
+        let backlash = gaps.collect::<Option<Vec<GapConstants>>>()?;
+        if backlash.len() > MOST_GAPS {
+            return None;
+        }
         let covariance = structure.covariance.as_ref();
         let actual = model.actual.as_deref().filter(|_| unloaded);
         Some(ModelConstants {
@@ -173,7 +178,7 @@ impl ModelConstants {
             }),
             acceleration: gravity.map(|gravity| gravity.acceleration),
             covariance: covariance.map_or(Some(Vec::new()), |form| rows(form, index))?,
-            backlash: gaps.collect::<Option<_>>()?,
+            backlash,
             actual: actual.map(ChainConstants::of),
             growth: thermal.map(|thermal| [thermal.growth, thermal.standard_uncertainty]),
             model_error: structure.model_error,
@@ -205,7 +210,7 @@ fn groups(parts: &[PartConstants]) -> Vec<Group> {
     for (k, part) in parts.iter().enumerate() {
         match groups.last_mut() {
             Some(last) if last.rank == part.rank && last.about && part.about && last.count < 3 => {
-                last.count += 1
+                last.count += 1;
             }
             _ => groups.push(Group {
                 rank: part.rank,

@@ -69,16 +69,16 @@ impl<T: Float> ResponsePlanes<T> {
     }
 }
 
-/// Fills the parts and the response from the frames, which are in the order of ranks; without that to moments unless
-/// `MOMENTS`.
-pub(in crate::kernel::lanes) struct FindParts<'a, T, const MOMENTS: bool> {
+/// Fills the response from the frames, which are in the order of ranks, without that to moments unless `MOMENTS`; and the
+/// parts if `PARTS`.
+pub(in crate::kernel::lanes) struct FindParts<'a, T, const MOMENTS: bool, const PARTS: bool> {
     pub model: &'a ModelConstants,
     pub frames: &'a [FramePlanes<T>],
     pub parts: &'a mut [PartPlanes<T>],
     pub response: &'a mut ResponsePlanes<T>,
 }
 
-impl<T: Float, const MOMENTS: bool> Work<T> for FindParts<'_, T, MOMENTS> {
+impl<T: Float, const MOMENTS: bool, const PARTS: bool> Work<T> for FindParts<'_, T, MOMENTS, PARTS> {
     #[inline(always)]
     fn run<R: Real<Float = T>>(self) {
         let FindParts {
@@ -122,9 +122,9 @@ impl<T: Float, const MOMENTS: bool> Work<T> for FindParts<'_, T, MOMENTS> {
                 };
                 match (group.about, group.count) {
                     (false, _) => general::<R, MOMENTS>(&place, own, response),
-                    (true, 1) => about::<R, 1, MOMENTS>(&place, own, response),
-                    (true, 2) => about::<R, 2, MOMENTS>(&place, own, response),
-                    (true, _) => about::<R, 3, MOMENTS>(&place, own, response),
+                    (true, 1) => about::<R, 1, MOMENTS, PARTS>(&place, own, response),
+                    (true, 2) => about::<R, 2, MOMENTS, PARTS>(&place, own, response),
+                    (true, _) => about::<R, 3, MOMENTS, PARTS>(&place, own, response),
                 }
                 next += 1;
             }
@@ -177,7 +177,7 @@ struct Place<'a, T> {
 
 /// `N` parts about axes of their frame.
 #[inline(always)]
-fn about<R: Real, const N: usize, const MOMENTS: bool>(
+fn about<R: Real, const N: usize, const MOMENTS: bool, const PARTS: bool>(
     place: &Place<'_, R::Float>,
     parts: &mut [PartPlanes<R::Float>],
     response: &mut ResponsePlanes<R::Float>,
@@ -206,8 +206,10 @@ fn about<R: Real, const N: usize, const MOMENTS: bool>(
             let angular = vector::<R>(axes[n], i);
             let linear = angular.cross(lever);
             let weight = linear.dot(force) + angular.dot(carried);
-            put(&mut parts[n].linear, i, linear);
-            parts[n].weight[i] = weight.store();
+            if PARTS {
+                put(&mut parts[n].linear, i, linear);
+                parts[n].weight[i] = weight.store();
+            }
             sum.add::<MOMENTS>(linear, angular, c[n], weight);
             n += 1;
         }

@@ -138,7 +138,7 @@ fn the_whole_model_in_lanes_is_that_of_the_plain_row() {
             let mut lanes = WholeModel::of(&arm, backend).unwrap();
             lanes.set_joints(&joints);
             let mut found = planes();
-            lanes.respond::<true>();
+            lanes.respond::<true, false>();
             backend.run(OneWrench::<f64, true> {
                 response: &lanes.response,
                 still: &lanes.still,

@@ -1,6 +1,6 @@
 use super::*;
 use crate::arms;
-use crate::robot::{Backlash, BacklashSide};
+use crate::robot::{Attachment, JointCompliance, Spring};
 use crate::source::backlash::farthest;
 use crate::source::{Arm, StiffnessModel};
 use nalgebra::Vector2;
@@ -9,56 +9,66 @@ use nalgebra::Vector2;
 #[test]
 fn the_chosen_sides_are_those_of_the_plain_row() {
     let (robot, tool) = (&arms::ALL[0], arms::bent_tool());
-    let mut worn = StiffnessModel::DRIVES.clone();
-    let gap = Backlash {
-        gap: 2.0,
+    let mut springy = StiffnessModel::DRIVES.clone();
+    let c = JointCompliance {
+        value: 1e-7,
         standard_uncertainty: 0.0,
-        side: BacklashSide::Motion,
     };
-    worn.structure.backlash = vec![Some(gap); 6];
+    springy.structure.springs = vec![Spring::about(Attachment::Base, Vector3::y(), c); 2];
     let arm = Arm {
         robot,
         compliance: robot.compliance().unwrap(),
-        model: &worn,
+        model: &springy,
         flange_from_tool: &tool,
     };
-    let model = ModelConstants::of(&arm, true).unwrap();
+    let mut model = ModelConstants::of(&arm, true).unwrap();
+    let frames = vec![FramePlanes::unknown(); 9];
+    let plane = [Vector3::x(), Vector3::y(), Vector3::z()];
+    let case = CaseOnPlane {
+        case: 0,
+        wrench: &Wrench::ZERO,
+        plane: &plane,
+    };
     let mut stream = arms::Stream(3);
-    for backend in Backend::available() {
-        let mut parts = vec![PartPlanes::unknown(); 6];
-        let frames = vec![FramePlanes::unknown(); 9];
-        let mut gaps = vec![GapPlanes::unknown(); 6];
-        let mut deviation: Planes<f64, 3> = planes();
-        let whole = |stream: &mut arms::Stream, most: f64| {
-            let v = stream.vector(most);
-            Vector2::new(v.x.round(), v.y.round())
+    let mut whole = |most: f64| {
+        let v = stream.vector(most);
+        Vector2::new(v.x.round(), v.y.round())
+    };
+    for (backend, count) in Backend::available()
+        .into_iter()
+        .flat_map(|backend| [1, 3, 6, 8].map(|count| (backend, count)))
+    {
+        let gap = |part| GapConstants {
+            part,
+            half: 1.0,
+            relative: 0.0,
+            by_torque: false,
         };
-        let mut halves = vec![[Vector2::zeros(); 6]; BLOCK];
+        model.backlash = (0..count).map(gap).collect();
+        let mut parts = vec![PartPlanes::unknown(); 8];
+        let mut gaps = gaps_of(&model);
+        let mut deviation: Planes<f64, 3> = planes();
+        let mut halves = vec![vec![Vector2::zeros(); count]; BLOCK];
         let mut from = vec![Vector2::zeros(); BLOCK];
         for i in 0..BLOCK {
-            for (gap, half) in model.backlash.iter().zip(&mut halves[i]) {
-                *half = whole(&mut stream, 2.4);
-                let part = &mut parts[gap.part];
+            for (part, half) in parts.iter_mut().zip(&mut halves[i]) {
+                *half = whole(2.4);
                 (part.linear[0][i], part.linear[1][i]) = (half.x, half.y);
             }
-            from[i] = whole(&mut stream, 9.0) / 4.0;
+            from[i] = whole(9.0) / 4.0;
             (deviation[0][i], deviation[1][i]) = (from[i].x, from[i].y);
         }
-        let plane = [Vector3::x(), Vector3::y(), Vector3::z()];
-        let case = (0, &Wrench::ZERO);
-        settle(
-            backend,
-            &model,
-            (&frames, &parts),
-            case,
-            &plane,
-            &mut gaps,
-            &mut deviation,
-        );
+        let arm = Worn {
+            model: &model,
+            frames: &frames,
+            parts: &parts,
+            gaps: &mut gaps,
+        };
+        settle::<true>(backend, arm, case, &mut deviation);
         for i in 0..BLOCK {
-            let mut signs = [0.0; 6];
+            let mut signs = vec![0.0; count];
             farthest(from[i], &halves[i], &mut signs);
-            let found: Vec<f64> = gaps.iter().map(|gap| gap.offset[i]).collect();
+            let found: Vec<f64> = gaps.iter().take(count).map(|gap| gap.offset[i]).collect();
             assert_eq!(found, signs, "{backend} {:?} {:?}", from[i], halves[i]);
             let sum: Vector2<f64> = halves[i]
                 .iter()
