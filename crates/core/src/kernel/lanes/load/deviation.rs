@@ -5,8 +5,8 @@
 use nalgebra::Vector3;
 
 use crate::kernel::lanes::geometry::{BaseAxes, Prepared};
-use crate::kernel::lanes::numbers::{BLOCK, Float, Plane, Planes, Real, Vector, Work, lanes_of, put, vector};
 use crate::kernel::lanes::solve::Stances;
+use crate::numbers::{BLOCK, Float, Plane, Planes, Real, Vector, Work, lanes_of, put, vector};
 
 /// The largest deviations of the cases so far, and the case that decides.
 #[derive(Clone, Debug)]

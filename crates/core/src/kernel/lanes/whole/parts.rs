@@ -2,7 +2,7 @@
 
 use super::chain::FramePlanes;
 use super::model::ModelConstants;
-use crate::kernel::lanes::numbers::{BLOCK, Float, Plane, Planes, Real, Vector, Work, planes, put, vector};
+use crate::numbers::{BLOCK, Float, Plane, Planes, Real, Vector, Work, planes, put, vector};
 
 /// A drive or spring at each point: its screw at the TCP (base), and the torque of gravity on it, N m (N).
 #[derive(Clone, Debug)]

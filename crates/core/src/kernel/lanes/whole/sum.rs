@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use super::chain::FramePlanes;
 use super::model::ModelConstants;
 use super::parts::PartPlanes;
-use crate::kernel::lanes::numbers::{BLOCK, Float, Planes, Real, Vector, Work, put, vector};
+use crate::numbers::{BLOCK, Float, Planes, Real, Vector, Work, put, vector};
 
 /// Displacements of the tool without load, m, base.
 #[derive(Clone, Debug)]
