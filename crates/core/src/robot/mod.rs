@@ -14,6 +14,7 @@ pub mod chain;
 pub mod compensator;
 pub mod convention;
 pub mod deflected_arm;
+mod eight;
 pub mod forward;
 pub mod inverse;
 pub mod jacobian;

@@ -10,6 +10,7 @@
 
 pub mod closed_form;
 mod descent;
+mod eight_branches;
 mod finder;
 pub mod fixed_joint;
 pub mod kind;
@@ -35,7 +36,7 @@ pub use verify::verify;
 
 use nalgebra::UnitQuaternion;
 
-use super::forward::{Frames, forward, forward_into};
+use super::forward::{Frames, forward};
 use super::jacobian::screws_at;
 use super::model::Robot;
 use super::posture::Posture;
@@ -87,18 +88,20 @@ pub fn postures(
         home: tool.home,
     };
     let mut finder = Finder::new(robot);
-    let mut frames = Frames::for_robot(robot);
-    let mut posture = |found: &InverseSolution| {
-        forward_into(robot, &found.joints, &mut frames);
-        Posture {
+    let count = finder.all(&requested)?.len();
+    let tcp = base_from_tool.translation.vector.into();
+    let mut postures = Vec::with_capacity(count);
+    for index in 0..count {
+        let (found, frames) = finder.with_frames(index);
+        postures.push(Posture {
             name: found.name,
             joints: found.joints.clone(),
-            screws: screws_at(robot, &frames, &base_from_tool.translation.vector.into()),
-            base_from_tool: tool_on(&frames, tool.flange_from_tool),
+            screws: screws_at(robot, frames, &tcp),
+            base_from_tool: tool_on(frames, tool.flange_from_tool),
             singularity: found.singularity,
-        }
-    };
-    Ok(finder.all(&requested)?.iter().map(&mut posture).collect())
+        });
+    }
+    Ok(postures)
 }
 
 /// The posture of a robot at these joint positions, whatever its chain.

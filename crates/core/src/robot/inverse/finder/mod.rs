@@ -5,6 +5,8 @@
 //! postures of the pose before, in `search`. All work in chain positions; the conversion to joint positions and the
 //! verification by forward kinematics are in one place.
 
+mod eight;
+mod positions;
 mod search;
 mod unnamed;
 
@@ -19,8 +21,10 @@ use super::super::unreachable::Unreachable;
 use super::closed_form::ClosedForm;
 use super::descent::{Descent, Goal};
 use super::kind::Inverse;
-use super::verify::verify;
+use super::verify::{Requested, verify};
 use crate::frame::Isometry;
+use eight::{ChainPositions, EightPostures};
+use positions::WholeTurns;
 
 /// Maximum number of postures of one pose: a general arm of six revolute joints has up to 16.
 const MOST: usize = 16;
@@ -59,7 +63,12 @@ pub struct Finder<'r> {
     arm: Arm<'r>,
     frames: Frames,
     descent: Descent,
+    eight: EightPostures,
     found: Vec<InverseSolution>,
+    /// The lanes of `eight` that the postures found come from, if they do.
+    lanes: Vec<usize>,
+    /// Memory for joint positions.
+    spare: Vec<Vec<f64>>,
     /// Of each posture found: chain positions of the arm, kept for the pose that follows.
     before: Vec<Vec<f64>>,
     home: Vec<f64>,
@@ -105,7 +114,10 @@ impl<'r> Finder<'r> {
             arm,
             frames: Frames::for_robot(robot),
             descent: Descent::new(arm.chain),
+            eight: EightPostures::for_robot(robot),
             found: Vec::with_capacity(8),
+            lanes: Vec::with_capacity(8),
+            spare: Vec::new(),
             before: Vec::new(),
             home: vec![0.0; robot.joints().len()],
             fixed: None,
@@ -145,7 +157,8 @@ impl<'r> Finder<'r> {
         pattern: BranchPattern,
         most: usize,
     ) -> Result<&[InverseSolution], Unreachable> {
-        self.found.clear();
+        self.lanes.clear();
+        self.spare.extend(self.found.drain(..).map(|found| found.joints));
         self.settle_home(expected);
         let arm_from_flange = self.base_from_arm().inv_mul(&expected.base_from_flange);
         let missed = match self.arm.inverse {
@@ -193,6 +206,22 @@ impl<'r> Finder<'r> {
             .collect()
     }
 
+    /// [`Finder::chain_positions`] of an arm with six joints.
+    fn six_chain_positions(&self, q: &[f64]) -> [f64; 6] {
+        std::array::from_fn(|i| self.robot.theta(self.arm.first + i, q))
+    }
+
+    /// The frames of the posture found at `index`, and the solution itself.
+    pub(super) fn with_frames(&mut self, index: usize) -> (&InverseSolution, &Frames) {
+        let found = &self.found[index];
+        match self.lanes.get(index) {
+            Some(lane) => self.eight.frames(*lane, &mut self.frames),
+            None => forward_into(self.robot, &found.joints, &mut self.frames),
+        }
+        (found, &self.frames)
+    }
+
+    /// The branches of a closed form: all at once, one lane each.
     fn branches(
         &mut self,
         form: &ClosedForm,
@@ -200,15 +229,37 @@ impl<'r> Finder<'r> {
         arm_from_flange: &Isometry,
         pattern: BranchPattern,
     ) -> Option<Unreachable> {
-        let near = expected.near.map(|q| self.chain_positions(q));
+        let near = expected.near.map(|q| self.six_chain_positions(q));
+        let branches = form.eight_branches(arm_from_flange, pattern, near.as_ref());
+        if branches.outcomes.iter().any(Result::is_ok) {
+            let from = ChainPositions {
+                first: self.arm.first,
+                theta: &branches.theta,
+                home: &self.home,
+                near: expected.near,
+            };
+            self.eight
+                .find(self.robot, &from, &Requested::new(&expected.base_from_flange));
+        }
         let mut missed: Option<Unreachable> = None;
-        for branch in Branch::ALL.into_iter().filter(|branch| pattern.matches(*branch)) {
-            let solved = form.chain_positions(arm_from_flange, branch, near.as_deref());
-            let kept = solved.and_then(|(theta, singularity)| {
-                self.keep(expected, &theta, PostureName::Branch(branch), singularity)
-            });
-            if let Err(miss) = kept {
-                missed = Some(nearer(missed, miss));
+        for (lane, branch) in Branch::ALL.into_iter().enumerate() {
+            if !pattern.matches(branch) {
+                continue;
+            }
+            let reached = branches.outcomes[lane];
+            match reached.and_then(|singularity| self.eight.verify(lane).map(|()| singularity)) {
+                Ok(singularity) => {
+                    let mut joints = self.spare.pop().unwrap_or_default();
+                    joints.clear();
+                    joints.extend(self.eight.joints(lane));
+                    self.lanes.push(lane);
+                    self.found.push(InverseSolution {
+                        name: PostureName::Branch(branch),
+                        joints,
+                        singularity,
+                    });
+                }
+                Err(miss) => missed = Some(nearer(missed, miss)),
             }
         }
         missed
@@ -223,7 +274,9 @@ impl<'r> Finder<'r> {
         arm_from_flange: &Isometry,
         pattern: BranchPattern,
     ) -> Option<Unreachable> {
-        let near = expected.near.map(|q| self.chain_positions(q));
+        let near = expected.near.map(|q| self.six_chain_positions(q));
+        let any = BranchPattern::default();
+        let branches = form.eight_branches(arm_from_flange, any, near.as_ref());
         let goal = Goal::new(arm_from_flange);
         let mut missed: Option<Unreachable> = None;
         // Requested branches first: usually they make the others unnecessary.
@@ -235,8 +288,7 @@ impl<'r> Finder<'r> {
             if !pattern.matches(*branch) && !renamed {
                 break;
             }
-            let solved = form.chain_positions(arm_from_flange, *branch, near.as_deref());
-            let kept = solved.and_then(|(mut theta, _)| {
+            let kept = branches.get(*branch).and_then(|(mut theta, _)| {
                 self.descent.reach(self.arm.chain, &goal, &mut theta)?;
                 let (own, singularity) = form.name(&theta);
                 renamed |= own != *branch;
@@ -334,25 +386,10 @@ impl<'r> Finder<'r> {
             joints[joint] = if self.robot.slides(joint) {
                 position
             } else {
-                self.whole_turns(joint, position, near)
+                WholeTurns::of(self.robot, joint, near).applied(position)
             };
         }
         joints
-    }
-
-    /// The position of a revolute joint, by whole turns as near as possible to the previous one within its limits,
-    /// otherwise to the middle of its range. An ortho-parallel arm always takes the middle, as its lanes do.
-    fn whole_turns(&self, joint: usize, position: f64, near: Option<&[f64]>) -> f64 {
-        let limits = self.robot.joints()[joint].limits;
-        if let Some(near) = near
-            && self.robot.ortho_parallel().is_none()
-        {
-            let close = nearest_turn(position, near[joint]);
-            if limits.is_none_or(|limits| limits.margin(close) >= 0.0) {
-                return close;
-            }
-        }
-        nearest_turn(position, limits.map_or(0.0, |limits| limits.middle()))
     }
 }
 
@@ -379,13 +416,6 @@ fn sides(robot: &Robot, q: &[f64]) -> PostureName {
 /// The smaller miss.
 fn nearer(known: Option<Unreachable>, miss: Unreachable) -> Unreachable {
     known.filter(|known| !miss.is_nearer_than(known)).unwrap_or(miss)
-}
-
-/// `angle` plus whole turns, in (middle - pi, middle + pi].
-fn nearest_turn(angle: f64, middle: f64) -> f64 {
-    let away = (angle - middle) / TAU;
-    // Slightly below -half a turn is half a turn: -180 deg and 180 deg are one posture.
-    angle - TAU * (away - 0.5 - 1e-12).ceil()
 }
 
 #[cfg(test)]

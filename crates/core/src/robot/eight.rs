@@ -1,0 +1,167 @@
+//! Eight postures of one robot at once, one lane each: numbers, vectors, and forward kinematics.
+
+use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, Vector3};
+
+use super::chain::{Axis, Chain, Fixed, Motion};
+use super::forward::Frames;
+use crate::numbers::{Real, Vector, sin_cos};
+
+/// A number of each posture; a vector of the widest instruction set.
+#[derive(Clone, Copy, Debug, Default)]
+#[repr(align(64))]
+pub(super) struct Eight(pub [f64; 8]);
+
+impl Eight {
+    /// That of posture `lane`.
+    #[inline(always)]
+    pub fn at<R: Real<Float = f64>>(&self, lane: usize) -> R {
+        R::load(self.0[lane])
+    }
+
+    /// Sets that of posture `lane`.
+    #[inline(always)]
+    pub fn set<R: Real<Float = f64>>(&mut self, lane: usize, value: R) {
+        self.0[lane] = value.store();
+    }
+}
+
+/// The vector of posture `lane`.
+#[inline(always)]
+pub(super) fn vector<R: Real<Float = f64>>(from: &[Eight; 3], lane: usize) -> Vector<R> {
+    let [x, y, z] = from;
+    Vector::new(x.at(lane), y.at(lane), z.at(lane))
+}
+
+/// Sets the vector of posture `lane`.
+#[inline(always)]
+pub(super) fn put<R: Real<Float = f64>>(to: &mut [Eight; 3], lane: usize, v: Vector<R>) {
+    let [x, y, z] = to;
+    x.set(lane, v.x);
+    y.set(lane, v.y);
+    z.set(lane, v.z);
+}
+
+/// One frame of each posture, in base: its axes, then its origin (m).
+pub(super) type Frame = [[Eight; 3]; 4];
+
+/// Frames of every joint and the flange.
+#[derive(Clone, Debug)]
+pub(super) struct FramesOfEight {
+    joints: Vec<Frame>,
+    flange: Frame,
+}
+
+impl FramesOfEight {
+    /// Working memory for a chain with this many joints.
+    pub fn for_joints(count: usize) -> FramesOfEight {
+        FramesOfEight {
+            joints: vec![Frame::default(); count],
+            flange: Frame::default(),
+        }
+    }
+
+    /// The flange.
+    pub fn flange(&self) -> &Frame {
+        &self.flange
+    }
+
+    /// The frames of posture `lane`.
+    pub fn get(&self, lane: usize, frames: &mut Frames) {
+        for (to, from) in frames.base_from_joint.iter_mut().zip(&self.joints) {
+            *to = isometry(from, lane);
+        }
+        frames.base_from_flange = isometry(&self.flange, lane);
+    }
+
+    /// Forward kinematics from chain positions (rad, m), one entry per joint.
+    #[inline(always)]
+    pub fn find<R: Real<Float = f64>>(&mut self, chain: &Chain, theta: &[Eight]) {
+        let mut before = &base();
+        for ((link, theta), frame) in chain.links().iter().zip(theta).zip(&mut self.joints) {
+            fixed::<R>(&link.before, before, frame);
+            match link.motion {
+                Motion::Along(axis, _) => slide::<R>(axis, theta, frame),
+                Motion::About(Axis::X, _) => turn::<R, 1, 2>(theta, frame),
+                Motion::About(Axis::Y, _) => turn::<R, 2, 0>(theta, frame),
+                Motion::About(Axis::Z, _) => turn::<R, 0, 1>(theta, frame),
+            }
+            before = frame;
+        }
+        fixed::<R>(chain.last_joint_from_flange(), before, &mut self.flange);
+    }
+}
+
+fn isometry(frame: &Frame, lane: usize) -> IsometryMatrix3<f64> {
+    let [x, y, z, origin] = frame.map(|v| Vector3::from(v.map(|component| component.0[lane])));
+    let axes = Matrix3::from_columns(&[x, y, z]);
+    IsometryMatrix3::from_parts(origin.into(), Rotation3::from_matrix_unchecked(axes))
+}
+
+/// The base.
+fn base() -> Frame {
+    let (zero, one) = (Eight::default(), Eight([1.0; 8]));
+    [[one, zero, zero], [zero, one, zero], [zero, zero, one], [zero; 3]]
+}
+
+/// The frame after a constant displacement.
+#[inline(always)]
+fn fixed<R: Real<Float = f64>>(displacement: &Fixed, from: &Frame, to: &mut Frame) {
+    let (translation, rotation) = displacement.parts();
+    let along = Vector::<R>::of(&translation);
+    for i in 0..8 {
+        R::step();
+        let [x, y, z, origin] = load::<R>(from, i);
+        put(&mut to[3], i, combined([x, y, z], along) + origin);
+    }
+    let Some(rotation) = rotation else {
+        to[..3].copy_from_slice(&from[..3]);
+        return;
+    };
+    let columns: [Vector<R>; 3] = [
+        Vector::of(&rotation.column(0).into_owned()),
+        Vector::of(&rotation.column(1).into_owned()),
+        Vector::of(&rotation.column(2).into_owned()),
+    ];
+    for i in 0..8 {
+        R::step();
+        let [x, y, z, _] = load::<R>(from, i);
+        put(&mut to[0], i, combined([x, y, z], columns[0]));
+        put(&mut to[1], i, combined([x, y, z], columns[1]));
+        put(&mut to[2], i, combined([x, y, z], columns[2]));
+    }
+}
+
+/// A vector with these components along the axes.
+#[inline(always)]
+fn combined<R: Real>([x, y, z]: [Vector<R>; 3], along: Vector<R>) -> Vector<R> {
+    z.mul_add(along.z, y.mul_add(along.y, x.scaled(along.x)))
+}
+
+#[inline(always)]
+fn load<R: Real<Float = f64>>(frame: &Frame, i: usize) -> [Vector<R>; 4] {
+    let [x, y, z, origin] = frame;
+    [vector(x, i), vector(y, i), vector(z, i), vector(origin, i)]
+}
+
+/// Moves the frame along its own axis.
+#[inline(always)]
+fn slide<R: Real<Float = f64>>(axis: Axis, by: &Eight, frame: &mut Frame) {
+    let direction = frame[axis.index()];
+    for i in 0..8 {
+        R::step();
+        let moved = vector::<R>(&direction, i).mul_add(by.at(i), vector(&frame[3], i));
+        put(&mut frame[3], i, moved);
+    }
+}
+
+/// Turns the axes `A` and `B` into each other.
+#[inline(always)]
+fn turn<R: Real<Float = f64>, const A: usize, const B: usize>(angle: &Eight, frame: &mut Frame) {
+    for i in 0..8 {
+        R::step();
+        let (sin, cos) = sin_cos(angle.at::<R>(i));
+        let (first, second) = (vector(&frame[A], i), vector(&frame[B], i));
+        put(&mut frame[A], i, second.mul_add(sin, first.scaled(cos)));
+        put(&mut frame[B], i, first.mul_add(-sin, second.scaled(cos)));
+    }
+}

@@ -1,0 +1,105 @@
+//! Chain positions to joint positions: signs, zeros, coupling and whole turns; of one posture, and of eight at once.
+
+use std::f64::consts::TAU;
+
+use super::super::super::eight::Eight;
+use super::super::super::model::Robot;
+use crate::numbers::Real;
+
+/// Where whole turns bring a revolute joint: as near as possible to the previous position within its limits, otherwise
+/// to the middle of its range. An ortho-parallel arm always takes the middle, as the lanes of the kernel do.
+#[derive(Clone, Copy)]
+pub(super) struct WholeTurns {
+    near: f64,
+    middle: f64,
+    lower: f64,
+    upper: f64,
+}
+
+impl WholeTurns {
+    /// Those of joint `joint`; `near` are the joint positions before.
+    pub fn of(robot: &Robot, joint: usize, near: Option<&[f64]>) -> WholeTurns {
+        let limits = robot.joints()[joint].limits;
+        let middle = limits.map_or(0.0, |limits| limits.middle());
+        let near = near.filter(|_| robot.ortho_parallel().is_none());
+        WholeTurns {
+            near: near.map_or(middle, |near| near[joint]),
+            middle,
+            lower: limits.map_or(f64::NEG_INFINITY, |limits| limits.lower),
+            upper: limits.map_or(f64::INFINITY, |limits| limits.upper),
+        }
+    }
+
+    /// `position` (rad) after these whole turns.
+    #[inline(always)]
+    pub fn applied<R: Real>(&self, position: R) -> R {
+        let close = nearest_turn(position, self.near);
+        let inside = (close >= R::of(self.lower)) & (close <= R::of(self.upper));
+        R::either(inside, close, nearest_turn(position, self.middle))
+    }
+}
+
+/// `angle` plus whole turns, in (middle - pi, middle + pi].
+#[inline(always)]
+fn nearest_turn<R: Real>(angle: R, middle: f64) -> R {
+    // Slightly below -half a turn is half a turn: -180 deg and 180 deg are one posture.
+    let turns = angle
+        .mul_add(R::of(1.0 / TAU), R::of(-middle / TAU - 1e-12))
+        .round();
+    (-turns).mul_add(R::of(TAU), angle)
+}
+
+/// Joint positions of eight postures from chain positions of the joints from `first` on; those before are given.
+#[inline(always)]
+pub(super) fn find_joints<R: Real<Float = f64>>(
+    robot: &Robot,
+    first: usize,
+    theta: &[Eight],
+    near: Option<&[f64]>,
+    joints: &mut [Eight],
+) {
+    for (index, theta) in (first..).zip(theta) {
+        let joint = &robot.joints()[index];
+        let (before, own) = joints.split_at_mut(index);
+        let Some(own) = own.first_mut() else { return };
+        let (sign, zero) = (R::of(joint.sign.factor()), R::of(joint.zero_offset));
+        for i in 0..8 {
+            R::step();
+            own.set(i, sign * (theta.at::<R>(i) - zero));
+        }
+        for coupling in &joint.coupling {
+            add::<R>(-coupling.factor, &before[coupling.joint], own);
+        }
+        let turns = WholeTurns::of(robot, index, near);
+        for i in 0..8 {
+            R::step();
+            own.set(i, turns.applied(own.at::<R>(i)));
+        }
+    }
+}
+
+/// Chain positions of eight postures from joint positions: of each joint that of [`Robot::theta`].
+#[inline(always)]
+pub(super) fn find_theta<R: Real<Float = f64>>(robot: &Robot, joints: &[Eight], theta: &mut [Eight]) {
+    for ((joint, q), theta) in robot.joints().iter().zip(joints).zip(theta) {
+        *theta = *q;
+        for coupling in &joint.coupling {
+            add::<R>(coupling.factor, &joints[coupling.joint], theta);
+        }
+        let (sign, zero) = (R::of(joint.sign.factor()), R::of(joint.zero_offset));
+        for i in 0..8 {
+            R::step();
+            theta.set(i, sign.mul_add(theta.at(i), zero));
+        }
+    }
+}
+
+/// Adds `factor` times `other`.
+#[inline(always)]
+fn add<R: Real<Float = f64>>(factor: f64, other: &Eight, to: &mut Eight) {
+    let factor = R::of(factor);
+    for i in 0..8 {
+        R::step();
+        to.set(i, factor.mul_add(other.at::<R>(i), to.at(i)));
+    }
+}
