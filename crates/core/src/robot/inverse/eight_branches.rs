@@ -240,14 +240,14 @@ impl Work<f64> for FindWrists<'_> {
         let FindWrists { arm, aim, solved } = self;
         let axes = WristAxes::<R>::of(arm);
         let (aim_out, aim_second) = (Vector::of(&aim.out), Vector::of(&aim.second));
-        let (v, at_zero) = (R::of(aim.v), Turn::of(arm.forearm_turn_at_zero));
+        let (v, at_zero, links) = (R::of(aim.v), Turn::of(arm.forearm_turn_at_zero), arm.links);
         for i in 0..8 {
             R::step();
             let phi1 = Turn {
                 cos: solved.cos_1.at(i),
                 sin: solved.sin_1.at(i),
             };
-            let (psi, chi) = arm.links.turns::<R>(solved.u.at(i), v, solved.across.at(i));
+            let (psi, chi) = links.turns::<R>(solved.u.at(i), v, solved.across.at(i));
             let forearm = chi.less(at_zero);
             let (out, second) = (seen(phi1, forearm, aim_out), seen(phi1, forearm, aim_second));
             let (along, up, side) = (out.dot(axes.a4), out.dot(axes.a3), out.dot(axes.a5));
@@ -291,13 +291,15 @@ impl Work<f64> for FindAngles<'_> {
         let [s1, s2, s3, s4, s5, s6] = lanes_of::<R>(&arm.sense);
         let (psi_at_zero, bend_at_zero) = (R::of(arm.upper_arm_at_zero), R::of(arm.bend_at_zero));
         let eps_at_zero = R::of(arm.forearm_at_zero - arm.upper_arm_at_zero);
+        // A separate value: so short a loop is vectorised only where its results cannot overlap what it reads.
+        let mut found = [Eight::default(); 6];
         for i in 0..8 {
             R::step();
             let psi = atan2::<R>(solved.sin_psi.at(i), solved.cos_psi.at(i));
             let chi = atan2::<R>(solved.sin_chi.at(i), solved.cos_chi.at(i));
-            theta[0].set(i, s1 * atan2(solved.sin_1.at(i), solved.cos_1.at(i)));
-            theta[1].set(i, s2 * (psi - psi_at_zero));
-            theta[2].set(i, s3 * (chi - psi - eps_at_zero));
+            found[0].set(i, s1 * atan2(solved.sin_1.at(i), solved.cos_1.at(i)));
+            found[1].set(i, s2 * (psi - psi_at_zero));
+            found[2].set(i, s3 * (chi - psi - eps_at_zero));
         }
         for i in 0..8 {
             R::step();
@@ -307,9 +309,10 @@ impl Work<f64> for FindAngles<'_> {
             };
             let bend = atan2::<R>(FLIP.at::<R>(i) * solved.bent.at(i), solved.along.at(i));
             let (x, y) = solved.rest(axes, phi4, i);
-            theta[3].set(i, s4 * atan2(phi4.sin, phi4.cos));
-            theta[4].set(i, s5 * (bend - bend_at_zero));
-            theta[5].set(i, s6 * atan2(y, x));
+            found[3].set(i, s4 * atan2(phi4.sin, phi4.cos));
+            found[4].set(i, s5 * (bend - bend_at_zero));
+            found[5].set(i, s6 * atan2(y, x));
         }
+        *theta = found;
     }
 }
