@@ -91,10 +91,10 @@ impl FramesOfEight {
     }
 }
 
-fn isometry(frame: &Frame, lane: usize) -> IsometryMatrix3<f64> {
-    let [x, y, z, origin] = frame.map(|v| Vector3::from(v.map(|component| component.0[lane])));
-    let axes = Matrix3::from_columns(&[x, y, z]);
-    IsometryMatrix3::from_parts(origin.into(), Rotation3::from_matrix_unchecked(axes))
+fn isometry([x, y, z, origin]: &Frame, lane: usize) -> IsometryMatrix3<f64> {
+    let of = |[x, y, z]: &[Eight; 3]| Vector3::new(x.0[lane], y.0[lane], z.0[lane]);
+    let axes = Matrix3::from_columns(&[of(x), of(y), of(z)]);
+    IsometryMatrix3::from_parts(of(origin).into(), Rotation3::from_matrix_unchecked(axes))
 }
 
 /// The base.

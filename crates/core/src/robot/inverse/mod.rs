@@ -95,7 +95,7 @@ pub fn postures(
         let (found, frames) = finder.with_frames(index);
         postures.push(Posture {
             name: found.name,
-            joints: found.joints.clone(),
+            joints: std::mem::take(&mut found.joints),
             screws: screws_at(robot, frames, &tcp),
             base_from_tool: tool_on(frames, tool.flange_from_tool),
             singularity: found.singularity,

@@ -62,11 +62,12 @@ pub struct Finder<'r> {
     robot: &'r Robot,
     arm: Arm<'r>,
     frames: Frames,
-    descent: Descent,
+    /// Set by the first search.
+    descent: Option<Descent>,
     eight: EightPostures,
     found: Vec<InverseSolution>,
-    /// The lanes of `eight` that the postures found come from, if they do.
-    lanes: Vec<usize>,
+    /// Whether the postures found are lanes of `eight`.
+    at_once: bool,
     /// Memory for joint positions.
     spare: Vec<Vec<f64>>,
     /// Of each posture found: chain positions of the arm, kept for the pose that follows.
@@ -113,10 +114,10 @@ impl<'r> Finder<'r> {
             robot,
             arm,
             frames: Frames::for_robot(robot),
-            descent: Descent::new(arm.chain),
+            descent: None,
             eight: EightPostures::for_robot(robot),
             found: Vec::with_capacity(8),
-            lanes: Vec::with_capacity(8),
+            at_once: false,
             spare: Vec::new(),
             before: Vec::new(),
             home: vec![0.0; robot.joints().len()],
@@ -157,7 +158,7 @@ impl<'r> Finder<'r> {
         pattern: BranchPattern,
         most: usize,
     ) -> Result<&[InverseSolution], Unreachable> {
-        self.lanes.clear();
+        self.at_once = matches!(self.arm.inverse, Inverse::Closed(_));
         self.spare.extend(self.found.drain(..).map(|found| found.joints));
         self.settle_home(expected);
         let arm_from_flange = self.base_from_arm().inv_mul(&expected.base_from_flange);
@@ -211,11 +212,11 @@ impl<'r> Finder<'r> {
         std::array::from_fn(|i| self.robot.theta(self.arm.first + i, q))
     }
 
-    /// The frames of the posture found at `index`, and the solution itself.
-    pub(super) fn with_frames(&mut self, index: usize) -> (&InverseSolution, &Frames) {
-        let found = &self.found[index];
-        match self.lanes.get(index) {
-            Some(lane) => self.eight.frames(*lane, &mut self.frames),
+    /// The posture found at `index`, and its frames.
+    pub(super) fn with_frames(&mut self, index: usize) -> (&mut InverseSolution, &Frames) {
+        let found = &mut self.found[index];
+        match found.name.branch().filter(|_| self.at_once) {
+            Some(branch) => self.eight.frames(branch.index(), &mut self.frames),
             None => forward_into(self.robot, &found.joints, &mut self.frames),
         }
         (found, &self.frames)
@@ -242,17 +243,14 @@ impl<'r> Finder<'r> {
                 .find(self.robot, &from, &Requested::new(&expected.base_from_flange));
         }
         let mut missed: Option<Unreachable> = None;
-        for (lane, branch) in Branch::ALL.into_iter().enumerate() {
-            if !pattern.matches(branch) {
-                continue;
-            }
+        for branch in Branch::ALL.into_iter().filter(|branch| pattern.matches(*branch)) {
+            let lane = branch.index();
             let reached = branches.outcomes[lane];
             match reached.and_then(|singularity| self.eight.verify(lane).map(|()| singularity)) {
                 Ok(singularity) => {
                     let mut joints = self.spare.pop().unwrap_or_default();
                     joints.clear();
                     joints.extend(self.eight.joints(lane));
-                    self.lanes.push(lane);
                     self.found.push(InverseSolution {
                         name: PostureName::Branch(branch),
                         joints,
@@ -289,7 +287,8 @@ impl<'r> Finder<'r> {
                 break;
             }
             let kept = branches.get(*branch).and_then(|(mut theta, _)| {
-                self.descent.reach(self.arm.chain, &goal, &mut theta)?;
+                let (descent, chain) = self.descent();
+                descent.reach(chain, &goal, &mut theta)?;
                 let (own, singularity) = form.name(&theta);
                 renamed |= own != *branch;
                 if self.is_known(&theta, SAME) {
@@ -313,6 +312,12 @@ impl<'r> Finder<'r> {
         self.found
             .retain(|found| found.name.branch().is_some_and(|branch| pattern.matches(branch)));
         missed
+    }
+
+    /// The searches of the arm, and its chain.
+    fn descent(&mut self) -> (&mut Descent, &'r Chain) {
+        let chain = self.arm.chain;
+        (self.descent.get_or_insert_with(|| Descent::new(chain)), chain)
     }
 
     /// Whether these chain positions, whole turns apart, have been found already.
@@ -341,7 +346,8 @@ impl<'r> Finder<'r> {
                 (PostureName::Branch(branch), singularity)
             }
             None => {
-                let dependent = self.descent.dependent(self.arm.chain, theta);
+                let (descent, chain) = self.descent();
+                let dependent = descent.dependent(chain, theta);
                 (
                     PostureName::Sides(Sides::default()),
                     dependent.then_some(Singularity::Dependent),
