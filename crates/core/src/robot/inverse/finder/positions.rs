@@ -103,3 +103,27 @@ fn add<R: Real<Float = f64>>(factor: f64, other: &Eight, to: &mut Eight) {
         to.set(i, factor.mul_add(other.at::<R>(i), to.at(i)));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use super::*;
+    use crate::arms::Stream;
+
+    #[test]
+    fn the_nearest_turn_is_within_half_a_turn_and_half_a_turn_is_positive() {
+        let mut stream = Stream(45);
+        for _ in 0..500 {
+            let (angle, middle) = (stream.between(-20.0, 20.0), stream.between(-3.0, 3.0));
+            let turned = nearest_turn(angle, middle);
+            assert!((-PI - 1e-11..=PI + 1e-11).contains(&(turned - middle)));
+            assert!((0.5 * (turned - angle)).sin().abs() < 1e-14);
+        }
+        // -180 deg, 180 deg, and values next to them, are one posture.
+        for angle in [-PI, PI, -PI - 1e-13, PI - 1e-13, -PI + 1e-13] {
+            assert!((nearest_turn(angle, 0.0) - PI).abs() < 1e-11, "{angle}");
+        }
+        assert!(nearest_turn(-PI + 1e-9, 0.0) < 0.0);
+    }
+}
