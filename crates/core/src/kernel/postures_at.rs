@@ -55,6 +55,10 @@ pub fn postures_at(
             };
             let all = finder.all(&requested);
             found.poses.push(all.map(<[_]>::len));
+            let count = all.map_or(0, <[_]>::len);
+            found.joints.reserve(count * robot.joints().len());
+            found.names.reserve(count);
+            found.within_limits.reserve(count);
             for posture in all.unwrap_or_default() {
                 let margin = robot.limit_margin(&posture.joints);
                 found.joints.extend_from_slice(&posture.joints);

@@ -2,8 +2,9 @@
 
 use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, Vector3};
 
-use super::chain::{Axis, Chain, Fixed, Motion};
+use super::chain::{Axis, Fixed, Motion};
 use super::forward::Frames;
+use super::model::Robot;
 use crate::numbers::{Real, Vector, sin_cos};
 
 /// A number of each posture; a vector of the widest instruction set.
@@ -22,6 +23,16 @@ impl Eight {
     #[inline(always)]
     pub fn set<R: Real<Float = f64>>(&mut self, lane: usize, value: R) {
         self.0[lane] = value.store();
+    }
+
+    /// Adds `factor` times `other`.
+    #[inline(always)]
+    pub fn add<R: Real<Float = f64>>(&mut self, factor: f64, other: &Eight) {
+        let factor = R::of(factor);
+        for i in 0..8 {
+            R::step();
+            self.set(i, factor.mul_add(other.at::<R>(i), self.at(i)));
+        }
     }
 }
 
@@ -73,22 +84,42 @@ impl FramesOfEight {
         frames.base_from_flange = isometry(&self.flange, lane);
     }
 
-    /// Forward kinematics from chain positions (rad, m), one entry per joint.
+    /// Forward kinematics of `robot` from joint positions (rad, m), one entry per joint.
     #[inline(always)]
-    pub fn find<R: Real<Float = f64>>(&mut self, chain: &Chain, theta: &[Eight]) {
-        let mut before = &base();
-        for ((link, theta), frame) in chain.links().iter().zip(theta).zip(&mut self.joints) {
-            fixed::<R>(&link.before, before, frame);
+    pub fn find<R: Real<Float = f64>>(&mut self, robot: &Robot, joints: &[Eight]) {
+        let chain = robot.chain();
+        // Apart from the frames: so short a loop is vectorised only where its results cannot overlap what it reads.
+        let mut frame = base();
+        for (index, (link, found)) in chain.links().iter().zip(&mut self.joints).enumerate() {
+            let theta = theta_of::<R>(robot, index, joints);
+            advance::<R>(&link.before, &mut frame);
             match link.motion {
-                Motion::Along(axis, _) => slide::<R>(axis, theta, frame),
-                Motion::About(Axis::X, _) => turn::<R, 1, 2>(theta, frame),
-                Motion::About(Axis::Y, _) => turn::<R, 2, 0>(theta, frame),
-                Motion::About(Axis::Z, _) => turn::<R, 0, 1>(theta, frame),
+                Motion::Along(axis, _) => slide::<R>(axis, &theta, &mut frame),
+                Motion::About(Axis::X, _) => turn::<R, 1, 2>(&theta, &mut frame),
+                Motion::About(Axis::Y, _) => turn::<R, 2, 0>(&theta, &mut frame),
+                Motion::About(Axis::Z, _) => turn::<R, 0, 1>(&theta, &mut frame),
             }
-            before = frame;
+            *found = frame;
         }
-        fixed::<R>(chain.last_joint_from_flange(), before, &mut self.flange);
+        advance::<R>(chain.last_joint_from_flange(), &mut frame);
+        self.flange = frame;
     }
+}
+
+/// [`Robot::theta`] of eight postures.
+#[inline(always)]
+fn theta_of<R: Real<Float = f64>>(robot: &Robot, index: usize, joints: &[Eight]) -> Eight {
+    let joint = &robot.joints()[index];
+    let mut theta = joints[index];
+    for coupling in &joint.coupling {
+        theta.add::<R>(coupling.factor, &joints[coupling.joint]);
+    }
+    let (sign, zero) = (R::of(joint.sign.factor()), R::of(joint.zero_offset));
+    for i in 0..8 {
+        R::step();
+        theta.set(i, sign.mul_add(theta.at(i), zero));
+    }
+    theta
 }
 
 fn isometry([x, y, z, origin]: &Frame, lane: usize) -> IsometryMatrix3<f64> {
@@ -103,20 +134,17 @@ fn base() -> Frame {
     [[one, zero, zero], [zero, one, zero], [zero, zero, one], [zero; 3]]
 }
 
-/// The frame after a constant displacement.
+/// Moves the frame by a constant displacement.
 #[inline(always)]
-fn fixed<R: Real<Float = f64>>(displacement: &Fixed, from: &Frame, to: &mut Frame) {
+fn advance<R: Real<Float = f64>>(displacement: &Fixed, frame: &mut Frame) {
     let (translation, rotation) = displacement.parts();
     let along = Vector::<R>::of(&translation);
     for i in 0..8 {
         R::step();
-        let [x, y, z, origin] = load::<R>(from, i);
-        put(&mut to[3], i, combined([x, y, z], along) + origin);
+        let [x, y, z, origin] = load::<R>(frame, i);
+        put(&mut frame[3], i, combined([x, y, z], along) + origin);
     }
-    let Some(rotation) = rotation else {
-        to[..3].copy_from_slice(&from[..3]);
-        return;
-    };
+    let Some(rotation) = rotation else { return };
     let columns: [Vector<R>; 3] = [
         Vector::of(&rotation.column(0).into_owned()),
         Vector::of(&rotation.column(1).into_owned()),
@@ -124,10 +152,10 @@ fn fixed<R: Real<Float = f64>>(displacement: &Fixed, from: &Frame, to: &mut Fram
     ];
     for i in 0..8 {
         R::step();
-        let [x, y, z, _] = load::<R>(from, i);
-        put(&mut to[0], i, combined([x, y, z], columns[0]));
-        put(&mut to[1], i, combined([x, y, z], columns[1]));
-        put(&mut to[2], i, combined([x, y, z], columns[2]));
+        let [x, y, z, _] = load::<R>(frame, i);
+        put(&mut frame[0], i, combined([x, y, z], columns[0]));
+        put(&mut frame[1], i, combined([x, y, z], columns[1]));
+        put(&mut frame[2], i, combined([x, y, z], columns[2]));
     }
 }
 

@@ -5,7 +5,7 @@ use super::super::super::forward::Frames;
 use super::super::super::model::Robot;
 use super::super::super::unreachable::Unreachable;
 use super::super::verify::{Miss, Requested};
-use super::positions::{find_joints, find_theta};
+use super::positions::find_joints;
 use crate::numbers::{Backend, Real, Work};
 
 /// Joint positions and frames of eight postures, and how far they are from the requested pose. Memory is reused.
@@ -13,7 +13,6 @@ use crate::numbers::{Backend, Real, Work};
 pub(super) struct EightPostures {
     /// Joint positions, one entry per joint.
     joints: Vec<Eight>,
-    theta: Vec<Eight>,
     frames: FramesOfEight,
     misses: [Eight; 3],
 }
@@ -36,7 +35,6 @@ impl EightPostures {
         let count = robot.joints().len();
         EightPostures {
             joints: vec![Eight::default(); count],
-            theta: vec![Eight::default(); count],
             frames: FramesOfEight::for_joints(count),
             misses: [Eight::default(); 3],
         }
@@ -89,8 +87,7 @@ impl Work<f64> for FindPostures<'_> {
             found,
         } = self;
         find_joints::<R>(robot, from.first, from.theta, from.near, &mut found.joints);
-        find_theta::<R>(robot, &found.joints, &mut found.theta);
-        found.frames.find::<R>(robot.chain(), &found.theta);
+        found.frames.find::<R>(robot, &found.joints);
         let [x, y, z, origin] = found.frames.flange();
         let [away, sine, cosine] = &mut found.misses;
         let requested = requested.in_lanes::<R>();

@@ -63,44 +63,20 @@ pub(super) fn find_joints<R: Real<Float = f64>>(
         let (before, own) = joints.split_at_mut(index);
         let Some(own) = own.first_mut() else { return };
         let (sign, zero) = (R::of(joint.sign.factor()), R::of(joint.zero_offset));
+        let mut position = *theta;
         for i in 0..8 {
             R::step();
-            own.set(i, sign * (theta.at::<R>(i) - zero));
+            position.set(i, sign * (position.at::<R>(i) - zero));
         }
         for coupling in &joint.coupling {
-            add::<R>(-coupling.factor, &before[coupling.joint], own);
+            position.add::<R>(-coupling.factor, &before[coupling.joint]);
         }
         let turns = WholeTurns::of(robot, index, near);
         for i in 0..8 {
             R::step();
-            own.set(i, turns.applied(own.at::<R>(i)));
+            position.set(i, turns.applied(position.at::<R>(i)));
         }
-    }
-}
-
-/// Chain positions of eight postures from joint positions: of each joint that of [`Robot::theta`].
-#[inline(always)]
-pub(super) fn find_theta<R: Real<Float = f64>>(robot: &Robot, joints: &[Eight], theta: &mut [Eight]) {
-    for ((joint, q), theta) in robot.joints().iter().zip(joints).zip(theta) {
-        *theta = *q;
-        for coupling in &joint.coupling {
-            add::<R>(coupling.factor, &joints[coupling.joint], theta);
-        }
-        let (sign, zero) = (R::of(joint.sign.factor()), R::of(joint.zero_offset));
-        for i in 0..8 {
-            R::step();
-            theta.set(i, sign.mul_add(theta.at(i), zero));
-        }
-    }
-}
-
-/// Adds `factor` times `other`.
-#[inline(always)]
-fn add<R: Real<Float = f64>>(factor: f64, other: &Eight, to: &mut Eight) {
-    let factor = R::of(factor);
-    for i in 0..8 {
-        R::step();
-        to.set(i, factor.mul_add(other.at::<R>(i), to.at(i)));
+        *own = position;
     }
 }
 
