@@ -23,7 +23,7 @@ pub mod load;
 pub mod map;
 pub mod marching_squares;
 pub mod measure;
-mod numbers;
+pub(crate) mod numbers;
 pub mod optimize;
 pub mod path;
 pub mod predict;

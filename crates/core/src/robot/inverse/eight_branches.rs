@@ -20,14 +20,13 @@
 use nalgebra::Vector3;
 
 use super::super::branch::{Branch, BranchPattern};
-use super::super::eight::{Eight, put, vector};
 use super::super::posture::Singularity;
 use super::super::unreachable::Unreachable;
 use super::lines::Turn;
 use super::ortho_parallel::OrthoParallel;
 use super::two_links::WRIST_SINGULAR;
 use crate::frame::Isometry;
-use crate::numbers::{Backend, Real, Vector, Work, atan2, lanes_of};
+use crate::numbers::{Backend, Eight, Real, Vector, Work, atan2, lanes_of, put_eight, vector_of_eight};
 
 /// The eight branches of one pose, in the order of [`Branch::ALL`].
 #[derive(Clone, Debug)]
@@ -197,7 +196,10 @@ impl Solved {
     /// it, to its direction on the flange.
     #[inline(always)]
     fn rest<R: Real<Float = f64>>(&self, axes: WristAxes<R>, phi4: Turn<R>, lane: usize) -> (R, R) {
-        let (out, second) = (vector(&self.out, lane), vector(&self.second, lane));
+        let (out, second) = (
+            vector_of_eight(&self.out, lane),
+            vector_of_eight(&self.second, lane),
+        );
         let left = axes.a3.mul_add(phi4.sin, axes.a5.scaled(phi4.cos));
         (left.dot(second), out.dot(left.cross(second)))
     }
@@ -257,8 +259,8 @@ impl Work<f64> for FindWrists<'_> {
             solved.sin_4.set(i, side * per_bent);
             solved.along.set(i, along);
             solved.bent.set(i, bent);
-            put(&mut solved.out, i, out);
-            put(&mut solved.second, i, second);
+            put_eight(&mut solved.out, i, out);
+            put_eight(&mut solved.second, i, second);
             solved.cos_psi.set(i, psi.cos);
             solved.sin_psi.set(i, psi.sin);
             solved.cos_chi.set(i, chi.cos);

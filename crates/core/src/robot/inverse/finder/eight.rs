@@ -1,12 +1,12 @@
 //! Eight postures of a pose at once: joint positions and verification by forward kinematics.
 
-use super::super::super::eight::{Eight, FramesOfEight, vector};
+use super::super::super::eight_frames::FramesOfEight;
 use super::super::super::forward::Frames;
 use super::super::super::model::Robot;
 use super::super::super::unreachable::Unreachable;
 use super::super::verify::{Miss, Requested};
 use super::positions::find_joints;
-use crate::numbers::{Backend, Real, Work};
+use crate::numbers::{Backend, Eight, Real, Work, vector_of_eight};
 
 /// Joint positions and frames of eight postures, and how far they are from the requested pose. Memory is reused.
 #[derive(Clone, Debug)]
@@ -93,7 +93,12 @@ impl Work<f64> for FindPostures<'_> {
         let requested = requested.in_lanes::<R>();
         for i in 0..8 {
             R::step();
-            let reached = [vector(x, i), vector(y, i), vector(z, i), vector(origin, i)];
+            let reached = [
+                vector_of_eight(x, i),
+                vector_of_eight(y, i),
+                vector_of_eight(z, i),
+                vector_of_eight(origin, i),
+            ];
             let miss = Miss::between(reached, requested);
             away.set(i, miss.away);
             sine.set(i, miss.sine);

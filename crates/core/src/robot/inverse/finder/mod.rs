@@ -1,9 +1,9 @@
 //! The postures of one robot at one pose after the other, with reused memory.
 //!
-//! Closed forms give each branch at once; a calibrated arm takes them as starts; those without names for their branches
-//! are in `unnamed`. Other chains are searched from starts spread over the ranges of their joints, or from the
-//! postures of the pose before, in `search`. All work in chain positions; the conversion to joint positions and the
-//! verification by forward kinematics are in one place.
+//! Closed forms give the eight branches at once, verified in `eight`; a calibrated arm takes them as starts; those
+//! without names for their branches are in `unnamed`. Other chains are searched from starts spread over the ranges of
+//! their joints, or from the postures of the pose before, in `search`. All work in chain positions; `positions` converts
+//! them to joint positions.
 
 mod eight;
 mod positions;

@@ -2,9 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use super::super::super::eight::Eight;
 use super::super::super::model::Robot;
-use crate::numbers::Real;
+use crate::numbers::{Eight, Real};
 
 /// Where whole turns bring a revolute joint: as near as possible to the previous position within its limits, otherwise
 /// to the middle of its range. An ortho-parallel arm always takes the middle, as the lanes of the kernel do.

@@ -1,56 +1,11 @@
-//! Eight postures of one robot at once, one lane each: numbers, vectors, and forward kinematics.
+//! Forward kinematics of eight postures at once, one lane each.
 
 use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, Vector3};
 
 use super::chain::{Axis, Fixed, Motion};
 use super::forward::Frames;
 use super::model::Robot;
-use crate::numbers::{Real, Vector, sin_cos};
-
-/// A number of each posture; a vector of the widest instruction set.
-#[derive(Clone, Copy, Debug, Default)]
-#[repr(align(64))]
-pub(super) struct Eight(pub [f64; 8]);
-
-impl Eight {
-    /// That of posture `lane`.
-    #[inline(always)]
-    pub fn at<R: Real<Float = f64>>(&self, lane: usize) -> R {
-        R::load(self.0[lane])
-    }
-
-    /// Sets that of posture `lane`.
-    #[inline(always)]
-    pub fn set<R: Real<Float = f64>>(&mut self, lane: usize, value: R) {
-        self.0[lane] = value.store();
-    }
-
-    /// Adds `factor` times `other`.
-    #[inline(always)]
-    pub fn add<R: Real<Float = f64>>(&mut self, factor: f64, other: &Eight) {
-        let factor = R::of(factor);
-        for i in 0..8 {
-            R::step();
-            self.set(i, factor.mul_add(other.at::<R>(i), self.at(i)));
-        }
-    }
-}
-
-/// The vector of posture `lane`.
-#[inline(always)]
-pub(super) fn vector<R: Real<Float = f64>>(from: &[Eight; 3], lane: usize) -> Vector<R> {
-    let [x, y, z] = from;
-    Vector::new(x.at(lane), y.at(lane), z.at(lane))
-}
-
-/// Sets the vector of posture `lane`.
-#[inline(always)]
-pub(super) fn put<R: Real<Float = f64>>(to: &mut [Eight; 3], lane: usize, v: Vector<R>) {
-    let [x, y, z] = to;
-    x.set(lane, v.x);
-    y.set(lane, v.y);
-    z.set(lane, v.z);
-}
+use crate::numbers::{Eight, Real, Vector, put_eight, sin_cos, vector_of_eight};
 
 /// One frame of each posture, in base: its axes, then its origin (m).
 pub(super) type Frame = [[Eight; 3]; 4];
@@ -142,7 +97,7 @@ fn advance<R: Real<Float = f64>>(displacement: &Fixed, frame: &mut Frame) {
     for i in 0..8 {
         R::step();
         let [x, y, z, origin] = load::<R>(frame, i);
-        put(&mut frame[3], i, combined([x, y, z], along) + origin);
+        put_eight(&mut frame[3], i, combined([x, y, z], along) + origin);
     }
     let Some(rotation) = rotation else { return };
     let columns: [Vector<R>; 3] = [
@@ -153,9 +108,9 @@ fn advance<R: Real<Float = f64>>(displacement: &Fixed, frame: &mut Frame) {
     for i in 0..8 {
         R::step();
         let [x, y, z, _] = load::<R>(frame, i);
-        put(&mut frame[0], i, combined([x, y, z], columns[0]));
-        put(&mut frame[1], i, combined([x, y, z], columns[1]));
-        put(&mut frame[2], i, combined([x, y, z], columns[2]));
+        put_eight(&mut frame[0], i, combined([x, y, z], columns[0]));
+        put_eight(&mut frame[1], i, combined([x, y, z], columns[1]));
+        put_eight(&mut frame[2], i, combined([x, y, z], columns[2]));
     }
 }
 
@@ -168,7 +123,12 @@ fn combined<R: Real>([x, y, z]: [Vector<R>; 3], along: Vector<R>) -> Vector<R> {
 #[inline(always)]
 fn load<R: Real<Float = f64>>(frame: &Frame, i: usize) -> [Vector<R>; 4] {
     let [x, y, z, origin] = frame;
-    [vector(x, i), vector(y, i), vector(z, i), vector(origin, i)]
+    [
+        vector_of_eight(x, i),
+        vector_of_eight(y, i),
+        vector_of_eight(z, i),
+        vector_of_eight(origin, i),
+    ]
 }
 
 /// Moves the frame along its own axis.
@@ -177,8 +137,8 @@ fn slide<R: Real<Float = f64>>(axis: Axis, by: &Eight, frame: &mut Frame) {
     let direction = frame[axis.index()];
     for i in 0..8 {
         R::step();
-        let moved = vector::<R>(&direction, i).mul_add(by.at(i), vector(&frame[3], i));
-        put(&mut frame[3], i, moved);
+        let moved = vector_of_eight::<R>(&direction, i).mul_add(by.at(i), vector_of_eight(&frame[3], i));
+        put_eight(&mut frame[3], i, moved);
     }
 }
 
@@ -188,8 +148,8 @@ fn turn<R: Real<Float = f64>, const A: usize, const B: usize>(angle: &Eight, fra
     for i in 0..8 {
         R::step();
         let (sin, cos) = sin_cos(angle.at::<R>(i));
-        let (first, second) = (vector(&frame[A], i), vector(&frame[B], i));
-        put(&mut frame[A], i, second.mul_add(sin, first.scaled(cos)));
-        put(&mut frame[B], i, first.mul_add(-sin, second.scaled(cos)));
+        let (first, second) = (vector_of_eight(&frame[A], i), vector_of_eight(&frame[B], i));
+        put_eight(&mut frame[A], i, second.mul_add(sin, first.scaled(cos)));
+        put_eight(&mut frame[B], i, first.mul_add(-sin, second.scaled(cos)));
     }
 }
