@@ -10,10 +10,8 @@
 //! wrist: R4 R5 R6 = (R1 R2 R3)^T R, bend psi3 = +-atan2(|across|, along) of axis 6 seen from axis 4
 //! ```
 //!
-//! All angles are computed as (cos, sin); each joint needs one atan2 at the end.
-//!
-//! Distance, bend and `d` are the same for several branches and computed once; the rest is computed for all eight by the
-//! same instructions. All angles are computed as (cos, sin); each joint needs one arc tangent at the end.
+//! `r`, `u` and `eps` belong to several branches and are computed once; the rest is computed for all eight by the same
+//! instructions. All angles are computed as (cos, sin); each joint needs one arc tangent at the end.
 //!
 //! Lengths m, angles rad. Source: textbook geometry; compare Brandstoetter, Angerer, Hofbaur 2014 (OPW).
 
@@ -30,7 +28,7 @@ use crate::numbers::{Backend, Eight, Real, Vector, Work, atan2, lanes_of, put_ei
 
 /// The eight branches of one pose, in the order of [`Branch::ALL`].
 #[derive(Clone, Debug)]
-pub struct EightBranches {
+pub(super) struct EightBranches {
     /// Chain positions of each joint, modulo whole turns; undefined where a branch does not reach.
     pub(super) theta: [Eight; 6],
     /// The singularity that each is near, or why it does not reach.
