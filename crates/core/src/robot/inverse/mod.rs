@@ -34,9 +34,7 @@ pub use spherical_wrist::SphericalWrist;
 pub use three_parallel::ThreeParallel;
 pub use verify::verify;
 
-use nalgebra::UnitQuaternion;
-
-use super::forward::{Frames, forward};
+use super::forward::{Frames, forward, tool_at};
 use super::jacobian::screws_at;
 use super::model::Robot;
 use super::posture::Posture;
@@ -90,18 +88,8 @@ pub fn postures(
     let mut finder = Finder::new(robot);
     let count = finder.all(&requested)?.len();
     let tcp = base_from_tool.translation.vector.into();
-    let mut postures = Vec::with_capacity(count);
-    for index in 0..count {
-        let (found, frames) = finder.with_frames(index);
-        postures.push(Posture {
-            name: found.name,
-            joints: std::mem::take(&mut found.joints),
-            screws: screws_at(robot, frames, &tcp),
-            base_from_tool: tool_on(frames, tool.flange_from_tool),
-            singularity: found.singularity,
-        });
-    }
-    Ok(postures)
+    let take = |index| finder.take_posture(index, &tcp, tool.flange_from_tool);
+    Ok((0..count).map(take).collect())
 }
 
 /// The posture of a robot at these joint positions, whatever its chain.
@@ -120,7 +108,5 @@ pub fn posture_at(robot: &Robot, q: &[f64], flange_from_tool: &Isometry) -> Post
 
 /// The tool pose of these frames.
 pub fn tool_on(frames: &Frames, flange_from_tool: &Isometry) -> Isometry {
-    let flange = &frames.base_from_flange;
-    let rotation = UnitQuaternion::from_rotation_matrix(&flange.rotation);
-    Isometry::from_parts(flange.translation, rotation) * flange_from_tool
+    tool_at(&frames.base_from_flange, flange_from_tool)
 }

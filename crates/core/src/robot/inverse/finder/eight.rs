@@ -1,50 +1,43 @@
 //! Eight postures of a pose at once: joint positions and verification by forward kinematics.
 
-use super::super::super::eight_frames::FramesOfEight;
-use super::super::super::forward::Frames;
+use super::super::super::forward_of_eight::{ForwardOfEight, JointsOfEight};
 use super::super::super::model::Robot;
 use super::super::super::unreachable::Unreachable;
 use super::super::verify::{Miss, Requested};
 use super::positions::find_joints;
 use crate::numbers::{Backend, Eight, Real, Work, vector_of_eight};
 
-/// Joint positions and frames of eight postures, and how far they are from the requested pose. Memory is reused.
+/// Joint positions and forward kinematics of eight postures, and how far they are from the requested pose.
 #[derive(Clone, Debug)]
 pub(super) struct EightPostures {
-    /// Joint positions, one entry per joint.
-    joints: Vec<Eight>,
-    frames: FramesOfEight,
+    /// Joint positions of the arm.
+    joints: [Eight; 6],
+    forward: ForwardOfEight,
     misses: [Eight; 3],
 }
 
 /// What eight postures are made from.
 pub(super) struct ChainPositions<'a> {
-    /// Index of the first joint of `theta`.
-    pub first: usize,
-    /// Chain positions of each joint from there on.
-    pub theta: &'a [Eight],
-    /// Joint positions of the joints before `first`, and any of the others.
-    pub home: &'a [f64],
+    /// Chain positions of each joint of the arm.
+    pub theta: &'a [Eight; 6],
+    /// Joint positions of its rail.
+    pub rail: &'a [f64],
     /// Joint positions of the pose before.
     pub near: Option<&'a [f64]>,
 }
 
 impl EightPostures {
-    /// Working memory for this robot.
-    pub fn for_robot(robot: &Robot) -> EightPostures {
-        let count = robot.joints().len();
+    /// Working memory for an arm on this many joints of a rail.
+    pub fn with_rail(joints: usize) -> EightPostures {
         EightPostures {
-            joints: vec![Eight::default(); count],
-            frames: FramesOfEight::for_joints(count),
+            joints: [Eight::default(); 6],
+            forward: ForwardOfEight::with_rail(joints),
             misses: [Eight::default(); 3],
         }
     }
 
-    /// The joint positions at these chain positions, and their frames.
+    /// The joint positions at these chain positions, and their forward kinematics.
     pub fn find(&mut self, robot: &Robot, from: &ChainPositions<'_>, requested: &Requested) {
-        for (joint, home) in self.joints.iter_mut().zip(&from.home[..from.first]) {
-            *joint = Eight([*home; 8]);
-        }
         Backend::fastest().run(FindPostures {
             robot,
             from,
@@ -53,20 +46,25 @@ impl EightPostures {
         });
     }
 
-    /// Joint positions of posture `lane`.
-    pub fn joints(&self, lane: usize) -> impl Iterator<Item = f64> {
-        self.joints.iter().map(move |joint| joint.0[lane])
+    /// Joint positions of the arm in posture `lane`.
+    pub fn joints(&self, lane: usize) -> [f64; 6] {
+        self.joints.map(|joint| joint.0[lane])
     }
 
-    /// Frames of posture `lane`.
-    pub fn frames(&self, lane: usize, frames: &mut Frames) {
-        self.frames.get(lane, frames);
+    /// Forward kinematics from the joint positions.
+    pub fn forward(&self) -> &ForwardOfEight {
+        &self.forward
     }
 
     /// Verifies posture `lane`.
     pub fn verify(&self, lane: usize) -> Result<(), Unreachable> {
-        let [away, sine, cosine] = self.misses.map(|miss| miss.0[lane]);
-        Miss { away, sine, cosine }.verify()
+        let [away, sine, cosine] = &self.misses;
+        Miss {
+            away: away.0[lane],
+            sine: sine.0[lane],
+            cosine: cosine.0[lane],
+        }
+        .verify()
     }
 }
 
@@ -86,9 +84,13 @@ impl Work<f64> for FindPostures<'_> {
             requested,
             found,
         } = self;
-        find_joints::<R>(robot, from.first, from.theta, from.near, &mut found.joints);
-        found.frames.find::<R>(robot, &found.joints);
-        let [x, y, z, origin] = found.frames.flange();
+        find_joints::<R>(robot, from.rail, from.theta, from.near, &mut found.joints);
+        let joints = JointsOfEight {
+            rail: from.rail,
+            arm: &found.joints,
+        };
+        found.forward.find::<R>(robot, joints);
+        let [x, y, z, origin] = found.forward.flange();
         let [away, sine, cosine] = &mut found.misses;
         let requested = requested.in_lanes::<R>();
         for i in 0..8 {

@@ -12,11 +12,14 @@ mod unnamed;
 
 use std::f64::consts::TAU;
 
+use nalgebra::Point3;
+
 use super::super::branch::{Branch, BranchPattern};
 use super::super::chain::{Amount, Chain, Motion};
-use super::super::forward::{Frames, forward_into};
+use super::super::forward::{Frames, forward_into, tool_at};
+use super::super::jacobian::screws_at;
 use super::super::model::Robot;
-use super::super::posture::{PostureName, Sides, Singularity};
+use super::super::posture::{Posture, PostureName, Sides, Singularity};
 use super::super::unreachable::Unreachable;
 use super::closed_form::ClosedForm;
 use super::descent::{Descent, Goal};
@@ -115,7 +118,7 @@ impl<'r> Finder<'r> {
             arm,
             frames: Frames::for_robot(robot),
             descent: None,
-            eight: EightPostures::for_robot(robot),
+            eight: EightPostures::with_rail(arm.first),
             found: Vec::with_capacity(8),
             at_once: false,
             spare: Vec::new(),
@@ -212,14 +215,34 @@ impl<'r> Finder<'r> {
         std::array::from_fn(|i| self.robot.theta(self.arm.first + i, q))
     }
 
-    /// The posture found at `index`, and its frames.
-    pub(super) fn with_frames(&mut self, index: usize) -> (&mut InverseSolution, &Frames) {
+    /// All properties of the posture found at `index`, which is left without its joint positions; the screws are those
+    /// at `tcp` (m, base).
+    pub(super) fn take_posture(
+        &mut self,
+        index: usize,
+        tcp: &Point3<f64>,
+        flange_from_tool: &Isometry,
+    ) -> Posture {
         let found = &mut self.found[index];
-        match found.name.branch().filter(|_| self.at_once) {
-            Some(branch) => self.eight.frames(branch.index(), &mut self.frames),
-            None => forward_into(self.robot, &found.joints, &mut self.frames),
+        let (flange, screws) = match found.name.branch().filter(|_| self.at_once) {
+            Some(branch) => {
+                let (forward, lane) = (self.eight.forward(), branch.index());
+                let screws = forward.screws(self.robot.chain(), lane, tcp);
+                (forward.flange_of(lane), screws)
+            }
+            None => {
+                forward_into(self.robot, &found.joints, &mut self.frames);
+                let screws = screws_at(self.robot, &self.frames, tcp);
+                (self.frames.base_from_flange, screws)
+            }
+        };
+        Posture {
+            name: found.name,
+            joints: std::mem::take(&mut found.joints),
+            base_from_tool: tool_at(&flange, flange_from_tool),
+            screws,
+            singularity: found.singularity,
         }
-        (found, &self.frames)
     }
 
     /// The branches of a closed form: all at once, one lane each.
@@ -234,9 +257,8 @@ impl<'r> Finder<'r> {
         let branches = form.eight_branches(arm_from_flange, pattern, near.as_ref());
         if branches.outcomes.iter().any(Result::is_ok) {
             let from = ChainPositions {
-                first: self.arm.first,
                 theta: &branches.theta,
-                home: &self.home,
+                rail: &self.home[..self.arm.first],
                 near: expected.near,
             };
             self.eight
@@ -250,7 +272,8 @@ impl<'r> Finder<'r> {
                 Ok(singularity) => {
                     let mut joints = self.spare.pop().unwrap_or_default();
                     joints.clear();
-                    joints.extend(self.eight.joints(lane));
+                    joints.extend_from_slice(&self.home[..self.arm.first]);
+                    joints.extend_from_slice(&self.eight.joints(lane));
                     self.found.push(InverseSolution {
                         name: PostureName::Branch(branch),
                         joints,

@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use super::super::super::forward_of_eight::JointsOfEight;
 use super::super::super::model::Robot;
 use crate::numbers::{Eight, Real};
 
@@ -48,34 +49,32 @@ fn nearest_turn<R: Real>(angle: R, middle: f64) -> R {
     (-turns).mul_add(R::of(TAU), angle)
 }
 
-/// Joint positions of eight postures from chain positions of the joints from `first` on; those before are given.
+/// Joint positions of eight postures from the chain positions `theta` of the arm; `rail` are those of its rail.
 #[inline(always)]
 pub(super) fn find_joints<R: Real<Float = f64>>(
     robot: &Robot,
-    first: usize,
-    theta: &[Eight],
+    rail: &[f64],
+    theta: &[Eight; 6],
     near: Option<&[f64]>,
-    joints: &mut [Eight],
+    joints: &mut [Eight; 6],
 ) {
-    for (index, theta) in (first..).zip(theta) {
+    for (i, theta) in theta.iter().enumerate() {
+        let index = rail.len() + i;
         let joint = &robot.joints()[index];
-        let (before, own) = joints.split_at_mut(index);
-        let Some(own) = own.first_mut() else { return };
-        let (sign, zero) = (R::of(joint.sign.factor()), R::of(joint.zero_offset));
-        let mut position = *theta;
-        for i in 0..8 {
-            R::step();
-            position.set(i, sign * (position.at::<R>(i) - zero));
-        }
-        for coupling in &joint.coupling {
-            position.add::<R>(-coupling.factor, &before[coupling.joint]);
-        }
+        let before = JointsOfEight {
+            rail,
+            arm: &joints[..i],
+        };
+        let coupled = before.coupled::<R>(joint);
         let turns = WholeTurns::of(robot, index, near);
+        let (sign, zero) = (R::of(joint.sign.factor()), R::of(joint.zero_offset));
+        let mut position = Eight::default();
         for i in 0..8 {
             R::step();
-            position.set(i, turns.applied(position.at::<R>(i)));
+            let uncoupled = sign * (theta.at::<R>(i) - zero);
+            position.set(i, turns.applied(uncoupled - coupled.at(i)));
         }
-        *own = position;
+        joints[i] = position;
     }
 }
 

@@ -250,7 +250,7 @@ fn frames_that_miss_their_pose_are_refused() {
 }
 
 #[test]
-fn the_frames_of_a_posture_found_are_those_of_its_joint_positions() {
+fn the_properties_of_a_posture_found_are_those_at_its_joint_positions() {
     let mut stream = Stream(47);
     let arms = [
         arms::mh12(),
@@ -259,6 +259,7 @@ fn the_frames_of_a_posture_found_are_those_of_its_joint_positions() {
         other::on_rail(&arms::r2000ic()),
         other::calibrated(&arms::mh12(), 5e-4),
     ];
+    let tool = arms::bent_tool();
     for robot in arms {
         let mut finder = Finder::new(&robot);
         for _ in 0..20 {
@@ -267,18 +268,18 @@ fn the_frames_of_a_posture_found_are_those_of_its_joint_positions() {
                 home: Some(&q),
                 ..expected(&robot, &q, Some(&q))
             };
+            let tcp = (expected.base_from_flange * tool).translation.vector.into();
             let count = finder.all(&expected).unwrap_or_default().len();
             assert!(count > 0, "{}", robot.name());
             for index in 0..count {
-                let (found, frames) = finder.with_frames(index);
-                let own = crate::robot::forward::forward(&robot, &found.joints);
-                let apart = |a: &nalgebra::IsometryMatrix3<f64>, b: &nalgebra::IsometryMatrix3<f64>| {
-                    (a.to_homogeneous() - b.to_homogeneous()).amax()
-                };
+                let posture = finder.take_posture(index, &tcp, &tool);
+                let frames = crate::robot::forward::forward(&robot, &posture.joints);
+                let own = tool_at(&frames.base_from_flange, &tool).to_homogeneous();
                 // Rounding of some ten turns and metres.
-                assert!(apart(&own.base_from_flange, &frames.base_from_flange) < 1e-14);
-                for (a, b) in own.base_from_joint.iter().zip(&frames.base_from_joint) {
-                    assert!(apart(a, b) < 1e-14, "{}", robot.name());
+                assert!((posture.base_from_tool.to_homogeneous() - own).amax() < 1e-14);
+                for (a, b) in screws_at(&robot, &frames, &tcp).iter().zip(&posture.screws) {
+                    let apart = (a.to_vector() - b.to_vector()).amax();
+                    assert!(apart < 1e-14, "{}: {apart}", robot.name());
                 }
             }
         }
