@@ -2,7 +2,7 @@
 
 use nalgebra::{IsometryMatrix3, Matrix3, Point3, Rotation3, Vector3};
 
-use super::chain::{Axis, Chain, Fixed, Link, Motion};
+use super::chain::{Axis, Chain, Fixed, Motion};
 use super::jacobian::screw_at;
 use super::joint::Joint;
 use super::model::Robot;
@@ -77,11 +77,12 @@ impl ForwardOfEight {
 
     /// Screw of every joint of posture `lane` at `tcp` (m, base), per unit of chain position.
     pub fn screws(&self, chain: &Chain, lane: usize, tcp: &Point3<f64>) -> Vec<Twist> {
+        let mut screws = vec![Twist::ZERO; chain.links().len()];
         let axes = self.rail.iter().chain(&self.arm);
-        let screw = |(link, [z, origin]): (&Link, &AxisOfEight)| {
-            screw_at(&link.motion, of(z, lane), &of(origin, lane).into(), tcp)
-        };
-        chain.links().iter().zip(axes).map(screw).collect()
+        for ((screw, link), [z, origin]) in screws.iter_mut().zip(chain.links()).zip(axes) {
+            *screw = screw_at(&link.motion, of(z, lane), &of(origin, lane).into(), tcp);
+        }
+        screws
     }
 
     /// The axes and flanges of `robot` at these joint positions.

@@ -52,12 +52,13 @@ pub(super) fn chain_screws_into(chain: &Chain, frames: &Frames, tcp: &Point3<f64
 
 /// Screw at `tcp` of a joint with this motion along or about the unit axis `z` through `origin`; m, base.
 pub(super) fn screw_at(motion: &Motion, z: Vector3<f64>, origin: &Point3<f64>, tcp: &Point3<f64>) -> Twist {
-    match motion {
-        Motion::About(..) => Twist {
-            linear: z.cross(&(tcp - origin)),
-            angular: z,
-        },
-        Motion::Along(..) => Twist::along(z),
+    let turns = matches!(motion, Motion::About(..));
+    // Number by number: a choice between vectors goes through memory, and waits for it.
+    let one_of = |turned: f64, slid: f64| if turns { turned } else { slid };
+    let v = z.cross(&(tcp - origin));
+    Twist {
+        linear: Vector3::new(one_of(v.x, z.x), one_of(v.y, z.y), one_of(v.z, z.z)),
+        angular: Vector3::new(one_of(z.x, 0.0), one_of(z.y, 0.0), one_of(z.z, 0.0)),
     }
 }
 
