@@ -23,6 +23,7 @@ pub mod load;
 pub mod map;
 pub mod marching_squares;
 pub mod measure;
+pub(crate) mod numbers;
 pub mod optimize;
 pub mod path;
 pub mod predict;

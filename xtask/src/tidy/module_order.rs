@@ -71,7 +71,8 @@ fn against_root(tree: &Tree, order: &[&str]) -> Vec<Violation> {
         return Vec::new();
     };
     let declared = |line: &'_ str| {
-        line.strip_prefix("pub mod ")?
+        line.strip_prefix("pub mod ")
+            .or_else(|| line.strip_prefix("pub(crate) mod "))?
             .strip_suffix(';')
             .map(str::to_owned)
     };
@@ -174,7 +175,7 @@ mod tests {
 
     #[test]
     fn the_table_and_the_core_name_the_same_modules() {
-        let root = "pub mod frame;\npub mod new;\npub mod spatial;\npub mod robot;\npub mod compliance;\npub mod load;\n\
+        let root = "pub(crate) mod frame;\npub mod new;\npub mod spatial;\npub mod robot;\npub mod compliance;\npub mod load;\n\
                     pub mod map;\nuse crate::map::x;\n";
         let violations = check(&Tree::of(&[(PAGE, TABLE), (ROOT, root)]));
         let given: Vec<&str> = violations

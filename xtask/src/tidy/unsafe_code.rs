@@ -18,7 +18,7 @@ pub const RULE: Rule = Rule {
 /// Where it may be, and how often.
 const ALLOWED: &[(&str, usize)] = &[
     // After the check for AVX2, and for AVX-512.
-    ("crates/core/src/kernel/lanes/numbers/backend.rs", 2),
+    ("crates/core/src/numbers/backend.rs", 2),
     // A larger stack for the handler of signals: libc has no safe call for it.
     ("fuzz/src/signal_stack.rs", 1),
 ];

@@ -3,12 +3,13 @@
 use nalgebra::{Unit, Vector3};
 
 use super::question::Question;
+use crate::numbers::Float;
 use crate::robot::{PostureName, Singularity, Unreachable};
 use crate::source::Contributor;
 use crate::workpiece::Split;
 
 /// Tolerance (rad) at a limit: rounding of a joint that is at its limit.
-pub const AT_LIMIT: f64 = 1e-9;
+pub const AT_LIMIT: f64 = <f64 as Float>::AT_LIMIT;
 
 /// Envelopes that differ by less (relative) are equal, and the first posture is used. Two flips without names differ by
 /// rounding, which would otherwise select a different one at neighbouring points.

@@ -9,7 +9,7 @@ use super::general::General;
 use super::lanes::{POINTS, Points, WholePoints};
 use super::question::{BranchChoice, Question};
 use crate::frame::Isometry;
-use crate::robot::inverse::whole_turns;
+use crate::robot::inverse::WholeTurns;
 use crate::robot::{Branch, Robot};
 use crate::watch::{Cancelled, Watch};
 
@@ -185,7 +185,7 @@ impl<'q> Solver<'q> {
 /// Brings joint positions by whole turns as near as possible to those of the point before.
 fn follow(robot: &Robot, before: &[f64], joints: &mut [f64], evaluation: &mut Evaluation) {
     for (joint, position) in joints.iter_mut().enumerate() {
-        *position = whole_turns(robot, joint, *position, Some(before));
+        *position = WholeTurns::of(robot, joint, Some(before)).applied(*position);
     }
     if let Some((joint, margin)) = robot.limit_margin(joints) {
         (evaluation.limit_joint, evaluation.limit_margin) = (joint, margin);

@@ -94,6 +94,15 @@ impl Branch {
     };
 }
 
+impl Branch {
+    /// Its place in [`Branch::ALL`].
+    pub(super) fn index(self) -> usize {
+        4 * usize::from(self.shoulder == Shoulder::Back)
+            + 2 * usize::from(self.elbow == Elbow::Down)
+            + usize::from(self.wrist == Wrist::Flip)
+    }
+}
+
 impl fmt::Display for Branch {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         BranchPattern::from(*self).fmt(f)

@@ -1,9 +1,10 @@
 //! Forward kinematics: joint positions to the frames of the joints and the flange.
 
-use nalgebra::{IsometryMatrix3, Matrix3, Point3, Rotation3, Vector3};
+use nalgebra::{IsometryMatrix3, Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
 
 use super::chain::{Chain, Motion};
 use super::model::Robot;
+use crate::frame::Isometry;
 
 /// Frames of every joint and the flange. Reused between calls of [`forward_into`] without allocation.
 ///
@@ -66,6 +67,12 @@ pub(super) fn chain_forward_into(chain: &Chain, theta: impl Fn(usize) -> f64, fr
 
 fn isometry(axes: Matrix3<f64>, origin: Vector3<f64>) -> IsometryMatrix3<f64> {
     IsometryMatrix3::from_parts(origin.into(), Rotation3::from_matrix_unchecked(axes))
+}
+
+/// The tool on this flange.
+pub(super) fn tool_at(base_from_flange: &IsometryMatrix3<f64>, flange_from_tool: &Isometry) -> Isometry {
+    let rotation = UnitQuaternion::from_rotation_matrix(&base_from_flange.rotation);
+    Isometry::from_parts(base_from_flange.translation, rotation) * flange_from_tool
 }
 
 /// Unit axis of joint `index` in base.

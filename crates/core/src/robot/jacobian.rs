@@ -6,7 +6,7 @@
 //!
 //! Reference point: the TCP. Basis: base. m/rad and rad/rad. Source: `docs/theory/chain.md`.
 
-use nalgebra::{DMatrix, Matrix6xX, Point3};
+use nalgebra::{DMatrix, Matrix6xX, Point3, Vector3};
 
 use super::chain::{Chain, Motion};
 use super::forward::{Frames, chain_axis, forward};
@@ -46,13 +46,19 @@ pub fn screws_into(robot: &Robot, frames: &Frames, tcp: &Point3<f64>, screws: &m
 pub(super) fn chain_screws_into(chain: &Chain, frames: &Frames, tcp: &Point3<f64>, screws: &mut [Twist]) {
     for (index, screw) in screws.iter_mut().enumerate() {
         let z = chain_axis(chain, frames, index);
-        *screw = match chain.links()[index].motion {
-            Motion::About(..) => Twist {
-                linear: z.cross(&(tcp - frames.origin(index))),
-                angular: z,
-            },
-            Motion::Along(..) => Twist::along(z),
-        };
+        *screw = screw_at(&chain.links()[index].motion, z, &frames.origin(index), tcp);
+    }
+}
+
+/// Screw at `tcp` of a joint with this motion along or about the unit axis `z` through `origin`; m, base.
+pub(super) fn screw_at(motion: &Motion, z: Vector3<f64>, origin: &Point3<f64>, tcp: &Point3<f64>) -> Twist {
+    let turns = matches!(motion, Motion::About(..));
+    // Number by number: a choice between vectors goes through memory, and waits for it.
+    let one_of = |turned: f64, slid: f64| if turns { turned } else { slid };
+    let v = z.cross(&(tcp - origin));
+    Twist {
+        linear: Vector3::new(one_of(v.x, z.x), one_of(v.y, z.y), one_of(v.z, z.z)),
+        angular: Vector3::new(one_of(z.x, 0.0), one_of(z.y, 0.0), one_of(z.z, 0.0)),
     }
 }
 

@@ -1,11 +1,11 @@
 //! Many poses in one instruction, for ortho-parallel arms with spherical wrist.
 //!
 //! Planes of numbers, one value per point, go through short loops without branches; the compiler vectorises them, once
-//! for each instruction set. In reading order: `numbers` (a number of one lane, planes, [`Backend`]: the instruction
-//! set); `geometry` (the arm, a prepared question, poses in the arm's axes); `solve` (postures, joint limits and
-//! positions, screws); `load` (compliance and deviations); `by_block` ([`Batch`]: entry point for many poses; whole
-//! answers for [`super::evaluate`]); `placement` (a path at placements of its part); `whole` (springs, masses, geometry,
-//! thermal growth and backlash of any chain at known joint positions).
+//! for each instruction set ([`Backend`]). In reading order: `geometry` (the arm, a prepared question, poses in the arm's
+//! axes); `solve` (postures, joint limits and positions, screws); `load` (compliance and deviations); `whole` (springs,
+//! masses, geometry, thermal growth and backlash of any chain at known joint positions); `branches` (named branches of
+//! calibrated arms and of three parallel axes); `by_block` ([`Batch`]: entry point for many poses; whole answers for
+//! [`super::evaluate`]); `placement` (a path at placements of its part).
 //!
 //! Theory and accuracy: `docs/theory/lanes.md`.
 //!
@@ -51,13 +51,12 @@ mod branches;
 mod by_block;
 mod geometry;
 mod load;
-mod numbers;
 mod placement;
 mod solve;
 mod whole;
 
+pub use crate::numbers::{Backend, Float, Precision, Real};
 pub use by_block::{Arrays, Batch, Envelopes, Poses};
-pub use numbers::{Backend, Float, Precision, Real};
 pub use solve::flag;
 
 pub(super) use by_block::{

@@ -1,9 +1,9 @@
 //! The closed forms: eight branches each, by name.
 
-use super::super::branch::Branch;
+use super::super::branch::{Branch, BranchPattern};
 use super::super::chain::Chain;
 use super::super::posture::Singularity;
-use super::super::unreachable::Unreachable;
+use super::eight_branches::EightBranches;
 use super::ortho_parallel::OrthoParallel;
 use super::three_parallel::ThreeParallel;
 use crate::frame::Isometry;
@@ -37,23 +37,23 @@ impl ClosedForm {
             .or_else(|| ThreeParallel::next_to(chain, CALIBRATED, SLACK).map(ClosedForm::ThreeParallel))
     }
 
-    /// Chain positions of one branch, modulo whole turns, and the singularity that they are near; `near` are chain
-    /// positions, used for the joint that a wrist singularity leaves free.
-    ///
-    /// # Errors
-    /// Why this branch does not reach, and by how much.
-    pub(super) fn chain_positions(
+    /// Chain positions of the branches that match `pattern`, modulo whole turns, and the singularity that each is near;
+    /// `near` are chain positions, used for the joint that a wrist singularity leaves free.
+    pub(super) fn eight_branches(
         &self,
         base_from_flange: &Isometry,
-        branch: Branch,
-        near: Option<&[f64]>,
-    ) -> Result<([f64; 6], Option<Singularity>), Unreachable> {
+        pattern: BranchPattern,
+        near: Option<&[f64; 6]>,
+    ) -> EightBranches {
         match self {
             ClosedForm::OrthoParallel(arm) => {
-                arm.chain_positions(base_from_flange, branch, near.map(|theta| theta[3]))
+                arm.eight_branches(base_from_flange, near.map(|theta| theta[3]))
             }
             ClosedForm::ThreeParallel(arm) => {
-                arm.chain_positions(base_from_flange, branch, near.map(|theta| theta[5]))
+                let kept = near.map(|theta| theta[5]);
+                EightBranches::one_by_one(pattern, |branch| {
+                    arm.chain_positions(base_from_flange, branch, kept)
+                })
             }
         }
     }

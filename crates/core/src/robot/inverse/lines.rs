@@ -5,6 +5,7 @@
 use nalgebra::{IsometryMatrix3, Matrix3, Point3, Rotation3, Unit, Vector3};
 
 use super::super::chain::{Chain, Motion};
+use crate::numbers::Real;
 
 /// Greatest deviation (rad, m) of a geometry from the ideal that is still solved in closed form.
 pub(super) const IDEAL: f64 = 1e-9;
@@ -140,28 +141,15 @@ pub(super) fn up_to_noise(value: f64) -> Option<f64> {
     (value.abs() > IDEAL).then_some(value)
 }
 
-/// An angle as its cosine and sine.
+/// An angle as its cosine and sine; a number, or one lane.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Turn {
-    pub cos: f64,
-    pub sin: f64,
+pub(super) struct Turn<R = f64> {
+    pub cos: R,
+    pub sin: R,
 }
 
 impl Turn {
     pub const ZERO: Turn = Turn { cos: 1.0, sin: 0.0 };
-
-    /// The angle of the vector (`x`, `y`); zero where it has no length.
-    pub fn new(x: f64, y: f64) -> Turn {
-        let length = (x * x + y * y).sqrt();
-        if length > 0.0 {
-            Turn {
-                cos: x / length,
-                sin: y / length,
-            }
-        } else {
-            Turn::ZERO
-        }
-    }
 
     /// The angle `angle`, rad.
     pub fn by(angle: f64) -> Turn {
@@ -173,38 +161,62 @@ impl Turn {
         self.sin.atan2(self.cos)
     }
 
-    /// This angle minus another.
-    pub fn less(self, other: Turn) -> Turn {
-        Turn {
-            cos: self.cos * other.cos + self.sin * other.sin,
-            sin: self.sin * other.cos - self.cos * other.sin,
-        }
-    }
-
     /// A vector turned about z by less this angle.
     pub fn back_about_z(self, v: Vector3<f64>) -> Vector3<f64> {
-        Vector3::new(
-            self.cos * v.x + self.sin * v.y,
-            self.cos * v.y - self.sin * v.x,
-            v.z,
-        )
+        let (x, y) = self.back(v.x, v.y);
+        Vector3::new(x, y, v.z)
     }
 
     /// A vector turned about y by less this angle.
     pub fn back_about_y(self, v: Vector3<f64>) -> Vector3<f64> {
-        Vector3::new(
-            self.cos * v.x - self.sin * v.z,
-            v.y,
-            self.sin * v.x + self.cos * v.z,
-        )
+        let (z, x) = self.back(v.z, v.x);
+        Vector3::new(x, v.y, z)
     }
 
     /// A vector turned about y by this angle.
     pub fn about_y(self, v: Vector3<f64>) -> Vector3<f64> {
-        Vector3::new(
-            self.cos * v.x + self.sin * v.z,
-            v.y,
-            self.cos * v.z - self.sin * v.x,
+        let forth = Turn {
+            sin: -self.sin,
+            ..self
+        };
+        forth.back_about_y(v)
+    }
+}
+
+impl<R: Real> Turn<R> {
+    /// The angle of the vector (`x`, `y`); zero where it has no length.
+    #[inline(always)]
+    pub fn new(x: R, y: R) -> Self {
+        let length = x.mul_add(x, y * y).sqrt();
+        let has_length = length > R::of(0.0);
+        Turn {
+            cos: R::either(has_length, x / length, R::of(1.0)),
+            sin: R::either(has_length, y / length, R::of(0.0)),
+        }
+    }
+
+    /// The same in every lane.
+    #[inline(always)]
+    pub fn of(turn: Turn) -> Self {
+        Turn {
+            cos: R::of(turn.cos),
+            sin: R::of(turn.sin),
+        }
+    }
+
+    /// This angle minus another.
+    #[inline(always)]
+    pub fn less(self, other: Self) -> Self {
+        let (cos, sin) = other.back(self.cos, self.sin);
+        Turn { cos, sin }
+    }
+
+    /// The plane vector (`x`, `y`) turned by less this angle.
+    #[inline(always)]
+    pub fn back(self, x: R, y: R) -> (R, R) {
+        (
+            self.cos.mul_add(x, self.sin * y),
+            self.cos.mul_add(y, -(self.sin * x)),
         )
     }
 }

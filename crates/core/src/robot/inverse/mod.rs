@@ -1,15 +1,16 @@
 //! Inverse kinematics: the joint positions of a tool pose.
 //!
-//! [`kind`] is the closed list of methods: [`closed_form`] ([`ortho_parallel`], [`three_parallel`]) with names,
-//! [`spherical_wrist`] without, the same followed by damped least squares for calibrated arms, a redundant
-//! [`fixed_joint`], a search for any other chain, and rails. A [`Finder`] solves one pose after
-//! the other; [`postures`] gives all properties of the postures of one. Each posture is verified by forward kinematics.
+//! [`kind`] is the closed list of methods: [`closed_form`] ([`ortho_parallel`], solved in `eight_branches`;
+//! [`three_parallel`]) with names, [`spherical_wrist`] without, the same followed by damped least squares for calibrated
+//! arms, a redundant [`fixed_joint`], a search for any other chain, and rails. A [`Finder`] solves one pose after the
+//! other; [`postures`] gives all properties of the postures of one. Each posture is verified by forward kinematics.
 //!
 //! `finder` runs them, `verify` checks their solutions, `starts` and `descent` are the search. The closed forms share
 //! `lines` (axes in space), `roots`, `two_links` and `three_turns`.
 
 pub mod closed_form;
 mod descent;
+mod eight_branches;
 mod finder;
 pub mod fixed_joint;
 pub mod kind;
@@ -25,7 +26,7 @@ mod verify;
 
 pub use closed_form::ClosedForm;
 pub use finder::{Finder, InverseSolution, InverseTarget};
-pub(crate) use finder::{name as name_of, whole_turns};
+pub(crate) use finder::{WholeTurns, name as name_of};
 pub use fixed_joint::FixedJoint;
 pub use kind::Inverse;
 pub use ortho_parallel::OrthoParallel;
@@ -34,9 +35,7 @@ pub use three_parallel::ThreeParallel;
 pub(crate) use verify::VERIFIED;
 pub use verify::verify;
 
-use nalgebra::UnitQuaternion;
-
-use super::forward::{Frames, forward, forward_into};
+use super::forward::{Frames, forward, tool_at};
 use super::jacobian::screws_at;
 use super::model::Robot;
 use super::posture::Posture;
@@ -88,18 +87,10 @@ pub fn postures(
         home: tool.home,
     };
     let mut finder = Finder::new(robot);
-    let mut frames = Frames::for_robot(robot);
-    let mut posture = |found: &InverseSolution| {
-        forward_into(robot, &found.joints, &mut frames);
-        Posture {
-            name: found.name,
-            joints: found.joints.clone(),
-            screws: screws_at(robot, &frames, &base_from_tool.translation.vector.into()),
-            base_from_tool: tool_on(&frames, tool.flange_from_tool),
-            singularity: found.singularity,
-        }
-    };
-    Ok(finder.all(&requested)?.iter().map(&mut posture).collect())
+    let count = finder.all(&requested)?.len();
+    let tcp = base_from_tool.translation.vector.into();
+    let take = |index| finder.take_posture(index, &tcp, tool.flange_from_tool);
+    Ok((0..count).map(take).collect())
 }
 
 /// The posture of a robot at these joint positions, whatever its chain.
@@ -118,7 +109,5 @@ pub fn posture_at(robot: &Robot, q: &[f64], flange_from_tool: &Isometry) -> Post
 
 /// The tool pose of these frames.
 pub fn tool_on(frames: &Frames, flange_from_tool: &Isometry) -> Isometry {
-    let flange = &frames.base_from_flange;
-    let rotation = UnitQuaternion::from_rotation_matrix(&flange.rotation);
-    Isometry::from_parts(flange.translation, rotation) * flange_from_tool
+    tool_at(&frames.base_from_flange, flange_from_tool)
 }

@@ -2,20 +2,10 @@
 //!
 //! Any six revolute joints qualify whose axis 2 is perpendicular to axis 1 and parallel to axis 3, and whose
 //! axes 4, 5, 6 meet in one point with 4 perpendicular to 5 and 5 to 6, whatever the zeros. All angles
-//! below are about axes turned to a common sense: 1 up, 2 and 3 along the arm's +y, 4 out along the forearm,
+//! are about axes turned to a common sense: 1 up, 2 and 3 along the arm's +y, 4 out along the forearm,
 //! 5 along +y, 6 out of the flange.
 //!
-//! With `r` the distance of the wrist centre from axis 1 in the arm's plane, `psi` and `chi` the angles of upper
-//! arm and forearm from the vertical towards the front, and `eps = chi - psi` their bend:
-//!
-//! ```text
-//! phi1:  (cos, sin) = ((r px + b py), (r py - b px)) / (r^2 + b^2)          r = +-sqrt(px^2 + py^2 - b^2)
-//! eps:   cos = (d^2 - l2^2 - l3^2) / (2 l2 l3), sin = +-sqrt(...)           d^2 = u^2 + v^2, u = r - a1, v = pz
-//! psi:   (cos, sin) = (v k1 + u k2, u k1 - v k2) / d^2                       k1 = l2 + l3 cos eps, k2 = l3 sin eps
-//! wrist: R4 R5 R6 = (R1 R2 R3)^T R, bend psi3 = +-atan2(|across|, along) of axis 6 seen from axis 4
-//! ```
-//!
-//! All angles are computed as (cos, sin); each joint needs one atan2 at the end.
+//! The formulas are in `eight_branches`.
 //!
 //! Lengths m, angles rad. Source: textbook geometry; compare Brandstoetter, Angerer, Hofbaur 2014 (OPW).
 
@@ -24,11 +14,10 @@ use nalgebra::{Point3, Vector3};
 use super::super::branch::{Branch, Shoulder, Wrist};
 use super::super::chain::Chain;
 use super::super::posture::Singularity;
-use super::super::unreachable::Unreachable;
 use super::lines::{
     AxisDeviation, IDEAL, Line, Turn, across, base_from_arm, lines_at_zero, sense_of, up_to_noise,
 };
-use super::two_links::{TwoLinks, WRIST_SINGULAR};
+use super::two_links::TwoLinks;
 use crate::frame::Isometry;
 
 /// The geometry of an ortho-parallel arm with spherical wrist, read off its chain.
@@ -42,7 +31,7 @@ pub struct OrthoParallel {
     /// Angles of upper arm and forearm from the vertical at chain zero.
     pub(crate) upper_arm_at_zero: f64,
     pub(crate) forearm_at_zero: f64,
-    forearm_turn_at_zero: Turn,
+    pub(super) forearm_turn_at_zero: Turn,
     /// Wrist bend at chain zero.
     pub(crate) bend_at_zero: f64,
     /// Sense of each axis against the common one, 1 or -1.
@@ -130,44 +119,6 @@ impl OrthoParallel {
         .filter(|arm| arm.links.l2 > IDEAL && arm.links.l3 > IDEAL)
     }
 
-    /// Chain positions of one branch that bring the flange to `base_from_flange`, modulo whole turns, and the
-    /// singularity that they are near.
-    ///
-    /// At the wrist singularity joint 4 stays at `kept` (chain position, rad), or joints 4 and 6 share the turn evenly.
-    /// Not checked: forward kinematics (see [`verify`](fn@super::verify)).
-    ///
-    /// # Errors
-    /// The wrist centre is out of reach of this branch.
-    pub fn chain_positions(
-        &self,
-        base_from_flange: &Isometry,
-        branch: Branch,
-        kept: Option<f64>,
-    ) -> Result<([f64; 6], Option<Singularity>), Unreachable> {
-        let p = self.arm_from_base * (base_from_flange * self.flange_from_wrist);
-        let (r, phi1) = self.links.reach(&p, self.b, branch.shoulder)?;
-        let (u, v) = (r - self.a1, p.z);
-        let (psi, chi) = self.links.solve(u, v, branch.elbow)?;
-        let kept = kept.map(|theta| self.sense[3] * theta);
-        let [phi4, bend, phi6] =
-            self.wrist(self.wrist_target(base_from_flange, phi1, chi), branch.wrist, kept);
-
-        let (psi_angle, chi_angle, bend_angle) = (psi.angle(), chi.angle(), bend.angle());
-        let mut positions = [
-            phi1.angle(),
-            psi_angle - self.upper_arm_at_zero,
-            chi_angle - psi_angle - (self.forearm_at_zero - self.upper_arm_at_zero),
-            phi4.angle(),
-            bend_angle - self.bend_at_zero,
-            phi6.angle(),
-        ];
-        for (phi, sense) in positions.iter_mut().zip(self.sense) {
-            *phi *= sense;
-        }
-        let sin_elbow = chi.sin * psi.cos - chi.cos * psi.sin;
-        Ok((positions, self.links.singularity(bend.sin, sin_elbow, r)))
-    }
-
     /// Branch of the chain positions `theta`, and the singularity that they are near, if any.
     ///
     /// Not checked: that there are six.
@@ -183,40 +134,6 @@ impl OrthoParallel {
             wrist: Wrist::bent(bend.sin()),
         };
         (branch, self.links.singularity(bend.sin(), eps.sin(), u + self.a1))
-    }
-
-    /// The flange's own directions of axes 6 and 5 at zero, seen from the forearm, which has turned by phi1 about z and
-    /// by chi - chi0 about y.
-    fn wrist_target(&self, base_from_flange: &Isometry, phi1: Turn, chi: Turn) -> [Vector3<f64>; 2] {
-        let forearm = chi.less(self.forearm_turn_at_zero);
-        let seen = |in_flange: &Vector3<f64>| {
-            let v = self.arm_from_base * (base_from_flange * in_flange);
-            forearm.back_about_y(phi1.back_about_z(v))
-        };
-        [seen(&self.flange_from_axis_6), seen(&self.flange_from_axis_5)]
-    }
-
-    /// Joint 4, bend and joint 6 for axes 6 and 5 in these directions; at the singularity joint 4 is `kept`.
-    fn wrist(&self, [out, second]: [Vector3<f64>; 2], wrist: Wrist, kept: Option<f64>) -> [Turn; 3] {
-        let [a4, a5] = self.wrist_axes;
-        let a3 = a4.cross(&a5);
-        let (along, up, side) = (out.dot(&a4), out.dot(&a3), out.dot(&a5));
-        let bent = up.hypot(side);
-        let flip = if wrist == Wrist::NoFlip { 1.0 } else { -1.0 };
-        let bend = Turn::new(along, flip * bent);
-        // Joint 6 turns axis 5, as joint 4 left it, to its direction on the flange.
-        let rest = |phi4: Turn| {
-            let left = a5 * phi4.cos + a3 * phi4.sin;
-            Turn::new(left.dot(&second), out.dot(&left.cross(&second)))
-        };
-        let phi4 = if bent < WRIST_SINGULAR {
-            // Only the sum (or difference) of joints 4 and 6 has an effect here.
-            let even = 0.5 * rest(Turn::ZERO).angle() * along.signum();
-            Turn::by(kept.unwrap_or(even))
-        } else {
-            Turn::new(-flip * up, flip * side)
-        };
-        [phi4, bend, rest(phi4)]
     }
 }
 

@@ -14,11 +14,13 @@ use super::super::branch::{Elbow, Shoulder};
 use super::super::posture::Singularity;
 use super::super::unreachable::Unreachable;
 use super::lines::Turn;
+use crate::numbers::{Float, Real};
 
 /// A posture nearer than this (sine of 1 deg) to a singularity is flagged.
 pub(crate) const NEAR_SINGULAR: f64 = 0.017_452_406;
 /// Below this sine of the wrist bend joints 4 and 6 are not distinguishable.
 pub(crate) const WRIST_SINGULAR: f64 = 1e-9;
+const _: () = assert!(WRIST_SINGULAR * WRIST_SINGULAR == <f64 as Float>::NOTHING);
 
 /// Lengths of upper arm and forearm, m.
 #[derive(Clone, Copy, Debug)]
@@ -58,6 +60,11 @@ impl TwoLinks {
 
     /// Angles of upper arm and forearm that bring its end to (`u`, `v`).
     pub(super) fn solve(&self, u: f64, v: f64, elbow: Elbow) -> Result<(Turn, Turn), Unreachable> {
+        Ok(self.turns(u, v, self.across(u, v, elbow)?))
+    }
+
+    /// Distance (m) of its end from the line of the upper arm: `l3` times the sine of the elbow's bend.
+    pub(super) fn across(&self, u: f64, v: f64, elbow: Elbow) -> Result<f64, Unreachable> {
         let d_squared = u * u + v * v;
         let (reach, fold) = (self.l2 + self.l3, self.l2 - self.l3);
         let (mut stretched, mut folded) = (reach * reach - d_squared, d_squared - fold * fold);
@@ -77,19 +84,25 @@ impl TwoLinks {
             let least = NEARLY_STRAIGHT * self.l2 * self.l3;
             (stretched, folded) = (stretched.max(least), folded.max(least));
         }
-        // l3 (cos, sin) of the elbow's bend; bending the forearm forwards lifts the elbow if the wrist is
-        // before the shoulder.
-        let along = 0.5 * (d_squared - self.l2 * self.l2 - self.l3 * self.l3) / self.l2;
         let across = 0.5 * (stretched * folded).sqrt() / self.l2;
-        let k2 = if (elbow == Elbow::Up) == (u >= 0.0) {
+        // Bending the forearm forwards lifts the elbow if the wrist is before the shoulder.
+        Ok(if (elbow == Elbow::Up) == (u >= 0.0) {
             across
         } else {
             -across
-        };
-        let k1 = self.l2 + along;
-        let psi = Turn::new(v * k1 + u * k2, u * k1 - v * k2);
-        let chi = Turn::new(v - self.l2 * psi.cos, u - self.l2 * psi.sin);
-        Ok((psi, chi))
+        })
+    }
+
+    /// Angles of upper arm and forearm that bring its end to (`u`, `v`), with the end [`across`](Self::across) from
+    /// the upper arm.
+    #[inline(always)]
+    pub(super) fn turns<R: Real>(&self, u: R, v: R, across: R) -> (Turn<R>, Turn<R>) {
+        let l2 = R::of(self.l2);
+        let k1 =
+            u.mul_add(u, v.mul_add(v, R::of(self.l2 * self.l2 - self.l3 * self.l3))) * R::of(0.5 / self.l2);
+        let psi = Turn::new(v.mul_add(k1, u * across), u.mul_add(k1, -(v * across)));
+        let chi = Turn::new((-l2).mul_add(psi.cos, v), (-l2).mul_add(psi.sin, u));
+        (psi, chi)
     }
 
     /// The singularity that an arm is near with these sines of wrist bend and elbow bend, and its wrist centre at

@@ -17,9 +17,9 @@ mod target;
 mod three_parallel;
 
 use crate::frame::Isometry;
-use crate::kernel::lanes::numbers::{BLOCK, Backend, Plane};
 use crate::kernel::lanes::whole::FramePlanes;
 use crate::kernel::question::Question;
+use crate::numbers::{BLOCK, Backend, Plane};
 use crate::robot::inverse::{ClosedForm, Inverse};
 use crate::robot::{Branch, Robot, Singularity};
 use name::{CheckNames, NameConstants};

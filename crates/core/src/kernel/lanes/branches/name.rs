@@ -6,7 +6,7 @@
 //! ```
 
 use super::state;
-use crate::kernel::lanes::numbers::{BLOCK, Float, Plane, Real, Work, sin_cos};
+use crate::numbers::{BLOCK, Float, Plane, Real, Work, sin_cos};
 use crate::robot::inverse::ClosedForm;
 use crate::robot::inverse::two_links::NEAR_SINGULAR;
 use crate::robot::{Branch, Elbow, Shoulder, Wrist};

@@ -9,10 +9,8 @@
 //! two symmetric 3 x 3 inverses need no pivots. Points where the step does not become small are undecided.
 
 use super::state;
-use crate::kernel::lanes::numbers::{
-    BLOCK, Backend, Float, Plane, Planes, Real, Vector, Work, planes, put, vector,
-};
 use crate::kernel::lanes::whole::{ChainConstants, Displacement, FindFrames, FramePlanes};
+use crate::numbers::{BLOCK, Backend, Float, Plane, Planes, Real, Vector, Work, planes, put, vector};
 use crate::robot::Chain;
 
 /// Joints of an arm with named branches.

@@ -6,9 +6,9 @@ use super::{BranchPlanes, state};
 use crate::frame::Isometry;
 use crate::kernel::lanes::by_block::{Batch, signs};
 use crate::kernel::lanes::geometry::{Aims, Arm, Prepared, Second, aim};
-use crate::kernel::lanes::numbers::{BLOCK, Backend, Float, Plane, Real, Work};
 use crate::kernel::lanes::solve::flag;
 use crate::kernel::question::Question;
+use crate::numbers::{BLOCK, Backend, Float, Plane, Real, Work};
 use crate::robot::inverse::OrthoParallel;
 use crate::robot::{Branch, Wrist};
 

@@ -2,8 +2,8 @@
 
 use super::BranchPlanes;
 use crate::kernel::lanes::geometry::{JointRow, UNLIMITED};
-use crate::kernel::lanes::numbers::{Plane, Real, Work};
 use crate::kernel::lanes::solve::Counting;
+use crate::numbers::{Plane, Real, Work};
 use crate::robot::Robot;
 
 /// Sign, zero, range and coupling of every joint.

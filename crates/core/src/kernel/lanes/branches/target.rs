@@ -1,8 +1,8 @@
 //! Requested flange poses of a block, and whether frames are there.
 
 use crate::frame::Isometry;
-use crate::kernel::lanes::numbers::{BLOCK, Float, Plane, Real, Work, vector};
 use crate::kernel::lanes::whole::FramePlanes;
+use crate::numbers::{BLOCK, Float, Plane, Real, Work, vector};
 use crate::robot::inverse::VERIFIED;
 
 /// Fills the flange pose of each tool pose, at most a block; the remaining lanes repeat the last.

@@ -4,10 +4,8 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::state;
-use crate::kernel::lanes::numbers::{
-    BLOCK, Backend, Float, Plane, Planes, Real, Vector, Work, atan2, planes, put, vector,
-};
 use crate::kernel::lanes::whole::FramePlanes;
+use crate::numbers::{BLOCK, Backend, Float, Plane, Planes, Real, Vector, Work, atan2, planes, put, vector};
 use crate::robot::inverse::ThreeParallel;
 use crate::robot::inverse::two_links::{NEARLY_STRAIGHT, WRIST_SINGULAR};
 use crate::robot::{Branch, Elbow, Shoulder, Wrist};

@@ -3,8 +3,8 @@
 use super::batch::{Batch, Scratch};
 use crate::frame::Isometry;
 use crate::kernel::lanes::geometry::{Aims, Prepared};
-use crate::kernel::lanes::numbers::{BLOCK, Backend, Plane, Planes, planes};
 use crate::kernel::lanes::solve::{Positions, Postures};
+use crate::numbers::{BLOCK, Backend, Plane, Planes, planes};
 
 impl Batch<f64> {
     /// Places the block's aims at these poses; the rest repeats the last. [`Batch::orient`] must follow.

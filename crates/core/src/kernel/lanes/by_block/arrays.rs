@@ -5,7 +5,7 @@ use std::ops::Range;
 use nalgebra::Rotation3;
 
 use crate::kernel::lanes::load::CASE;
-use crate::kernel::lanes::numbers::{BLOCK, Plane, Precision};
+use crate::numbers::{BLOCK, Plane, Precision};
 
 /// Tool poses in base. m.
 #[derive(Clone, Copy, Debug)]

@@ -4,8 +4,8 @@ use super::arrays::{Arrays, Envelopes, Poses, is_still, length};
 use super::posture_signs::{FOUR, signs};
 use crate::kernel::Question;
 use crate::kernel::lanes::geometry::{Aims, Prepared, Second};
-use crate::kernel::lanes::numbers::{BLOCK, Backend, Plane, Planes, Precision, fill, planes};
 use crate::kernel::lanes::solve::{Forward, POSE, Positions, Postures, SCREWS};
+use crate::numbers::{BLOCK, Backend, Plane, Planes, Precision, fill, planes};
 use crate::robot::Branch;
 use crate::robot::inverse::OrthoParallel;
 

@@ -6,7 +6,7 @@ use super::batch::{Batch, Scratch};
 use super::posture_signs::FOUR;
 use crate::frame::Isometry;
 use crate::kernel::lanes::geometry::Second;
-use crate::kernel::lanes::numbers::{Plane, Planes};
+use crate::numbers::{Plane, Planes};
 use crate::spatial::Wrench;
 
 /// Two postures of a block that differ in the wrist's flip: first the plain one, then the flipped one.

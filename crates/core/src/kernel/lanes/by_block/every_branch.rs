@@ -3,9 +3,9 @@
 use crate::frame::Isometry;
 use crate::kernel::answer::AT_LIMIT;
 use crate::kernel::lanes::branches::{BranchPlanes, BranchSolver, find_missed, state};
-use crate::kernel::lanes::numbers::{BLOCK, Backend, Plane};
 use crate::kernel::lanes::whole::{ChainConstants, Displacement, FindFrames, FramePlanes};
 use crate::kernel::question::Question;
+use crate::numbers::{BLOCK, Backend, Plane};
 use crate::robot::Branch;
 
 /// Solves a block of flange poses; one per thread.

@@ -7,11 +7,9 @@ use nalgebra::Vector3;
 use crate::frame::Isometry;
 use crate::kernel::answer::AT_LIMIT;
 use crate::kernel::lanes::branches::{BranchPlanes, BranchSolver, find_missed, state};
-use crate::kernel::lanes::numbers::{
-    BLOCK, Backend, Float, Plane, Planes, Real, Vector, Work, planes, vector,
-};
 use crate::kernel::lanes::whole::{FramePlanes, ResponsePlanes, StillPlanes, WholeModel, under};
 use crate::kernel::question::Question;
+use crate::numbers::{BLOCK, Backend, Float, Plane, Planes, Real, Vector, Work, planes, vector};
 use crate::robot::inverse::OrthoParallel;
 use crate::robot::{Branch, Robot};
 use crate::spatial::Wrench;

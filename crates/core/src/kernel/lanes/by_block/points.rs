@@ -10,9 +10,9 @@ use crate::frame::Isometry;
 use crate::kernel::answer::{AT_LIMIT, Evaluation};
 use crate::kernel::lanes::geometry::{Second, UNLIMITED};
 use crate::kernel::lanes::load::{OneCase, Shares, Worst};
-use crate::kernel::lanes::numbers::{BLOCK, Backend, Plane, Planes, planes};
 use crate::kernel::lanes::solve::{FindStances, Preference, Stances, flag};
 use crate::kernel::question::{BranchChoice, Question};
+use crate::numbers::{BLOCK, Backend, Plane, Planes, planes};
 use crate::robot::inverse::OrthoParallel;
 use crate::robot::{Branch, BranchPattern, Elbow, PostureName, Shoulder, Singularity, Wrist};
 

@@ -9,8 +9,8 @@ use super::batch::{Batch, Scratch};
 use super::posture_signs::FOUR;
 use crate::kernel::lanes::geometry::{Aims, CosineLimits, Orientations, Places, Second, aim_still};
 use crate::kernel::lanes::load::{Compliances, Largest, Rows};
-use crate::kernel::lanes::numbers::{BLOCK, Backend, Plane, Planes, Precision, fill, planes};
 use crate::kernel::lanes::solve::{LimitsByCosines, LimitsByPositions, Position, Postures, Reach, Solve};
+use crate::numbers::{BLOCK, Backend, Plane, Planes, Precision, fill, planes};
 
 impl<T: Precision> Batch<T> {
     /// Fills the block's aims with the poses from `first` on and returns their number; the remaining lanes repeat the

@@ -7,9 +7,9 @@ use crate::frame::{Isometry, both_across};
 use crate::kernel::answer::{ALIKE, AT_LIMIT, AnswerDetail, Evaluation};
 use crate::kernel::lanes::branches::{BranchPlanes, BranchSolver, find_missed, singularity, state};
 use crate::kernel::lanes::geometry::UNLIMITED;
-use crate::kernel::lanes::numbers::{BLOCK, Backend, Plane};
 use crate::kernel::lanes::whole::{WholeAnswers, WholeModel};
 use crate::kernel::question::{BranchChoice, Question};
+use crate::numbers::{BLOCK, Backend, Plane};
 use crate::robot::{Branch, PostureName};
 
 /// Margins at least this large are those of joints without limits, rad.

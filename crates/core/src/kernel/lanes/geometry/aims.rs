@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::prepared::Prepared;
-use crate::kernel::lanes::numbers::{BLOCK, Float, Plane, Planes, Real, Vector, Work, put, vector};
+use crate::numbers::{BLOCK, Float, Plane, Planes, Real, Vector, Work, put, vector};
 
 /// Where the tool shall be, in the arm's axes.
 #[derive(Clone, Copy)]

@@ -1,7 +1,7 @@
 //! From the arm's axes into base.
 
 use super::prepared::Prepared;
-use crate::kernel::lanes::numbers::{Real, Vector};
+use crate::numbers::{Real, Vector};
 
 /// Turns vectors of the arm's axes into base.
 #[derive(Clone, Copy)]

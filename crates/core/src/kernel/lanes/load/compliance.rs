@@ -1,8 +1,8 @@
 //! Full 6 x 6 compliance at the TCP, base basis: the 21 numbers of its upper triangle, row by row.
 
 use crate::kernel::lanes::geometry::{Aims, BaseAxes, Prepared, aim};
-use crate::kernel::lanes::numbers::{BLOCK, Float, Planes, Real, Work, lanes_of};
 use crate::kernel::lanes::solve::{Links, Postures, Screws, Solved};
+use crate::numbers::{BLOCK, Float, Planes, Real, Work, lanes_of};
 
 /// Upper triangles; `TURNED` where the arm's axes are not those of the base.
 pub(in crate::kernel::lanes) struct Compliances<'a, T, const TURNED: bool> {

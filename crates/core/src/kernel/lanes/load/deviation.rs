@@ -4,8 +4,8 @@
 
 use super::worst::{CaseLanes, Worst};
 use crate::kernel::lanes::geometry::{BaseAxes, Prepared};
-use crate::kernel::lanes::numbers::{BLOCK, Float, Plane, Planes, Real, Vector, Work, lanes_of, put, vector};
 use crate::kernel::lanes::solve::Stances;
+use crate::numbers::{BLOCK, Float, Plane, Planes, Real, Vector, Work, lanes_of, put, vector};
 
 /// Deviations of one case (base basis), taken into the worst so far.
 pub(in crate::kernel::lanes) struct OneCase<'a, T, const MOMENTS: bool> {

@@ -4,8 +4,8 @@
 
 use super::flexibility::Flexibility;
 use crate::kernel::lanes::geometry::{Aims, Prepared, aim};
-use crate::kernel::lanes::numbers::{BLOCK, Float, Plane, Planes, Real, Vector, Work, lanes_of, put, vector};
 use crate::kernel::lanes::solve::{Links, Postures, Screws, Solved};
+use crate::numbers::{BLOCK, Float, Plane, Planes, Real, Vector, Work, lanes_of, put, vector};
 
 /// Multiple of the deciding case's index in a state: the flags are below it.
 pub(in crate::kernel::lanes) const CASE: u32 = 1024;

@@ -1,7 +1,7 @@
 //! Compliance of the TCP in one lane: `A = sum c_i v_i v_i^T` for forces, `D = sum c_i v_i z_i^T` for moments.
 
-use crate::kernel::lanes::numbers::{Real, Vector};
 use crate::kernel::lanes::solve::Screws;
+use crate::numbers::{Real, Vector};
 
 /// Displacement per force (symmetric: xx, xy, xz, yy, yz, zz) and, if requested, per moment (rows).
 #[derive(Clone, Copy)]

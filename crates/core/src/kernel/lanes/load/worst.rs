@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use crate::kernel::lanes::numbers::{BLOCK, Float, Plane, Planes, Real, Vector, planes, put, vector};
+use crate::numbers::{BLOCK, Float, Plane, Planes, Real, Vector, planes, put, vector};
 
 /// The largest deviations of the cases so far, and the case that decides.
 #[derive(Clone, Debug)]

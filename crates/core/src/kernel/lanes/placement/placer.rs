@@ -20,9 +20,9 @@ use super::tally::{Lesser, Tallied, Tally};
 use super::weighed::{LargestOfEach, RowsOfEach};
 use crate::kernel::lanes::by_block::{Batch, FOUR, Scratch};
 use crate::kernel::lanes::geometry::{Arm, CosineLimits, Second, aim_still};
-use crate::kernel::lanes::numbers::{BLOCK, Backend, Planes, Precision, planes};
 use crate::kernel::path_on_part::{PartPlacement, PostureMargins, SpunPlacement, WrenchAxes};
 use crate::kernel::question::Question;
+use crate::numbers::{BLOCK, Backend, Planes, Precision, planes};
 use crate::robot::inverse::OrthoParallel;
 use crate::spatial::Wrench;
 

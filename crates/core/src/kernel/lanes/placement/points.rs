@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::kernel::lanes::numbers::{BLOCK, Float, Planes, planes};
 use crate::kernel::path_on_part::{PathWrenches, PlacedPoint, WrenchAxes};
+use crate::numbers::{BLOCK, Float, Planes, planes};
 use crate::spatial::Wrench;
 
 /// The points of a path in planes, and their wrenches.

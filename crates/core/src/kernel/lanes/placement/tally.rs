@@ -1,7 +1,7 @@
 //! Totals of a posture over the points of a path: unreachable points, the largest deviation, sums.
 
-use crate::kernel::lanes::numbers::{BLOCK, Float, Plane, Real, Work};
 use crate::kernel::lanes::solve::{Postures, flag};
+use crate::numbers::{BLOCK, Float, Plane, Real, Work};
 
 /// Totals of a posture, plain and with the wrist flipped, over the points.
 #[derive(Clone, Copy, Debug, Default)]

@@ -7,8 +7,8 @@ use nalgebra::Matrix3;
 
 use crate::kernel::lanes::geometry::{Aims, Prepared, aim};
 use crate::kernel::lanes::load::Flexibility;
-use crate::kernel::lanes::numbers::{BLOCK, Float, Plane, Planes, Real, Vector, Work, lanes_of, put, vector};
 use crate::kernel::lanes::solve::{Links, Postures, Screws, Solved};
+use crate::numbers::{BLOCK, Float, Plane, Planes, Real, Vector, Work, lanes_of, put, vector};
 
 /// Rows of the compliance along the directions of each point, arm axes.
 pub(super) struct RowsOfEach<'a, T, const STILL: bool, const MOMENTS: bool> {

@@ -11,7 +11,7 @@
 //! One division serves both quotients. Source: as there.
 
 use crate::kernel::lanes::geometry::{Aims, Arm, Prepared, aim};
-use crate::kernel::lanes::numbers::{BLOCK, Float, Plane, Planes, Real, Vector, Work, planes, put};
+use crate::numbers::{BLOCK, Float, Plane, Planes, Real, Vector, Work, planes, put};
 use crate::robot::inverse::two_links::NEAR_SINGULAR;
 
 /// A posture. Finite for every aim; valid only where the flags allow it.

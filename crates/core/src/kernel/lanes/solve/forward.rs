@@ -3,7 +3,7 @@
 use super::closed_form::{Links, Solved};
 use super::screws::Screws;
 use crate::kernel::lanes::geometry::{Aim, BaseAxes, Prepared};
-use crate::kernel::lanes::numbers::{BLOCK, Float, Planes, Real, Vector, Work, lanes_of, put, sin_cos};
+use crate::numbers::{BLOCK, Float, Planes, Real, Vector, Work, lanes_of, put, sin_cos};
 
 /// Planes of a pose: rotation row by row, then position.
 pub(in crate::kernel::lanes) const POSE: usize = 12;

@@ -2,7 +2,7 @@
 
 use super::closed_form::{Postures, Solved, flag, flagged, turned};
 use crate::kernel::lanes::geometry::{Aim, Aims, CosineLimits, aim};
-use crate::kernel::lanes::numbers::{BLOCK, Float, Real, Vector, Work};
+use crate::numbers::{BLOCK, Float, Real, Vector, Work};
 
 /// [`CosineLimits`] in every lane.
 #[derive(Clone, Copy)]

@@ -4,7 +4,7 @@
 
 use super::closed_form::{Links, Postures, Solved, flag, flagged};
 use crate::kernel::lanes::geometry::{Aims, JointRow, Prepared, aim};
-use crate::kernel::lanes::numbers::{BLOCK, Float, Plane, Planes, Real, Work, atan2, planes};
+use crate::numbers::{BLOCK, Float, Plane, Planes, Real, Work, atan2, planes};
 
 /// Joint positions and their margins to the limits; of each pair first the posture not flipped, then the flipped one.
 #[derive(Clone, Debug)]

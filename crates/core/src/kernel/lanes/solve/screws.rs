@@ -4,7 +4,7 @@
 
 use super::closed_form::{Links, Solved};
 use crate::kernel::lanes::geometry::Aim;
-use crate::kernel::lanes::numbers::{Real, Vector};
+use crate::numbers::{Real, Vector};
 
 /// Linear parts `v_i = z_i x (p - o_i)` and axes `z_i`; number 5 times the sine of the wrist's bend.
 #[derive(Clone, Copy)]

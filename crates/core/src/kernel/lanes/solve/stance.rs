@@ -4,7 +4,7 @@ use super::closed_form::{Links, Postures, Solved};
 use super::positions::Positions;
 use super::screws::Screws;
 use crate::kernel::lanes::geometry::{Aims, Prepared, aim};
-use crate::kernel::lanes::numbers::{BLOCK, Float, Plane, Planes, Real, Work, put};
+use crate::numbers::{BLOCK, Float, Plane, Planes, Real, Work, put};
 
 /// Details of the postures of a block.
 #[derive(Clone, Debug)]

@@ -14,7 +14,7 @@ use super::model::ModelConstants;
 use super::parts::PartPlanes;
 use super::sum::StillPlanes;
 use crate::kernel::lanes::load::{CaseLanes, Worst};
-use crate::kernel::lanes::numbers::{BLOCK, Float, Plane, Planes, Real, Vector, Work, put, vector};
+use crate::numbers::{BLOCK, Float, Plane, Planes, Real, Vector, Work, put, vector};
 
 /// Takes the deviation of one case (base) into the worst so far.
 pub(in crate::kernel::lanes) struct TakeCase<'a, T> {

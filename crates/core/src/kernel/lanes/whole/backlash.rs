@@ -17,9 +17,7 @@ use super::chain::FramePlanes;
 use super::model::ModelConstants;
 use super::parts::PartPlanes;
 use crate::kernel::lanes::load::Worst;
-use crate::kernel::lanes::numbers::{
-    BLOCK, Backend, Float, Plane, Planes, Real, Vector, Work, planes, put, vector,
-};
+use crate::numbers::{BLOCK, Backend, Float, Plane, Planes, Real, Vector, Work, planes, put, vector};
 use crate::source::backlash::NO_TORQUE;
 use crate::spatial::Wrench;
 

@@ -3,9 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use crate::frame::Isometry;
-use crate::kernel::lanes::numbers::{
-    BLOCK, Float, Plane, Planes, Real, Vector, Work, planes, put, sin_cos, vector,
-};
+use crate::numbers::{BLOCK, Float, Plane, Planes, Real, Vector, Work, planes, put, sin_cos, vector};
 use crate::robot::{Chain, Motion, Robot};
 
 /// A frame in base at each point: its three axes, then its origin (m).

@@ -12,8 +12,8 @@ use super::chain::FramePlanes;
 use super::model::ModelConstants;
 use super::parts::{PartPlanes, ResponsePlanes};
 use crate::kernel::lanes::load::Worst;
-use crate::kernel::lanes::numbers::{BLOCK, Float, Plane, Planes, Real, Vector, Work, vector};
 use crate::load::InputUncertainty;
+use crate::numbers::{BLOCK, Float, Plane, Planes, Real, Vector, Work, vector};
 
 /// Adds the variance by load and tool, m^2; moments act only if `MOMENTS`.
 pub(in crate::kernel::lanes) struct AddInputs<'a, T, const MOMENTS: bool> {

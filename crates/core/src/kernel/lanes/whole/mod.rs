@@ -18,8 +18,8 @@ mod sum;
 use nalgebra::Vector3;
 
 use crate::kernel::lanes::load::Worst;
-use crate::kernel::lanes::numbers::{BLOCK, Backend, Plane, Planes, planes};
 use crate::load::InputUncertainty;
+use crate::numbers::{BLOCK, Backend, Plane, Planes, planes};
 use crate::source::Arm;
 use crate::spatial::Wrench;
 use answer::{FindShares, TakeCase, TakeRoot};

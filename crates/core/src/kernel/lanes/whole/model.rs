@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, Vector3};
 use super::backlash::{GapConstants, MOST_GAPS};
 use super::chain::{ChainConstants, Displacement, FramePlanes};
 use super::parts::PartPlanes;
-use crate::kernel::lanes::numbers::Planes;
+use crate::numbers::Planes;
 use crate::robot::{Attachment, BacklashSide, JointCompliance};
 use crate::source::{Arm, ArmState, Contributor};
 use crate::spatial::Twist;

@@ -12,7 +12,7 @@ use nalgebra::Vector3;
 
 use super::chain::FramePlanes;
 use super::model::{Group, ModelConstants};
-use crate::kernel::lanes::numbers::{BLOCK, Float, Plane, Planes, Real, Vector, Work, planes, put, vector};
+use crate::numbers::{BLOCK, Float, Plane, Planes, Real, Vector, Work, planes, put, vector};
 
 /// A drive or spring at each point: its screw at the TCP (base), and the torque of gravity on it, N m (N).
 #[derive(Clone, Debug)]

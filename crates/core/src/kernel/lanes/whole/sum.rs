@@ -6,7 +6,7 @@ use super::chain::FramePlanes;
 use super::model::ModelConstants;
 use super::parts::ResponsePlanes;
 use crate::kernel::lanes::load::{CaseLanes, Worst};
-use crate::kernel::lanes::numbers::{BLOCK, Float, Plane, Planes, Real, Vector, Work, put, vector};
+use crate::numbers::{BLOCK, Float, Plane, Planes, Real, Vector, Work, put, vector};
 use crate::spatial::Wrench;
 
 /// Displacements of the tool without load, m, base.

@@ -2,6 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use super::super::super::unreachable::Unreachable;
 use super::super::two_links::NEAR_SINGULAR;
 use super::*;
 use crate::arms::Stream;
@@ -17,6 +18,16 @@ fn turned(axis: Axis, angle: f64) -> Motion {
 
 fn joint(axis: Axis, index: usize) -> Motion {
     Motion::About(axis, Amount::Joint(index))
+}
+
+/// Chain positions of one branch.
+fn positions(
+    form: &ClosedForm,
+    pose: &Isometry,
+    branch: Branch,
+    near: Option<&[f64; 6]>,
+) -> Result<([f64; 6], Option<Singularity>), Unreachable> {
+    form.eight_branches(pose, branch.into(), near).get(branch)
 }
 
 const A1: f64 = 0.15;
@@ -135,10 +146,10 @@ fn the_ideal_neighbour_of_an_ideal_arm_is_the_arm_itself() {
             for branch in Branch::ALL {
                 // The elbow of the neighbour is limited to 2.6 deg from the end of its range: it answers beyond it as
                 // well.
-                if let Ok((own, _)) = form.chain_positions(&pose, branch, None)
+                if let Ok((own, _)) = positions(&form, &pose, branch, None)
                     && (own[2] + bend_at_zero).sin().abs() > 0.05
                 {
-                    let (its, _) = next.chain_positions(&pose, branch, None).unwrap();
+                    let (its, _) = positions(&next, &pose, branch, None).unwrap();
                     assert!(same(&own, &its, 1e-9), "{branch}: {own:?} {its:?}");
                 }
             }
@@ -154,7 +165,7 @@ fn the_requested_branch_is_returned() {
         for (theta, pose) in poses(&chain, 200) {
             let own = form.name(&theta).0;
             for branch in Branch::ALL {
-                let Ok((found, singularity)) = form.chain_positions(&pose, branch, None) else {
+                let Ok((found, singularity)) = positions(&form, &pose, branch, None) else {
                     continue;
                 };
                 if singularity.is_none() {
@@ -198,7 +209,7 @@ fn postures_do_not_depend_on_joint_coordinates() {
             let reversed = [0; 6].map(|_| stream.next() < 0.5);
             let other = ClosedForm::recognise(&recounted(&chain, &zeros, &reversed)).unwrap();
             let all = |form: &ClosedForm| -> Vec<[f64; 6]> {
-                let of = |branch| form.chain_positions(&pose, branch, None).ok();
+                let of = |branch| positions(form, &pose, branch, None).ok();
                 Branch::ALL
                     .into_iter()
                     .filter_map(of)
@@ -246,9 +257,7 @@ fn singularities_are_flagged_at_nine_tenths_of_their_bound_and_not_at_eleven() {
             assert_eq!(flagged(theta), expected(Singularity::Shoulder));
             // The inverse reports the same for the same posture.
             let (branch, _) = form.name(&theta);
-            let (_, given) = form
-                .chain_positions(&chain.base_from_flange(&theta), branch, None)
-                .unwrap();
+            let (_, given) = positions(&form, &chain.base_from_flange(&theta), branch, None).unwrap();
             assert_eq!(given, expected(Singularity::Shoulder));
         }
     }
@@ -261,10 +270,10 @@ fn at_a_straight_wrist_joint_4_stays_or_shares_the_turn_evenly() {
     let theta = [0.3, 0.2, -0.5, 0.7, 0.0, -0.1];
     let pose = chain.base_from_flange(&theta);
     let branch = form.name(&theta).0;
-    let (kept, singularity) = form.chain_positions(&pose, branch, Some(&theta)).unwrap();
+    let (kept, singularity) = positions(&form, &pose, branch, Some(&theta)).unwrap();
     assert_eq!(singularity, Some(Singularity::Wrist));
     assert!(same(&kept, &theta, 1e-8), "{kept:?}");
-    let (shared, _) = form.chain_positions(&pose, branch, None).unwrap();
+    let (shared, _) = positions(&form, &pose, branch, None).unwrap();
     assert!(
         (shared[3] - 0.3).abs() < 1e-8 && (shared[5] - 0.3).abs() < 1e-8,
         "{shared:?}"
@@ -277,14 +286,14 @@ fn a_wrist_centre_out_of_reach_misses_by_the_distance() {
     let form = ClosedForm::recognise(&chain).unwrap();
     // The stretched arm, level, and 50 mm more; the flange is 100 mm before the wrist.
     let level = Isometry::translation(A1 + L2 + L3 + 0.1 + 0.05, 0.0, 0.4);
-    let miss = form.chain_positions(&level, Branch::ALL[0], None).unwrap_err();
+    let miss = positions(&form, &level, Branch::ALL[0], None).unwrap_err();
     assert!(
         matches!(miss, Unreachable::TooFar { by } if (by - 0.05).abs() < 1e-12),
         "{miss}"
     );
     // The folded arm stays 40 mm from the shoulder: here the wrist is 10 mm above it.
     let folded = Isometry::translation(A1 + 0.1, 0.0, 0.41);
-    let miss = form.chain_positions(&folded, Branch::ALL[0], None).unwrap_err();
+    let miss = positions(&form, &folded, Branch::ALL[0], None).unwrap_err();
     assert!(
         matches!(miss, Unreachable::TooNear { by } if (by - 0.03).abs() < 1e-12),
         "{miss}"
@@ -307,7 +316,7 @@ fn a_neighbour_answers_slightly_beyond_the_reach() {
     let next = ClosedForm::next_to(&chain).unwrap();
     let at = |beyond: f64| {
         let level = Isometry::translation(A1 + L2 + L3 + 0.1 + beyond, 0.0, 0.4);
-        next.chain_positions(&level, Branch::ALL[0], None)
+        positions(&next, &level, Branch::ALL[0], None)
     };
     assert!(at(2e-4).is_ok());
     assert!(matches!(at(5e-3), Err(Unreachable::TooFar { .. })));

@@ -1,26 +1,33 @@
 //! The postures of one robot at one pose after the other, with reused memory.
 //!
-//! Closed forms give each branch at once; a calibrated arm takes them as starts; those without names for their branches
-//! are in `unnamed`. Other chains are searched from starts spread over the ranges of their joints, or from the
-//! postures of the pose before, in `search`. All work in chain positions; the conversion to joint positions and the
-//! verification by forward kinematics are in one place.
+//! Closed forms give the eight branches at once, verified in `eight`; a calibrated arm takes them as starts; those
+//! without names for their branches are in `unnamed`. Other chains are searched from starts spread over the ranges of
+//! their joints, or from the postures of the pose before, in `search`. All work in chain positions; `positions` converts
+//! them to joint positions.
 
+mod eight;
+mod positions;
 mod search;
 mod unnamed;
 
 use std::f64::consts::TAU;
 
+use nalgebra::Point3;
+
 use super::super::branch::{Branch, BranchPattern};
 use super::super::chain::{Amount, Chain, Motion};
-use super::super::forward::{Frames, forward_into};
+use super::super::forward::{Frames, forward_into, tool_at};
+use super::super::jacobian::screws_at;
 use super::super::model::Robot;
-use super::super::posture::{PostureName, Sides, Singularity};
+use super::super::posture::{Posture, PostureName, Sides, Singularity};
 use super::super::unreachable::Unreachable;
 use super::closed_form::ClosedForm;
 use super::descent::{Descent, Goal};
 use super::kind::Inverse;
-use super::verify::verify;
+use super::verify::{Requested, verify};
 use crate::frame::Isometry;
+use eight::{ChainPositions, EightPostures};
+pub(crate) use positions::WholeTurns;
 
 /// Maximum number of postures of one pose: a general arm of six revolute joints has up to 16.
 const MOST: usize = 16;
@@ -58,8 +65,14 @@ pub struct Finder<'r> {
     robot: &'r Robot,
     arm: Arm<'r>,
     frames: Frames,
-    descent: Descent,
+    /// Set by the first search.
+    descent: Option<Descent>,
+    eight: EightPostures,
     found: Vec<InverseSolution>,
+    /// Whether the postures found are lanes of `eight`.
+    at_once: bool,
+    /// Memory for joint positions.
+    spare: Vec<Vec<f64>>,
     /// Of each posture found: chain positions of the arm, kept for the pose that follows.
     before: Vec<Vec<f64>>,
     home: Vec<f64>,
@@ -104,8 +117,11 @@ impl<'r> Finder<'r> {
             robot,
             arm,
             frames: Frames::for_robot(robot),
-            descent: Descent::new(arm.chain),
+            descent: None,
+            eight: EightPostures::with_rail(arm.first),
             found: Vec::with_capacity(8),
+            at_once: false,
+            spare: Vec::new(),
             before: Vec::new(),
             home: vec![0.0; robot.joints().len()],
             fixed: None,
@@ -145,7 +161,8 @@ impl<'r> Finder<'r> {
         pattern: BranchPattern,
         most: usize,
     ) -> Result<&[InverseSolution], Unreachable> {
-        self.found.clear();
+        self.at_once = matches!(self.arm.inverse, Inverse::Closed(_));
+        self.spare.extend(self.found.drain(..).map(|found| found.joints));
         self.settle_home(expected);
         let arm_from_flange = self.base_from_arm().inv_mul(&expected.base_from_flange);
         let missed = match self.arm.inverse {
@@ -193,6 +210,42 @@ impl<'r> Finder<'r> {
             .collect()
     }
 
+    /// [`Finder::chain_positions`] of an arm with six joints.
+    fn six_chain_positions(&self, q: &[f64]) -> [f64; 6] {
+        std::array::from_fn(|i| self.robot.theta(self.arm.first + i, q))
+    }
+
+    /// All properties of the posture found at `index`, which is left without its joint positions; the screws are those
+    /// at `tcp` (m, base).
+    pub(super) fn take_posture(
+        &mut self,
+        index: usize,
+        tcp: &Point3<f64>,
+        flange_from_tool: &Isometry,
+    ) -> Posture {
+        let found = &mut self.found[index];
+        let (flange, screws) = match found.name.branch().filter(|_| self.at_once) {
+            Some(branch) => {
+                let (forward, lane) = (self.eight.forward(), branch.index());
+                let screws = forward.screws(self.robot.chain(), lane, tcp);
+                (forward.flange_of(lane), screws)
+            }
+            None => {
+                forward_into(self.robot, &found.joints, &mut self.frames);
+                let screws = screws_at(self.robot, &self.frames, tcp);
+                (self.frames.base_from_flange, screws)
+            }
+        };
+        Posture {
+            name: found.name,
+            joints: std::mem::take(&mut found.joints),
+            base_from_tool: tool_at(&flange, flange_from_tool),
+            screws,
+            singularity: found.singularity,
+        }
+    }
+
+    /// The branches of a closed form: all at once, one lane each.
     fn branches(
         &mut self,
         form: &ClosedForm,
@@ -200,15 +253,34 @@ impl<'r> Finder<'r> {
         arm_from_flange: &Isometry,
         pattern: BranchPattern,
     ) -> Option<Unreachable> {
-        let near = expected.near.map(|q| self.chain_positions(q));
+        let near = expected.near.map(|q| self.six_chain_positions(q));
+        let branches = form.eight_branches(arm_from_flange, pattern, near.as_ref());
+        if branches.outcomes.iter().any(Result::is_ok) {
+            let from = ChainPositions {
+                theta: &branches.theta,
+                rail: &self.home[..self.arm.first],
+                near: expected.near,
+            };
+            self.eight
+                .find(self.robot, &from, &Requested::new(&expected.base_from_flange));
+        }
         let mut missed: Option<Unreachable> = None;
         for branch in Branch::ALL.into_iter().filter(|branch| pattern.matches(*branch)) {
-            let solved = form.chain_positions(arm_from_flange, branch, near.as_deref());
-            let kept = solved.and_then(|(theta, singularity)| {
-                self.keep(expected, &theta, PostureName::Branch(branch), singularity)
-            });
-            if let Err(miss) = kept {
-                missed = Some(nearer(missed, miss));
+            let lane = branch.index();
+            let reached = branches.outcomes[lane];
+            match reached.and_then(|singularity| self.eight.verify(lane).map(|()| singularity)) {
+                Ok(singularity) => {
+                    let mut joints = self.spare.pop().unwrap_or_default();
+                    joints.clear();
+                    joints.extend_from_slice(&self.home[..self.arm.first]);
+                    joints.extend_from_slice(&self.eight.joints(lane));
+                    self.found.push(InverseSolution {
+                        name: PostureName::Branch(branch),
+                        joints,
+                        singularity,
+                    });
+                }
+                Err(miss) => missed = Some(nearer(missed, miss)),
             }
         }
         missed
@@ -223,7 +295,9 @@ impl<'r> Finder<'r> {
         arm_from_flange: &Isometry,
         pattern: BranchPattern,
     ) -> Option<Unreachable> {
-        let near = expected.near.map(|q| self.chain_positions(q));
+        let near = expected.near.map(|q| self.six_chain_positions(q));
+        let any = BranchPattern::default();
+        let branches = form.eight_branches(arm_from_flange, any, near.as_ref());
         let goal = Goal::new(arm_from_flange);
         let mut missed: Option<Unreachable> = None;
         // Requested branches first: usually they make the others unnecessary.
@@ -235,9 +309,9 @@ impl<'r> Finder<'r> {
             if !pattern.matches(*branch) && !renamed {
                 break;
             }
-            let solved = form.chain_positions(arm_from_flange, *branch, near.as_deref());
-            let kept = solved.and_then(|(mut theta, _)| {
-                self.descent.reach(self.arm.chain, &goal, &mut theta)?;
+            let kept = branches.get(*branch).and_then(|(mut theta, _)| {
+                let (descent, chain) = self.descent();
+                descent.reach(chain, &goal, &mut theta)?;
                 let (own, singularity) = form.name(&theta);
                 renamed |= own != *branch;
                 if self.is_known(&theta, SAME) {
@@ -261,6 +335,12 @@ impl<'r> Finder<'r> {
         self.found
             .retain(|found| found.name.branch().is_some_and(|branch| pattern.matches(branch)));
         missed
+    }
+
+    /// The searches of the arm, and its chain.
+    fn descent(&mut self) -> (&mut Descent, &'r Chain) {
+        let chain = self.arm.chain;
+        (self.descent.get_or_insert_with(|| Descent::new(chain)), chain)
     }
 
     /// Whether these chain positions, whole turns apart, have been found already.
@@ -289,7 +369,8 @@ impl<'r> Finder<'r> {
                 (PostureName::Branch(branch), singularity)
             }
             None => {
-                let dependent = self.descent.dependent(self.arm.chain, theta);
+                let (descent, chain) = self.descent();
+                let dependent = descent.dependent(chain, theta);
                 (
                     PostureName::Sides(Sides::default()),
                     dependent.then_some(Singularity::Dependent),
@@ -334,26 +415,11 @@ impl<'r> Finder<'r> {
             joints[joint] = if self.robot.slides(joint) {
                 position
             } else {
-                whole_turns(self.robot, joint, position, near)
+                WholeTurns::of(self.robot, joint, near).applied(position)
             };
         }
         joints
     }
-}
-
-/// The position (rad) of a revolute joint, by whole turns as near as possible to the previous one within its limits,
-/// otherwise to the middle of its range. An ortho-parallel arm always takes the middle, as its lanes do.
-pub(crate) fn whole_turns(robot: &Robot, joint: usize, position: f64, near: Option<&[f64]>) -> f64 {
-    let limits = robot.joints()[joint].limits;
-    if let Some(near) = near
-        && robot.ortho_parallel().is_none()
-    {
-        let close = nearest_turn(position, near[joint]);
-        if limits.is_none_or(|limits| limits.margin(close) >= 0.0) {
-            return close;
-        }
-    }
-    nearest_turn(position, limits.map_or(0.0, |limits| limits.middle()))
 }
 
 /// Name of the posture at the joint positions `q`, and the singularity that it is near, if any.
@@ -379,13 +445,6 @@ fn sides(robot: &Robot, q: &[f64]) -> PostureName {
 /// The smaller miss.
 fn nearer(known: Option<Unreachable>, miss: Unreachable) -> Unreachable {
     known.filter(|known| !miss.is_nearer_than(known)).unwrap_or(miss)
-}
-
-/// `angle` plus whole turns, in (middle - pi, middle + pi].
-fn nearest_turn(angle: f64, middle: f64) -> f64 {
-    let away = (angle - middle) / TAU;
-    // Slightly below -half a turn is half a turn: -180 deg and 180 deg are one posture.
-    angle - TAU * (away - 0.5 - 1e-12).ceil()
 }
 
 #[cfg(test)]

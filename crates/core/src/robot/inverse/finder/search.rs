@@ -75,10 +75,11 @@ impl Finder<'_> {
     }
 
     fn descend(&mut self, goal: &Goal, home: &[f64], theta: &mut [f64]) -> Result<(), Unreachable> {
+        let (descent, chain) = self.descent();
         if theta.len() > ENOUGH {
-            self.descent.reach_near(self.arm.chain, goal, home, theta)
+            descent.reach_near(chain, goal, home, theta)
         } else {
-            self.descent.reach(self.arm.chain, goal, theta)
+            descent.reach(chain, goal, theta)
         }
     }
 

@@ -201,22 +201,6 @@ fn whole_turns_are_chosen_near_the_previous_joint_position() {
 }
 
 #[test]
-fn the_nearest_turn_is_within_half_a_turn_and_half_a_turn_is_positive() {
-    let mut stream = Stream(45);
-    for _ in 0..500 {
-        let (angle, middle) = (stream.between(-20.0, 20.0), stream.between(-3.0, 3.0));
-        let turned = nearest_turn(angle, middle);
-        assert!((-PI - 1e-11..=PI + 1e-11).contains(&(turned - middle)));
-        assert!((0.5 * (turned - angle)).sin().abs() < 1e-14);
-    }
-    // -180 deg, 180 deg, and values next to them, are one posture.
-    for angle in [-PI, PI, -PI - 1e-13, PI - 1e-13, -PI + 1e-13] {
-        assert!((nearest_turn(angle, 0.0) - PI).abs() < 1e-11, "{angle}");
-    }
-    assert!(nearest_turn(-PI + 1e-9, 0.0) < 0.0);
-}
-
-#[test]
 fn out_of_reach_names_the_branch_that_misses_by_least() {
     let robot = arms::mh12();
     let mut finder = Finder::new(&robot);
@@ -262,5 +246,91 @@ fn frames_that_miss_their_pose_are_refused() {
             let turn = Isometry::rotation(nalgebra::Vector3::x() * angle);
             assert!(verify(&frames, &(pose * turn)).is_err(), "{angle}");
         }
+    }
+}
+
+#[test]
+fn the_properties_of_a_posture_found_are_those_at_its_joint_positions() {
+    let mut stream = Stream(47);
+    let arms = [
+        arms::mh12(),
+        arms::hung(),
+        other::ur10e(),
+        other::on_rail(&arms::r2000ic()),
+        other::calibrated(&arms::mh12(), 5e-4),
+    ];
+    let tool = arms::bent_tool();
+    for robot in arms {
+        let mut finder = Finder::new(&robot);
+        for _ in 0..20 {
+            let q = stream.joints(&robot);
+            let expected = InverseTarget {
+                home: Some(&q),
+                ..expected(&robot, &q, Some(&q))
+            };
+            let tcp = (expected.base_from_flange * tool).translation.vector.into();
+            let count = finder.all(&expected).unwrap_or_default().len();
+            assert!(count > 0, "{}", robot.name());
+            for index in 0..count {
+                let posture = finder.take_posture(index, &tcp, &tool);
+                let frames = crate::robot::forward::forward(&robot, &posture.joints);
+                let own = tool_at(&frames.base_from_flange, &tool).to_homogeneous();
+                // Rounding of some ten turns and metres.
+                assert!((posture.base_from_tool.to_homogeneous() - own).amax() < 1e-14);
+                for (a, b) in screws_at(&robot, &frames, &tcp).iter().zip(&posture.screws) {
+                    let apart = (a.to_vector() - b.to_vector()).amax();
+                    assert!(apart < 1e-14, "{}: {apart}", robot.name());
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn eight_at_once_are_the_postures_one_by_one() {
+    let mut stream = Stream(48);
+    let arms = arms::all().into_iter().chain([
+        other::ur10e(),
+        other::on_rail(&arms::kr120()),
+        other::on_rail(&other::ur10e()),
+    ]);
+    for robot in arms {
+        let mut finder = Finder::new(&robot);
+        for round in 0..20 {
+            let q = stream.joints(&robot);
+            let near = (round % 2 == 1).then(|| stream.joints(&robot));
+            let expected = InverseTarget {
+                home: Some(&q),
+                ..expected(&robot, &q, near.as_deref())
+            };
+            let all = finder.all(&expected).unwrap_or_default().to_vec();
+            let one_by_one = Finder::new(&robot).all_one_by_one(&expected);
+            assert_eq!(all.len(), one_by_one.len(), "{}", robot.name());
+            for (a, b) in all.iter().zip(&one_by_one) {
+                assert_eq!((a.name, a.singularity), (b.name, b.singularity));
+                let apart = a.joints.iter().zip(&b.joints).map(|(a, b)| (a - b).abs());
+                assert!(apart.fold(0.0, f64::max) < 1e-13, "{}: {a:?} {b:?}", robot.name());
+            }
+        }
+    }
+}
+
+impl Finder<'_> {
+    /// The branches of a closed form, each converted to joint positions and verified by itself.
+    fn all_one_by_one(&mut self, expected: &InverseTarget<'_>) -> Vec<InverseSolution> {
+        self.settle_home(expected);
+        let Inverse::Closed(form) = self.arm.inverse else {
+            return Vec::new();
+        };
+        let arm_from_flange = self.base_from_arm().inv_mul(&expected.base_from_flange);
+        let near = expected.near.map(|q| self.six_chain_positions(q));
+        let branches = form.eight_branches(&arm_from_flange, BranchPattern::default(), near.as_ref());
+        for branch in Branch::ALL {
+            if let Ok((theta, singularity)) = branches.get(branch) {
+                self.keep(expected, &theta, PostureName::Branch(branch), singularity)
+                    .unwrap();
+            }
+        }
+        self.found.clone()
     }
 }

@@ -37,7 +37,8 @@ impl Finder<'_> {
         let kept = near.and_then(|theta| theta.try_into().ok());
         let goal = Goal::new(arm_from_flange);
         for mut theta in form.chain_positions(arm_from_flange, kept.as_ref()) {
-            if self.descent.reach(self.arm.chain, &goal, &mut theta).is_ok() {
+            let (descent, chain) = self.descent();
+            if descent.reach(chain, &goal, &mut theta).is_ok() {
                 self.take(requested, &theta);
             }
         }
@@ -85,11 +86,11 @@ impl Finder<'_> {
         let goal = Goal::new(target.arm_from_flange);
         let six = form.chain_positions(target.arm_from_flange, kept.as_ref());
         let mut all: Vec<[f64; 7]> = six.iter().map(|six| target.fixed.with(angle, six)).collect();
+        let (descent, chain) = self.descent();
         all.retain_mut(|theta| {
-            let reached = self
-                .descent
-                .reach_with_fixed(self.arm.chain, &goal, target.fixed.joint, theta);
-            reached.is_ok()
+            descent
+                .reach_with_fixed(chain, &goal, target.fixed.joint, theta)
+                .is_ok()
         });
         all
     }

@@ -24,8 +24,41 @@ enum Instructions {
     Neon,
 }
 
+impl Instructions {
+    /// Those that the target may have, slowest first.
+    const ALL: &[Instructions] = &[
+        Instructions::Scalar,
+        Instructions::Baseline,
+        #[cfg(target_arch = "x86_64")]
+        Instructions::Avx2,
+        #[cfg(target_arch = "x86_64")]
+        Instructions::Avx512,
+        #[cfg(target_arch = "aarch64")]
+        Instructions::Neon,
+    ];
+
+    /// Whether this machine has them.
+    #[inline]
+    fn are_here(self) -> bool {
+        match self {
+            Instructions::Scalar | Instructions::Baseline => true,
+            #[cfg(target_arch = "x86_64")]
+            Instructions::Avx2 => is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma"),
+            #[cfg(target_arch = "x86_64")]
+            Instructions::Avx512 => {
+                is_x86_feature_detected!("avx512f")
+                    && is_x86_feature_detected!("avx512dq")
+                    && is_x86_feature_detected!("avx512vl")
+                    && is_x86_feature_detected!("fma")
+            }
+            #[cfg(target_arch = "aarch64")]
+            Instructions::Neon => true,
+        }
+    }
+}
+
 /// A loop over one block, compiled once for each back end.
-pub(in crate::kernel::lanes) trait Work<T: Float> {
+pub(crate) trait Work<T: Float> {
     /// Does it. Must be `#[inline(always)]`, and so must all that it calls, for the back end's instructions to
     /// be used; a closure does not inherit them.
     fn run<R: Real<Float = T>>(self);
@@ -59,28 +92,19 @@ impl Backend {
 
     /// All that this machine has, slowest first.
     pub fn available() -> Vec<Backend> {
-        let mut found = vec![Instructions::Scalar, Instructions::Baseline];
-        #[cfg(target_arch = "x86_64")]
-        {
-            if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
-                found.push(Instructions::Avx2);
-            }
-            if is_x86_feature_detected!("avx512f")
-                && is_x86_feature_detected!("avx512dq")
-                && is_x86_feature_detected!("avx512vl")
-                && is_x86_feature_detected!("fma")
-            {
-                found.push(Instructions::Avx512);
-            }
-        }
-        #[cfg(target_arch = "aarch64")]
-        found.push(Instructions::Neon);
-        found.into_iter().map(Backend).collect()
+        Instructions::ALL
+            .iter()
+            .filter(|instructions| instructions.are_here())
+            .map(|instructions| Backend(*instructions))
+            .collect()
     }
 
     /// The fastest that this machine has.
+    #[inline]
     pub fn fastest() -> Backend {
-        Backend::available().pop().unwrap_or(Backend::SCALAR)
+        let mut fastest_first = Instructions::ALL.iter().rev();
+        let found = fastest_first.find(|instructions| instructions.are_here());
+        found.map_or(Backend::SCALAR, |instructions| Backend(*instructions))
     }
 
     /// Whether it rounds a product and a sum once: all that do give the same bits.
@@ -90,11 +114,11 @@ impl Backend {
 
     /// Runs `work` with these instructions.
     #[allow(unsafe_code)]
-    pub(in crate::kernel::lanes) fn run<T: Precision>(self, work: impl Work<T>) {
+    pub(crate) fn run<T: Precision>(self, work: impl Work<T>) {
         match self.0 {
             Instructions::Scalar => work.run::<T::Alone>(),
             Instructions::Baseline => work.run::<T::Plain>(),
-            // SAFETY: only `available` makes this value, after finding AVX2 and FMA on this machine.
+            // SAFETY: only `available` and `fastest` make this value, after finding AVX2 and FMA on this machine.
             #[cfg(target_arch = "x86_64")]
             Instructions::Avx2 => unsafe { on_avx2(work) },
             // SAFETY: the same, after finding AVX-512 F, DQ, VL and FMA.

@@ -6,7 +6,7 @@ use super::real::Real;
 
 /// A vector in the arm's axes.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::kernel::lanes) struct Vector<R> {
+pub(crate) struct Vector<R> {
     pub x: R,
     pub y: R,
     pub z: R,

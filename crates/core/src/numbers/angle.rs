@@ -59,7 +59,7 @@ fn polynomial<R: Real, const N: usize>(x: R, coefficients: [f64; N]) -> R {
 
 /// The angle of the vector (`x`, `y`), rad, in [-pi, pi]; zero where it has no length.
 #[inline(always)]
-pub(in crate::kernel::lanes) fn atan2<R: Real>(y: R, x: R) -> R {
+pub(crate) fn atan2<R: Real>(y: R, x: R) -> R {
     use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
     let zero = R::of(0.0);
     let (ax, ay) = (x.abs(), y.abs());
@@ -79,7 +79,7 @@ pub(in crate::kernel::lanes) fn atan2<R: Real>(y: R, x: R) -> R {
 
 /// Sine and cosine of `angle` (rad).
 #[inline(always)]
-pub(in crate::kernel::lanes) fn sin_cos<R: Real>(angle: R) -> (R, R) {
+pub(crate) fn sin_cos<R: Real>(angle: R) -> (R, R) {
     let quarters = (angle * R::of(std::f64::consts::FRAC_2_PI)).round();
     let x = (-quarters).mul_add(R::of(QUARTER[0]), angle);
     let x = (-quarters).mul_add(R::of(QUARTER[1]), x);

@@ -9,13 +9,12 @@
 //! | [`Plain`] | rounded twice | SSE2, or whatever the target has at least |
 //! | [`Alone`] | rounded twice, never vectorised | scalar |
 //! | [`Fused`] | rounded once | AVX2, AVX-512, NEON |
+//! | `f64` | rounded twice | none: a number by itself |
 //!
 //! A comparison gives a `bool`; [`Real::either`] takes one of two values by it without a branch.
 
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
-
-use crate::robot::inverse::two_links::WRIST_SINGULAR;
 
 /// What a block stores: `f64` or `f32`.
 pub trait Float: Copy + Debug + Default + PartialOrd + Send + Sync + 'static {
@@ -42,11 +41,11 @@ pub trait Float: Copy + Debug + Default + PartialOrd + Send + Sync + 'static {
 
 impl Float for f64 {
     const ROUNDER: f64 = 6_755_399_441_055_744.0;
-    const NOTHING: f64 = WRIST_SINGULAR * WRIST_SINGULAR;
+    const NOTHING: f64 = 1e-18;
     const LEAST: f64 = 1e-300;
     const VERIFIED: f64 = 1e-9;
     const HALF_TURN_SLACK: f64 = 1e-12;
-    const AT_LIMIT: f64 = crate::kernel::AT_LIMIT;
+    const AT_LIMIT: f64 = 1e-9;
 
     fn from_f64(value: f64) -> f64 {
         value
@@ -141,7 +140,7 @@ pub trait Real:
 
 /// Six numbers in every lane.
 #[inline(always)]
-pub(in crate::kernel::lanes) fn lanes_of<R: Real>(values: &[f64; 6]) -> [R; 6] {
+pub(crate) fn lanes_of<R: Real>(values: &[f64; 6]) -> [R; 6] {
     let [a, b, c, d, e, f] = *values;
     [R::of(a), R::of(b), R::of(c), R::of(d), R::of(e), R::of(f)]
 }
@@ -222,6 +221,31 @@ macro_rules! real {
             }
         }
     };
+}
+
+/// A number by itself, for formulas that lanes share with code for one posture.
+impl Real for f64 {
+    type Float = f64;
+    #[inline(always)]
+    fn load(stored: f64) -> f64 {
+        stored
+    }
+    #[inline(always)]
+    fn store(self) -> f64 {
+        self
+    }
+    #[inline(always)]
+    fn mul_add(self, a: f64, b: f64) -> f64 {
+        self * a + b
+    }
+    #[inline(always)]
+    fn sqrt(self) -> f64 {
+        f64::sqrt(self)
+    }
+    #[inline(always)]
+    fn abs(self) -> f64 {
+        f64::abs(self)
+    }
 }
 
 real!(Plain, f64, |x, a, b| x * a + b, ());

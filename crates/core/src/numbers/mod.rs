@@ -1,0 +1,24 @@
+//! The numbers that lanes compute with, and the instructions that do it. Lanes are points of a block in the kernel, and
+//! the eight branches of one pose in the inverse kinematics.
+//!
+//! In reading order: `real` (a number of one lane), `vector` (three of them), `angle` (arc tangent, sine and cosine),
+//! `block` (planes of numbers, one value per point), `eight` (one value per branch), `backend` (the instruction set, chosen at run time).
+
+mod angle;
+mod backend;
+mod block;
+mod eight;
+mod real;
+mod vector;
+
+pub use backend::{Backend, Precision};
+pub use real::{Float, Real};
+
+pub(crate) use angle::{atan2, sin_cos};
+pub(crate) use backend::Work;
+pub(crate) use block::{BLOCK, Plane, Planes, fill, planes, put, vector};
+pub(crate) use eight::{Eight, put_eight, vector_of_eight};
+pub(crate) use real::lanes_of;
+#[cfg(test)]
+pub(crate) use real::{Alone, Fused, Plain};
+pub(crate) use vector::Vector;
