@@ -93,10 +93,10 @@ impl Answers {
         let (joint_count, case_count) = (question.arm.robot.joints().len(), question.cases.len());
         let share_count = detail.contributors(question).len();
         Answers {
-            points: filled(UNANSWERED, count),
-            joints: filled(0.0, count * joint_count),
-            deviations: filled(Vector3::zeros(), count * case_count),
-            shares: filled(0.0, count * share_count),
+            points: filled(|| UNANSWERED, count),
+            joints: filled(|| 0.0, count * joint_count),
+            deviations: filled(Vector3::zeros, count * case_count),
+            shares: filled(|| 0.0, count * share_count),
             joint_count,
             case_count,
             share_count,
@@ -196,21 +196,13 @@ impl Answers {
     }
 }
 
-/// `count` times this value, written by all threads: the system provides memory at the first write to it, which takes
+/// `count` times one value, written by all threads: the system provides memory at the first write to it, which takes
 /// longer than the write.
-fn filled<T: Copy + Send + Sync>(value: T, count: usize) -> Vec<T> {
-    /// Values that are written as one.
-    const RUN: usize = 8;
-    /// Runs for one thread, at least.
-    const RUNS: usize = 512;
-    if count <= RUN * RUNS {
-        return vec![value; count];
-    }
-    let runs = (0..count.div_ceil(RUN)).into_par_iter().with_min_len(RUNS);
-    let runs: Vec<[T; RUN]> = runs.map(|_| [value; RUN]).collect();
-    let mut values = runs.into_flattened();
-    values.truncate(count);
-    values
+fn filled<T: Send>(value: impl Fn() -> T + Sync, count: usize) -> Vec<T> {
+    /// Values of one thread, at least.
+    const TOGETHER: usize = 4096;
+    let indices = (0..count).into_par_iter().with_min_len(TOGETHER);
+    indices.map(|_| value()).collect()
 }
 
 /// Value of a point before it is answered.

@@ -2,6 +2,8 @@
 //!
 //! A block does not depend on other blocks, except along a path: every thread gives the same bits.
 
+use nalgebra::Vector3;
+
 use super::answer::{AnswerDetail, Slot, Slots};
 use super::general::General;
 use super::lanes::{Backend, POINTS, Points, WholeModel};
@@ -82,27 +84,33 @@ impl<'q> Solver<'q> {
         if self.order == Order::Any || self.question.choice == BranchChoice::Best {
             self.general.forget();
         }
-        for i in 0..count {
+        let decided = match &self.lanes {
+            Some(lanes) => lanes.write(&mut slots),
+            None => [false; BLOCK],
+        };
+        for (i, decided) in decided.into_iter().enumerate().take(count) {
+            if decided && self.order == Order::Any {
+                continue;
+            }
             let Slot {
                 point,
                 joints,
                 deviations,
                 shares,
             } = slots.at(i);
-            let in_lanes = self
-                .lanes
-                .as_ref()
-                .and_then(|lanes| Some((lanes, lanes.evaluation(i)?)));
-            *point = match in_lanes {
-                Some((lanes, evaluation)) => {
-                    lanes.write(i, joints, deviations, shares);
-                    Ok(evaluation)
-                }
-                None => self
+            if !decided {
+                *point = self
                     .general
-                    .answer(self.question, &self.poses[i], self.before.as_deref())
-                    .inspect(|_| self.general.write(joints, deviations, shares)),
-            };
+                    .answer(self.question, &self.poses[i], self.before.as_deref());
+                match point {
+                    Ok(_) => self.general.write(joints, deviations, shares),
+                    Err(_) => {
+                        joints.fill(0.0);
+                        deviations.fill(Vector3::zeros());
+                        shares.fill(0.0);
+                    }
+                }
+            }
             if self.order == Order::AlongPath && point.is_ok() {
                 match &mut self.before {
                     Some(before) => before.copy_from_slice(joints),

@@ -5,16 +5,17 @@ use nalgebra::Vector3;
 use super::aimed::SolvedBlock;
 use super::batch::Batch;
 use super::posture_signs::FOUR;
+use super::written::SolvedAnswers;
 use crate::frame::{Isometry, both_across};
-use crate::kernel::answer::{ALIKE, AT_LIMIT, Evaluation};
-use crate::kernel::lanes::geometry::{Second, UNLIMITED};
+use crate::kernel::answer::{ALIKE, AT_LIMIT, Slots};
+use crate::kernel::lanes::geometry::Second;
 use crate::kernel::lanes::load::{OneCase, Shares, Worst};
 use crate::kernel::lanes::numbers::{BLOCK, Backend, Plane, Planes, planes};
 use crate::kernel::lanes::solve::{FindStances, Preference, Stances, flag};
 use crate::kernel::lanes::whole::{WholeAnswers, WholeModel};
 use crate::kernel::question::{BranchChoice, Question};
 use crate::robot::inverse::OrthoParallel;
-use crate::robot::{Branch, BranchPattern, Elbow, PostureName, Shoulder, Singularity, Wrist};
+use crate::robot::{Branch, BranchPattern, Wrist};
 
 /// Points in a block.
 pub(in crate::kernel) const POINTS: usize = BLOCK;
@@ -94,7 +95,7 @@ impl<'q> Points<'q> {
         }
     }
 
-    /// Computes the answers at these poses, at most [`POINTS`]; read them with [`Points::evaluation`].
+    /// Computes the answers at these poses, at most [`POINTS`]; [`Points::write`] copies them.
     pub fn solve(&mut self, poses: &[Isometry]) {
         self.batch.aim_at(poses);
         let preference = match self.question.choice {
@@ -142,75 +143,31 @@ impl<'q> Points<'q> {
         model.answer(self.question.cases, plane, &self.question.uncertainty, answers);
     }
 
-    /// The answer at point `index` of the block; `None` where lanes cannot decide.
-    pub fn evaluation(&self, index: usize) -> Option<Evaluation> {
-        let Room {
-            stances,
-            chosen,
-            score,
-            worst,
-            uncertainty,
-            ..
-        } = &*self.room;
+    /// Fills the slots of the solved points. Returns for each point whether lanes decide it; slots of the other points
+    /// have no evaluation and unspecified numbers.
+    pub fn write(&self, slots: &mut Slots<'_>) -> [bool; POINTS] {
+        let room = &*self.room;
         let (worst, uncertainty) = match &self.whole {
             Some(whole) => (&whole.answers.worst, &whole.answers.uncertainty),
-            None => (worst, uncertainty),
+            None => (&room.worst, &room.uncertainty),
+        };
+        let (deviations, shares) = match &self.whole {
+            Some(whole) => (&whole.answers.deviations, whole.answers.shares.as_slice()),
+            None => (&room.deviations, room.shares.as_slice()),
         };
         let SolvedBlock { postures, .. } = self.batch.solved();
-        let flags = postures.flags[index] as u32;
-        let undecided =
-            flags & (flag::UNREACHABLE | flag::WRIST_UNDECIDED) != 0 || score[index].is_infinite();
-        // The envelope tested the limits by cosines; exactly at a limit the angles may differ.
-        let at_the_edge = self.question.choice == BranchChoice::Best && stances.room[index] < -AT_LIMIT;
-        if undecided || at_the_edge {
-            return None;
-        }
-        let structure = &self.question.arm.model.structure;
-        let common = match self.whole {
-            Some(_) => 0.0,
-            None => structure
-                .repeatability
-                .hypot(structure.model_error * worst.in_plane[index]),
+        let solved = SolvedAnswers {
+            flags: &postures.flags,
+            stances: &room.stances,
+            chosen: &room.chosen,
+            score: &room.score,
+            worst,
+            uncertainty,
+            deviations,
+            shares,
+            inside_limits: self.question.choice == BranchChoice::Best,
         };
-        let limited = stances.room[index] < 0.5 * UNLIMITED;
-        Some(Evaluation {
-            name: PostureName::Branch(branch(chosen, &stances.flip, index)),
-            limit_margin: if limited {
-                stances.room[index]
-            } else {
-                f64::INFINITY
-            },
-            limit_joint: if limited { stances.joint[index] as usize } else { 0 },
-            singularity: singularity(flags),
-            worst_case: worst.case[index] as usize,
-            in_plane: worst.in_plane[index],
-            in_plane_uncertainty: uncertainty[index].hypot(common),
-            normal: worst.normal[index],
-            full: worst.full[index],
-        })
-    }
-
-    /// Copies joint positions, deviations and shares of point `index`.
-    pub fn write(
-        &self,
-        index: usize,
-        joints: &mut [f64],
-        deviations: &mut [Vector3<f64>],
-        shares: &mut [f64],
-    ) {
-        for (joint, plane) in joints.iter_mut().zip(&self.room.stances.joints) {
-            *joint = plane[index];
-        }
-        let (of_cases, of_contributors) = match &self.whole {
-            Some(whole) => (&whole.answers.deviations, whole.answers.shares.as_slice()),
-            None => (&self.room.deviations, self.room.shares.as_slice()),
-        };
-        for (deviation, [x, y, z]) in deviations.iter_mut().zip(of_cases) {
-            *deviation = Vector3::new(x[index], y[index], z[index]);
-        }
-        for (share, plane) in shares.iter_mut().zip(of_contributors) {
-            *share = plane[index];
-        }
+        solved.write(slots)
     }
 
     /// Selects, of the postures inside limits, the first with the smallest envelope of the whole model. Points where a
@@ -421,37 +378,5 @@ fn preference(pattern: BranchPattern) -> Preference {
             plain: 0.0,
             flipped: 0.0,
         },
-    }
-}
-
-fn branch(signs: &Planes<f64, 2>, flip: &Plane<f64>, index: usize) -> Branch {
-    Branch {
-        shoulder: if signs[0][index] > 0.0 {
-            Shoulder::Front
-        } else {
-            Shoulder::Back
-        },
-        elbow: if signs[1][index] > 0.0 {
-            Elbow::Up
-        } else {
-            Elbow::Down
-        },
-        wrist: if flip[index] > 0.0 {
-            Wrist::Flip
-        } else {
-            Wrist::NoFlip
-        },
-    }
-}
-
-fn singularity(flags: u32) -> Option<Singularity> {
-    if flags & flag::NEAR_WRIST != 0 {
-        Some(Singularity::Wrist)
-    } else if flags & flag::NEAR_ELBOW != 0 {
-        Some(Singularity::Elbow)
-    } else if flags & flag::NEAR_SHOULDER != 0 {
-        Some(Singularity::Shoulder)
-    } else {
-        None
     }
 }

@@ -8,7 +8,8 @@ use crate::kernel::lanes::geometry::{BaseAxes, Prepared};
 use crate::kernel::lanes::numbers::{BLOCK, Float, Plane, Planes, Real, Vector, Work, lanes_of, put, vector};
 use crate::kernel::lanes::solve::Stances;
 
-/// The largest deviations of the cases so far, and the case that decides.
+/// The largest deviations of the cases so far, and the case that decides; `in_plane` and `full` are squares until the last
+/// case is taken.
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 pub(in crate::kernel::lanes) struct Worst<T> {
@@ -44,6 +45,7 @@ impl<T: Float, const MOMENTS: bool> Work<T> for OneCase<'_, T, MOMENTS> {
         let (first, second, normal) = (Vector::of(first), Vector::of(second), Vector::of(normal));
         // Nothing is smaller in size than the first case's.
         let start = R::of(if self.case == 0 { -1.0 } else { 0.0 });
+        let last = self.case + 1 == self.prepared.cases.len();
         let worst = self.worst;
         for i in 0..BLOCK {
             R::step();
@@ -62,16 +64,18 @@ impl<T: Float, const MOMENTS: bool> Work<T> for OneCase<'_, T, MOMENTS> {
             put(self.deviation, i, base.of(delta));
 
             let (a, b, n) = (delta.dot(first), delta.dot(second), delta.dot(normal));
-            let in_plane = a.mul_add(a, b * b).sqrt();
-            let full = n.mul_add(n, in_plane * in_plane).sqrt();
+            let in_plane = a.mul_add(a, b * b);
+            let full = n.mul_add(n, in_plane);
             let begin = start < zero;
             let most = R::either(begin, start, R::load(worst.in_plane[i]));
             let more = in_plane > most;
-            worst.in_plane[i] = R::either(more, in_plane, most).store();
+            let most = R::either(more, in_plane, most);
+            worst.in_plane[i] = if last { most.sqrt() } else { most }.store();
             worst.case[i] = R::either(more, index, R::load(worst.case[i])).store();
             let normal_so_far = R::either(begin, zero, R::load(worst.normal[i]));
             worst.normal[i] = R::either(n.abs() > normal_so_far.abs(), n, normal_so_far).store();
-            worst.full[i] = full.max(R::either(begin, zero, R::load(worst.full[i]))).store();
+            let full = full.max(R::either(begin, zero, R::load(worst.full[i])));
+            worst.full[i] = if last { full.sqrt() } else { full }.store();
             let components = vector_2::<R>(&worst.components, i);
             worst.components[0][i] = R::either(more, a, components[0]).store();
             worst.components[1][i] = R::either(more, b, components[1]).store();
@@ -115,6 +119,8 @@ impl<T: Float, const MOMENTS: bool> Work<T> for Shares<'_, T, MOMENTS> {
         let uncertainty = lanes_of::<R>(&self.prepared.uncertainty);
         let [first, second, _] = &self.prepared.plane;
         let (first, second) = (Vector::<R>::of(first), Vector::<R>::of(second));
+        let model_error = R::of(self.prepared.model_error);
+        let scatter = R::of(self.prepared.repeatability * self.prepared.repeatability);
         for i in 0..BLOCK {
             R::step();
             let (zero, one) = (R::of(0.0), R::of(1.0));
@@ -124,7 +130,8 @@ impl<T: Float, const MOMENTS: bool> Work<T> for Shares<'_, T, MOMENTS> {
             let [a, b] = vector_2::<R>(&self.worst.components, i);
             let along = second.mul_add(b * per_length, first.scaled(a * per_length));
             let force = vector::<R>(&self.worst.wrench[0..3], i);
-            let mut variance = zero;
+            let missed = model_error * in_plane;
+            let mut variance = missed.mul_add(missed, scatter);
             let mut k = 0;
             while k < 6 {
                 let v = vector::<R>(&self.stances.linear[3 * k..3 * k + 3], i);
