@@ -106,7 +106,7 @@ mod tests {
             let text = format!(
                 r##"<svg xmlns="http://www.w3.org/2000/svg" width="8" height="5">{ground}<rect x="2" y="1" width="3" height="3" fill="#102030"/></svg>"##
             );
-            let bytes = super::png(&text, 1.0).expect("a small picture");
+            let bytes = png(&text, 1.0).expect("a small picture");
             let decoded = tiny_skia::Pixmap::decode_png(&bytes).expect("our own PNG");
             let mut drawn = tiny_skia::Pixmap::new(8, 5).expect("a few pixels");
             let tree = read(&text).expect("SVG");
