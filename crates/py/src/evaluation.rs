@@ -1,12 +1,11 @@
 //! The class `Evaluation`: one posture for each of many poses, and the deviation of the tool there.
 
-use std::mem;
 use std::slice;
 
-use armill_core::kernel::{Answers, BranchChoice, Question, evaluate as evaluate_points};
+use armill_core::kernel::{Answers, BranchChoice, Evaluation, Question, evaluate as evaluate_points};
 use armill_core::load::InputUncertainty;
 use armill_core::nalgebra::{Unit, Vector3};
-use armill_core::robot::{JointCompliance, PostureName, Unreachable};
+use armill_core::robot::{JointCompliance, PostureName, Singularity, Unreachable};
 use armill_core::source::Arm;
 use armill_core::spatial::Wrench;
 use armill_core::watch::{Cancelled, Watch};
@@ -189,70 +188,91 @@ struct Shape {
 
 impl PoseEvaluations {
     /// The answers at consecutive poses, with NaN at those that are unreachable.
-    fn of(mut stretches: Vec<Answers>, shape: Shape) -> PoseEvaluations {
-        let of_axes = |rest: &[usize]| [&*shape.axes, rest].concat();
-        let mut found = PoseEvaluations {
-            reachable: Stored::new(of_axes(&[]), Vec::new()),
-            within_limits: Stored::new(of_axes(&[]), Vec::new()),
-            worst_case: Stored::new(of_axes(&[]), Vec::new()),
-            joints: Stored::new(of_axes(&[shape.dof]), Vec::new()),
-            deviation: Stored::new(of_axes(&[&*shape.case_axes, &[3]].concat()), Vec::new()),
-            in_plane: Stored::new(of_axes(&[]), Vec::new()),
-            in_plane_uncertainty: Stored::new(of_axes(&[]), Vec::new()),
-            normal_deviation: Stored::new(of_axes(&[]), Vec::new()),
-            magnitude: Stored::new(of_axes(&[]), Vec::new()),
-            contributions: Stored::new(of_axes(&[shape.contributors]), Vec::new()),
-            branch: Words::Found(Vec::new()),
-            singularity: Words::Found(Vec::new()),
-            reason: Words::Found(Vec::new()),
-        };
-        let (mut branches, mut singularities, mut reasons) = (Vec::new(), Vec::new(), Vec::new());
-        for stretch in &mut stretches {
-            let widths = [stretch.joint_count, 3 * stretch.case_count, stretch.share_count];
-            let (mut joints, mut shares) = (mem::take(&mut stretch.joints), mem::take(&mut stretch.shares));
-            let mut deviations: Vec<f64> = stretch.deviations.iter().flat_map(|d| d.data.0[0]).collect();
-            for (i, point) in stretch.points.iter().enumerate() {
-                let reached = point.as_ref().ok();
-                let number = |of: fn(&armill_core::kernel::Evaluation) -> f64| reached.map_or(f64::NAN, of);
-                found.reachable.values.push(reached.is_some());
-                found
-                    .within_limits
-                    .values
-                    .push(reached.is_some_and(armill_core::kernel::Evaluation::within_limits));
-                found
-                    .worst_case
-                    .values
-                    .push(reached.map_or(-1, |point| point.worst_case as i64));
-                found.in_plane.values.push(number(|point| point.in_plane));
-                found
-                    .in_plane_uncertainty
-                    .values
-                    .push(number(|point| point.in_plane_uncertainty));
-                found.normal_deviation.values.push(number(|point| point.normal));
-                found.magnitude.values.push(number(|point| point.full));
-                branches.push(reached.map(|point| point.name));
-                singularities.push(reached.and_then(|point| Some(point.singularity?.word())));
-                reasons.push(point.as_ref().err().copied());
-                if reached.is_none() {
-                    let all = [&mut joints, &mut deviations, &mut shares];
-                    for (numbers, width) in all.into_iter().zip(widths) {
-                        numbers[i * width..][..width].fill(f64::NAN);
-                    }
-                }
-            }
-            let all = [&mut found.joints, &mut found.deviation, &mut found.contributions];
-            for (stored, numbers) in all.into_iter().zip([joints, deviations, shares]) {
-                if stored.values.is_empty() {
-                    stored.values = numbers;
-                } else {
-                    stored.values.extend(numbers);
-                }
+    fn of(stretches: Vec<Answers>, shape: Shape) -> PoseEvaluations {
+        let Joined {
+            points,
+            mut joints,
+            mut deviations,
+            mut shares,
+        } = Joined::of(stretches);
+        let missed = points.iter().enumerate().filter(|(_, point)| point.is_err());
+        for (i, _) in missed {
+            for numbers in [&mut joints, &mut deviations, &mut shares] {
+                let width = numbers.len() / points.len();
+                numbers[i * width..][..width].fill(f64::NAN);
             }
         }
-        found.branch = Words::Found(branches);
-        found.singularity = Words::Found(singularities);
-        found.reason = Words::Found(reasons);
-        found
+        let stored = |rest: &[usize], values| Stored::new([&*shape.axes, rest].concat(), values);
+        let flags = |of: fn(&Evaluation) -> bool| Stored::new(shape.axes.clone(), each(&points, of, false));
+        let numbers = |of: fn(&Evaluation) -> f64| stored(&[], each(&points, of, f64::NAN));
+        PoseEvaluations {
+            reachable: flags(|_| true),
+            within_limits: flags(Evaluation::within_limits),
+            worst_case: Stored::new(
+                shape.axes.clone(),
+                each(&points, |point| point.worst_case as i64, -1),
+            ),
+            in_plane: numbers(|point| point.in_plane),
+            in_plane_uncertainty: numbers(|point| point.in_plane_uncertainty),
+            normal_deviation: numbers(|point| point.normal),
+            magnitude: numbers(|point| point.full),
+            joints: stored(&[shape.dof], joints),
+            deviation: stored(&[&*shape.case_axes, &[3]].concat(), deviations),
+            contributions: stored(&[shape.contributors], shares),
+            branch: Words::Found(each(&points, |point| Some(point.name), None)),
+            singularity: Words::Found(each(
+                &points,
+                |point| point.singularity.map(Singularity::word),
+                None,
+            )),
+            reason: Words::Found(points.into_par_iter().map(Result::err).collect()),
+        }
+    }
+}
+
+/// The value of each point; `missed` where it is unreachable.
+fn each<T: Copy + Send + Sync>(
+    points: &[Result<Evaluation, Unreachable>],
+    value: impl Fn(&Evaluation) -> T + Sync,
+    missed: T,
+) -> Vec<T> {
+    /// Points of one thread, at least.
+    const TOGETHER: usize = 4096;
+    let points = points.par_iter().with_min_len(TOGETHER);
+    points
+        .map(|point| point.as_ref().map_or(missed, &value))
+        .collect()
+}
+
+/// All answers in one array each, as [`Answers`] has them.
+#[derive(Default)]
+struct Joined {
+    points: Vec<Result<Evaluation, Unreachable>>,
+    joints: Vec<f64>,
+    deviations: Vec<f64>,
+    shares: Vec<f64>,
+}
+
+impl Joined {
+    /// The first answers are not copied: mostly there are no others.
+    fn of(stretches: Vec<Answers>) -> Joined {
+        let mut stretches = stretches.into_iter().map(|answers| {
+            let deviations: Vec<[f64; 3]> = answers.deviations.into_iter().map(Into::into).collect();
+            Joined {
+                points: answers.points,
+                joints: answers.joints,
+                deviations: deviations.into_flattened(),
+                shares: answers.shares,
+            }
+        });
+        let mut joined = stretches.next().unwrap_or_default();
+        for more in stretches {
+            joined.points.extend(more.points);
+            joined.joints.extend(more.joints);
+            joined.deviations.extend(more.deviations);
+            joined.shares.extend(more.shares);
+        }
+        joined
     }
 }
 

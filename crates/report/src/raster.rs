@@ -38,9 +38,30 @@ pub fn png(svg: &str, scale: f64) -> Result<Vec<u8>, ReportError> {
         tiny_skia::Pixmap::new(width_px.round() as u32, height_px.round() as u32).ok_or_else(size_error)?;
     let transform = tiny_skia::Transform::from_scale(scale as f32, scale as f32);
     resvg::render(&tree, transform, &mut pixels.as_mut());
-    pixels.encode_png().map_err(|e| ReportError::Encoding {
+    encoded(&pixels).map_err(|e| ReportError::Encoding {
         reason: e.to_string(),
     })
+}
+
+/// The pixels as PNG; without alpha where all are opaque, as in every picture of this crate.
+fn encoded(pixels: &tiny_skia::Pixmap) -> Result<Vec<u8>, png::EncodingError> {
+    /// Takes a sixth of the time of the default, for a third more bytes.
+    const LEVEL: png::DeflateCompression = png::DeflateCompression::Level(1);
+    if pixels.pixels().iter().any(|pixel| !pixel.is_opaque()) {
+        return pixels.encode_png();
+    }
+    let mut colours = vec![0; 3 * pixels.pixels().len()];
+    for (colour, pixel) in colours.chunks_exact_mut(3).zip(pixels.data().chunks_exact(4)) {
+        colour.copy_from_slice(&pixel[..3]);
+    }
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, pixels.width(), pixels.height());
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_deflate_compression(LEVEL);
+    encoder.set_filter(png::Filter::Up);
+    encoder.write_header()?.write_image_data(&colours)?;
+    Ok(bytes)
 }
 
 /// The picture as resvg sees it, with the embedded fonts.
@@ -77,6 +98,23 @@ mod tests {
                 .last()
                 .map_or(0.0, |node| node.abs_bounding_box().right()),
         )
+    }
+
+    #[test]
+    fn a_png_has_the_pixels_of_the_picture_with_and_without_alpha() {
+        for ground in ["", r##"<rect width="8" height="5" fill="#fff"/>"##] {
+            let text = format!(
+                r##"<svg xmlns="http://www.w3.org/2000/svg" width="8" height="5">{ground}<rect x="2" y="1" width="3" height="3" fill="#102030"/></svg>"##
+            );
+            let bytes = png(&text, 1.0).expect("a small picture");
+            let decoded = tiny_skia::Pixmap::decode_png(&bytes).expect("our own PNG");
+            let mut drawn = tiny_skia::Pixmap::new(8, 5).expect("a few pixels");
+            let tree = read(&text).expect("SVG");
+            resvg::render(&tree, tiny_skia::Transform::identity(), &mut drawn.as_mut());
+            assert_eq!(decoded, drawn);
+            let transparent = drawn.pixels().iter().any(|pixel| !pixel.is_opaque());
+            assert_eq!(transparent, ground.is_empty());
+        }
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Results at every point.
 
 use nalgebra::{Unit, Vector3};
+use rayon::prelude::*;
 
 use super::question::Question;
 use crate::numbers::Float;
@@ -90,17 +91,33 @@ impl Answers {
     /// Allocates the answers of `question` at this number of points, all unanswered; without shares where these are not
     /// requested.
     pub(super) fn new(question: &Question<'_>, count: usize, detail: AnswerDetail) -> Answers {
+        let mut answers = Answers::with_capacity(question, count, detail);
+        answers.grow(count);
+        answers
+    }
+
+    /// No answers yet, and memory for those of `question` at this number of points.
+    pub(super) fn with_capacity(question: &Question<'_>, count: usize, detail: AnswerDetail) -> Answers {
         let (joint_count, case_count) = (question.arm.robot.joints().len(), question.cases.len());
         let share_count = detail.contributors(question).len();
+        keep_when_freed(count * Answers::bytes_per_point(joint_count, share_count, case_count));
         Answers {
-            points: vec![UNANSWERED; count],
-            joints: vec![0.0; count * joint_count],
-            deviations: vec![Vector3::zeros(); count * case_count],
-            shares: vec![0.0; count * share_count],
+            points: Vec::with_capacity(count),
+            joints: Vec::with_capacity(count * joint_count),
+            deviations: Vec::with_capacity(count * case_count),
+            shares: Vec::with_capacity(count * share_count),
             joint_count,
             case_count,
             share_count,
         }
+    }
+
+    /// Adds this number of points, unanswered.
+    pub(super) fn grow(&mut self, count: usize) {
+        fill(&mut self.points, || UNANSWERED, count);
+        fill(&mut self.joints, || 0.0, count * self.joint_count);
+        fill(&mut self.deviations, Vector3::zeros, count * self.case_count);
+        fill(&mut self.shares, || 0.0, count * self.share_count);
     }
 
     /// Joins the answers to one question at consecutive stretches of points; at least one.
@@ -129,13 +146,18 @@ impl Answers {
         }
     }
 
-    /// Output slots, in blocks of this number of points.
+    /// Output slots of all points, in blocks of this number.
     pub(super) fn blocks(&mut self, size: usize) -> Vec<Slots<'_>> {
+        self.blocks_from(0, size)
+    }
+
+    /// Output slots of the points from `first` on, in blocks of this number.
+    pub(super) fn blocks_from(&mut self, first: usize, size: usize) -> Vec<Slots<'_>> {
         let mut rest = Slots {
-            points: &mut self.points,
-            joints: &mut self.joints,
-            deviations: &mut self.deviations,
-            shares: &mut self.shares,
+            points: &mut self.points[first..],
+            joints: &mut self.joints[first * self.joint_count..],
+            deviations: &mut self.deviations[first * self.case_count..],
+            shares: &mut self.shares[first * self.share_count..],
         };
         let mut blocks = Vec::with_capacity(rest.points.len().div_ceil(size));
         while !rest.points.is_empty() {
@@ -194,6 +216,25 @@ impl Answers {
             .enumerate()
             .filter_map(|(i, point)| Some((i, point.as_ref().ok()?)))
     }
+}
+
+/// Makes the memory allocator keep this number of bytes, up to a limit, when they are freed: to get them from the system
+/// again, page by page, takes several times as long as the answers that are written to them. The C library of Linux
+/// gives back what is more than twice the largest block freed so far, which is less than the arrays of [`Answers`]
+/// together; here a block of their sum is freed. It is never written, so it takes no memory.
+fn keep_when_freed(bytes: usize) {
+    /// Larger blocks are always given back.
+    const LIMIT: usize = 31 << 20;
+    std::hint::black_box(Vec::<u8>::with_capacity(bytes.min(LIMIT)));
+}
+
+/// Adds `count` times one value, written by all threads: the system provides memory at the first write to it, which
+/// takes longer than the write.
+fn fill<T: Send>(values: &mut Vec<T>, value: impl Fn() -> T + Sync, count: usize) {
+    /// Values of one thread, at least.
+    const TOGETHER: usize = 4096;
+    let indices = (0..count).into_par_iter().with_min_len(TOGETHER);
+    values.par_extend(indices.map(|_| value()));
 }
 
 /// Value of a point before it is answered.

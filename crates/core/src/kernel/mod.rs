@@ -88,23 +88,32 @@ pub fn evaluate(
     base_from_tool: impl Fn(usize) -> Isometry + Sync,
     watch: Watch<'_>,
 ) -> Result<Answers, Cancelled> {
-    let mut answers = Answers::new(question, count, AnswerDetail::Shares);
-    let mut blocks = answers.blocks(BLOCK);
     // A single block is computed here: a hand-over to the pool would take longer than a point.
-    if blocks.len() == 1 {
+    if count <= BLOCK {
+        let mut answers = Answers::new(question, count, AnswerDetail::Shares);
         let mut solver = Solver::new(question, Order::Any, AnswerDetail::Shares);
-        for slots in blocks.drain(..) {
+        for slots in answers.blocks(BLOCK) {
             solver.answer(&base_from_tool, slots, watch)?;
         }
-        drop(blocks);
         return Ok(answers);
     }
-    blocks.into_par_iter().enumerate().try_for_each_init(
-        || Solver::new(question, Order::Any, AnswerDetail::Shares),
-        |solver, (block, slots)| solver.answer(|i| base_from_tool(block * BLOCK + i), slots, watch),
-    )?;
+    let mut answers = Answers::with_capacity(question, count, AnswerDetail::Shares);
+    let at_once = AT_ONCE * rayon::current_num_threads();
+    for first in (0..count).step_by(at_once) {
+        answers.grow(at_once.min(count - first));
+        let blocks = answers.blocks_from(first, BLOCK).into_par_iter().enumerate();
+        blocks.try_for_each_init(
+            || Solver::new(question, Order::Any, AnswerDetail::Shares),
+            |solver, (block, slots)| {
+                solver.answer(|i| base_from_tool(first + block * BLOCK + i), slots, watch)
+            },
+        )?;
+    }
     Ok(answers)
 }
+
+/// Points of each thread that are answered at once: their answers stay in its cache from the first write on.
+const AT_ONCE: usize = 100 * BLOCK;
 
 /// [`evaluate`] along a path: one block after the other, so that joint 4 keeps its position through a wrist
 /// singularity. Only for arms without backlash and geometry errors: links kept by friction are neglected.

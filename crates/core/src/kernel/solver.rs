@@ -60,21 +60,12 @@ impl<'q> Lanes<'q> {
         }
     }
 
-    /// The answer at point `index`, its values written; none where lanes cannot decide.
-    fn answer(
-        &self,
-        index: usize,
-        joints: &mut [f64],
-        deviations: &mut [Vector3<f64>],
-        shares: &mut [f64],
-    ) -> Option<Evaluation> {
+    /// Fills the slots of the solved points. Returns for each point whether lanes decide it; slots of the other points
+    /// have no evaluation and unspecified numbers.
+    fn write(&self, slots: &mut Slots<'_>) -> [bool; BLOCK] {
         match self {
-            Lanes::Drives(points) => points
-                .evaluation(index)
-                .inspect(|_| points.write(index, joints, deviations, shares)),
-            Lanes::Whole(points) => points
-                .evaluation(index)
-                .inspect(|_| points.write(index, joints, deviations, shares)),
+            Lanes::Drives(points) => points.write(slots),
+            Lanes::Whole(points) => points.write(slots),
         }
     }
 }
@@ -147,29 +138,37 @@ impl<'q> Solver<'q> {
         if self.order == Order::Any || self.question.choice == BranchChoice::Best {
             self.general.forget();
         }
-        for i in 0..count {
+        let decided = match &self.lanes {
+            Some(lanes) => lanes.write(&mut slots),
+            None => [false; BLOCK],
+        };
+        for (i, decided) in decided.into_iter().enumerate().take(count) {
+            if decided && self.order == Order::Any {
+                continue;
+            }
             let Slot {
                 point,
                 joints,
                 deviations,
                 shares,
             } = slots.at(i);
-            let in_lanes = self
-                .lanes
-                .as_ref()
-                .and_then(|lanes| lanes.answer(i, joints, deviations, shares));
-            *point = match in_lanes {
-                Some(mut evaluation) => {
-                    if let Some(before) = self.before.as_deref().filter(|_| self.follows) {
-                        follow(self.question.arm.robot, before, joints, &mut evaluation);
-                    }
-                    Ok(evaluation)
-                }
-                None => self
+            if !decided {
+                *point = self
                     .general
-                    .answer(self.question, &self.poses[i], self.before.as_deref())
-                    .inspect(|_| self.general.write(joints, deviations, shares)),
-            };
+                    .answer(self.question, &self.poses[i], self.before.as_deref());
+                match point {
+                    Ok(_) => self.general.write(joints, deviations, shares),
+                    Err(_) => {
+                        joints.fill(0.0);
+                        deviations.fill(Vector3::zeros());
+                        shares.fill(0.0);
+                    }
+                }
+            } else if let (Ok(evaluation), Some(before)) = (&mut *point, self.before.as_deref())
+                && self.follows
+            {
+                follow(self.question.arm.robot, before, joints, evaluation);
+            }
             if self.order == Order::AlongPath && point.is_ok() {
                 match &mut self.before {
                     Some(before) => before.copy_from_slice(joints),

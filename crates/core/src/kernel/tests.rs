@@ -134,6 +134,32 @@ fn work_ends_at_the_block_in_which_it_is_cancelled() {
 }
 
 #[test]
+fn many_points_have_the_bits_of_few_on_any_number_of_threads() {
+    const FEW: usize = 3 * BLOCK;
+    let robot = &arms::ALL[0];
+    let poses = poses(robot, FEW, 3);
+    // More than one piece of three threads, the last one and its last block not full.
+    let count = 3 * AT_ONCE + 5 * BLOCK + 7;
+    analysis(robot, StiffnessModel::DRIVES, BranchChoice::Best, |question| {
+        let few = evaluate(question, FEW, |i| poses[i], Watch::NONE).unwrap();
+        for threads in [1, 3] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+            let many = pool
+                .unwrap()
+                .install(|| evaluate(question, count, |i| poses[i % FEW], Watch::NONE))
+                .unwrap();
+            assert_eq!(many.points.len(), count);
+            for i in 0..count {
+                assert_eq!(many.points[i], few.points[i % FEW]);
+                assert_eq!(many.joints_at(i), few.joints_at(i % FEW));
+                assert_eq!(many.deviations_at(i), few.deviations_at(i % FEW));
+                assert_eq!(many.shares_at(i), few.shares_at(i % FEW));
+            }
+        }
+    });
+}
+
+#[test]
 fn points_in_order_and_in_any_order_agree_away_from_wrist_singularities() {
     let robot = &arms::ALL[4];
     let poses = poses(robot, 200, 2);

@@ -1,5 +1,7 @@
 //! A batch as whole answers use it: one block aimed at poses, solved as they choose, and looked into.
 
+use nalgebra::{Matrix3, UnitQuaternion};
+
 use super::batch::{Batch, Scratch};
 use crate::frame::Isometry;
 use crate::kernel::lanes::geometry::{Aims, Prepared};
@@ -11,6 +13,8 @@ impl Batch<f64> {
     pub(in crate::kernel::lanes) fn aim_at(&mut self, poses: &[Isometry]) {
         let mut places: Planes<f64, 3> = planes();
         let last = poses.last();
+        // Maps have one orientation.
+        let (mut rotation, mut rows) = (UnitQuaternion::identity(), Matrix3::identity());
         for (i, pose) in poses
             .iter()
             .chain(last.into_iter().cycle())
@@ -20,9 +24,12 @@ impl Batch<f64> {
             for (plane, value) in places.iter_mut().zip(pose.translation.vector.iter()) {
                 plane[i] = *value;
             }
-            // Columns of the transpose are rows of the rotation.
-            let rotation = pose.rotation.to_rotation_matrix().matrix().transpose();
-            for (plane, value) in self.scratch.rotations.iter_mut().zip(rotation.iter()) {
+            if pose.rotation.coords != rotation.coords {
+                // Columns of the transpose are rows of the rotation.
+                rows = pose.rotation.to_rotation_matrix().matrix().transpose();
+                rotation = pose.rotation;
+            }
+            for (plane, value) in self.scratch.rotations.iter_mut().zip(rows.iter()) {
                 plane[i] = *value;
             }
         }

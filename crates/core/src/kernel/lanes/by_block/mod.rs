@@ -1,7 +1,7 @@
 //! All stages for many poses, one block after the other.
 //!
 //! In reading order: `arrays` (input and output), `posture_signs` (the four postures), `batch` (entry point: a prepared
-//! question), `steps` (its stages, each on the current block); `aimed` and `points` (whole answers), `column` (every
+//! question), `steps` (its stages, each on the current block); `aimed`, `points` and `written` (whole answers), `column` (every
 //! posture under one load).
 
 mod aimed;
@@ -14,6 +14,7 @@ mod points;
 mod posture_signs;
 mod steps;
 mod whole_points;
+mod written;
 
 pub use arrays::{Arrays, Envelopes, Poses};
 pub use batch::Batch;

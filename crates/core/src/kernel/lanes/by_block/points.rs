@@ -1,20 +1,19 @@
 //! Whole answers of ortho-parallel arms whose model is the drives alone, a block of points at a time, for maps, volumes
 //! and paths.
 
-use nalgebra::Vector3;
-
 use super::aimed::SolvedBlock;
 use super::batch::Batch;
 use super::posture_signs::FOUR;
+use super::written::SolvedAnswers;
 use crate::frame::Isometry;
-use crate::kernel::answer::{AT_LIMIT, Evaluation};
-use crate::kernel::lanes::geometry::{Second, UNLIMITED};
+use crate::kernel::answer::{AT_LIMIT, Slots};
+use crate::kernel::lanes::geometry::Second;
 use crate::kernel::lanes::load::{OneCase, Shares, Worst};
 use crate::kernel::lanes::solve::{FindStances, Preference, Stances, flag};
 use crate::kernel::question::{BranchChoice, Question};
 use crate::numbers::{BLOCK, Backend, Plane, Planes, planes};
 use crate::robot::inverse::OrthoParallel;
-use crate::robot::{Branch, BranchPattern, Elbow, PostureName, Shoulder, Singularity, Wrist};
+use crate::robot::{Branch, BranchPattern, Elbow, Shoulder, Singularity, Wrist};
 
 /// Points in a block.
 pub(in crate::kernel) const POINTS: usize = BLOCK;
@@ -64,7 +63,7 @@ impl<'q> Points<'q> {
         }
     }
 
-    /// Computes the answers at these poses, at most [`POINTS`]; read them with [`Points::evaluation`].
+    /// Computes the answers at these poses, at most [`POINTS`]; [`Points::write`] copies them.
     pub fn solve(&mut self, poses: &[Isometry]) {
         self.batch.aim_at(poses);
         let preference = match self.question.choice {
@@ -86,64 +85,37 @@ impl<'q> Points<'q> {
         self.deviate();
     }
 
-    /// The answer at point `index` of the block; `None` where lanes cannot decide.
-    pub fn evaluation(&self, index: usize) -> Option<Evaluation> {
+    /// Fills the slots of the solved points. Returns for each point whether lanes decide it; slots of the other points
+    /// have no evaluation and unspecified numbers.
+    pub fn write(&self, slots: &mut Slots<'_>) -> [bool; POINTS] {
         let Room {
             stances,
             chosen,
             score,
             worst,
+            shares,
             uncertainty,
-            ..
+            deviations,
         } = &*self.room;
         let SolvedBlock { postures, .. } = self.batch.solved();
-        let flags = postures.flags[index] as u32;
-        let undecided =
-            flags & (flag::UNREACHABLE | flag::WRIST_UNDECIDED) != 0 || score[index].is_infinite();
-        // The envelope tested the limits by cosines; exactly at a limit the angles may differ.
-        let at_the_edge = self.question.choice == BranchChoice::Best && stances.room[index] < -AT_LIMIT;
-        if undecided || at_the_edge {
-            return None;
-        }
-        let structure = &self.question.arm.model.structure;
-        let common = structure
-            .repeatability
-            .hypot(structure.model_error * worst.in_plane[index]);
-        let limited = stances.room[index] < 0.5 * UNLIMITED;
-        Some(Evaluation {
-            name: PostureName::Branch(branch(chosen, &stances.flip, index)),
-            limit_margin: if limited {
-                stances.room[index]
-            } else {
-                f64::INFINITY
-            },
-            limit_joint: if limited { stances.joint[index] as usize } else { 0 },
-            singularity: singularity(flags),
-            worst_case: worst.case[index] as usize,
-            in_plane: worst.in_plane[index],
-            in_plane_uncertainty: uncertainty[index].hypot(common),
-            normal: worst.normal[index],
-            full: worst.full[index],
+        let solved = SolvedAnswers {
+            joints: &stances.joints,
+            margin: &stances.room,
+            nearest: &stances.joint,
+            worst,
+            uncertainty,
+            deviations,
+            shares,
+        };
+        let inside_limits = self.question.choice == BranchChoice::Best;
+        solved.write(slots, |i| {
+            let flags = postures.flags[i] as u32;
+            let unknown = flags & (flag::UNREACHABLE | flag::WRIST_UNDECIDED) != 0;
+            // The envelope tested the limits by cosines; exactly at a limit the angles may differ.
+            let at_the_edge = inside_limits && stances.room[i] < -AT_LIMIT;
+            let decided = !(unknown || at_the_edge || score[i].is_infinite());
+            decided.then(|| (branch(chosen, &stances.flip, i), singularity(flags)))
         })
-    }
-
-    /// Copies joint positions, deviations and shares of point `index`.
-    pub fn write(
-        &self,
-        index: usize,
-        joints: &mut [f64],
-        deviations: &mut [Vector3<f64>],
-        shares: &mut [f64],
-    ) {
-        for (joint, plane) in joints.iter_mut().zip(&self.room.stances.joints) {
-            *joint = plane[index];
-        }
-        for (deviation, [x, y, z]) in deviations.iter_mut().zip(&self.room.deviations) {
-            *deviation = Vector3::new(x[index], y[index], z[index]);
-        }
-        for (share, plane) in shares.iter_mut().zip(&self.room.shares) {
-            *share = plane[index];
-        }
     }
 
     /// Selects, of the postures inside limits, the one with the smallest envelope.

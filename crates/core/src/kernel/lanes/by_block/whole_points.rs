@@ -3,17 +3,14 @@
 
 use nalgebra::Vector3;
 
+use super::written::{NO_LIMIT, SolvedAnswers};
 use crate::frame::{Isometry, both_across};
-use crate::kernel::answer::{ALIKE, AT_LIMIT, AnswerDetail, Evaluation};
+use crate::kernel::answer::{ALIKE, AT_LIMIT, AnswerDetail, Slots};
 use crate::kernel::lanes::branches::{BranchPlanes, BranchSolver, find_missed, singularity, state};
-use crate::kernel::lanes::geometry::UNLIMITED;
 use crate::kernel::lanes::whole::{WholeAnswers, WholeModel};
 use crate::kernel::question::{BranchChoice, Question};
 use crate::numbers::{BLOCK, Backend, Plane};
-use crate::robot::{Branch, PostureName};
-
-/// Margins at least this large are those of joints without limits, rad.
-const NO_LIMIT: f64 = 0.5 * UNLIMITED;
+use crate::robot::Branch;
 
 /// Answers a block of points; one per thread.
 pub(in crate::kernel) struct WholePoints<'q> {
@@ -71,7 +68,7 @@ impl<'q> WholePoints<'q> {
         })
     }
 
-    /// Computes the answers at these poses, at most a block; read them with [`WholePoints::evaluation`].
+    /// Computes the answers at these poses, at most a block; [`WholePoints::write`] copies them.
     pub fn solve(&mut self, poses: &[Isometry]) {
         self.branches.aim_at(poses, &self.tool_from_flange);
         self.best.score.fill(f64::INFINITY);
@@ -145,57 +142,29 @@ impl<'q> WholePoints<'q> {
         ));
     }
 
-    /// The answer at point `index` of the block; `None` where lanes cannot decide.
-    pub fn evaluation(&self, index: usize) -> Option<Evaluation> {
+    /// Fills the slots of the solved points, as `Points::write` does.
+    pub fn write(&self, slots: &mut Slots<'_>) -> [bool; BLOCK] {
         let Best {
             posture,
             branch,
             score,
         } = &self.best;
-        let decided = posture.state[index] == state::REACHED && score[index].is_finite();
-        if !decided || self.missed[index] != 0.0 {
-            return None;
-        }
-        let worst = &self.answers.worst;
-        let limited = posture.margin[index] < NO_LIMIT;
-        Some(Evaluation {
-            name: PostureName::Branch(Branch::ALL[usize::from(branch[index])]),
-            limit_margin: if limited {
-                posture.margin[index]
-            } else {
-                f64::INFINITY
-            },
-            limit_joint: if limited {
-                posture.nearest[index] as usize
-            } else {
-                0
-            },
-            singularity: singularity(posture.singularity[index]),
-            worst_case: worst.case[index] as usize,
-            in_plane: worst.in_plane[index],
-            in_plane_uncertainty: self.answers.uncertainty[index],
-            normal: worst.normal[index],
-            full: worst.full[index],
+        let solved = SolvedAnswers {
+            joints: &posture.joints,
+            margin: &posture.margin,
+            nearest: &posture.nearest,
+            worst: &self.answers.worst,
+            uncertainty: &self.answers.uncertainty,
+            deviations: &self.answers.deviations,
+            shares: &self.answers.shares,
+        };
+        solved.write(slots, |i| {
+            let decided = posture.state[i] == state::REACHED && score[i].is_finite() && self.missed[i] == 0.0;
+            decided.then(|| {
+                let branch = Branch::ALL[usize::from(branch[i])];
+                (branch, singularity(posture.singularity[i]))
+            })
         })
-    }
-
-    /// Copies joint positions, deviations and shares of point `index`.
-    pub fn write(
-        &self,
-        index: usize,
-        joints: &mut [f64],
-        deviations: &mut [Vector3<f64>],
-        shares: &mut [f64],
-    ) {
-        for (joint, plane) in joints.iter_mut().zip(&self.best.posture.joints) {
-            *joint = plane[index];
-        }
-        for (deviation, [x, y, z]) in deviations.iter_mut().zip(&self.answers.deviations) {
-            *deviation = Vector3::new(x[index], y[index], z[index]);
-        }
-        for (share, plane) in shares.iter_mut().zip(&self.answers.shares) {
-            *share = plane[index];
-        }
     }
 }
 

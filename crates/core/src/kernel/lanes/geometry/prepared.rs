@@ -18,6 +18,9 @@ pub(in crate::kernel::lanes) struct Prepared {
     pub cosines: Option<CosineLimits>,
     pub compliance: [f64; 6],
     pub uncertainty: [f64; 6],
+    /// Standard uncertainty that does not depend on the posture (m), and that of each deviation as a fraction of it.
+    pub repeatability: f64,
+    pub model_error: f64,
     /// Force and moment of each load case.
     pub cases: Vec<[Vector3<f64>; 2]>,
     /// Whether any case has a moment.
@@ -45,6 +48,8 @@ impl Prepared {
             cosines: CosineLimits::new(&arm),
             compliance: of(|c| c.value),
             uncertainty: of(|c| c.standard_uncertainty),
+            repeatability: question.arm.model.structure.repeatability,
+            model_error: question.arm.model.structure.model_error,
             moments: cases.iter().any(|[_, moment]| *moment != Vector3::zeros()),
             cases,
             plane: [first, second, normal],

@@ -20,7 +20,12 @@ impl<T: Float, const MOMENTS: bool> Work<T> for OneCase<'_, T, MOMENTS> {
     #[inline(always)]
     fn run<R: Real<Float = T>>(self) {
         let [force, moment] = &self.prepared.cases[self.case];
-        let case = CaseLanes::<R>::new(self.case, force, moment, &self.prepared.plane);
+        let case = CaseLanes::<R>::new(
+            self.case..self.prepared.cases.len(),
+            force,
+            moment,
+            &self.prepared.plane,
+        );
         let compliance = lanes_of::<R>(&self.prepared.compliance);
         let base = BaseAxes::<R>::new(self.prepared);
         for i in 0..BLOCK {
@@ -64,6 +69,8 @@ impl<T: Float, const MOMENTS: bool> Work<T> for Shares<'_, T, MOMENTS> {
         let uncertainty = lanes_of::<R>(&self.prepared.uncertainty);
         let [first, second, _] = &self.prepared.plane;
         let (first, second) = (Vector::<R>::of(first), Vector::<R>::of(second));
+        let model_error = R::of(self.prepared.model_error);
+        let scatter = R::of(self.prepared.repeatability * self.prepared.repeatability);
         for i in 0..BLOCK {
             R::step();
             let (zero, one) = (R::of(0.0), R::of(1.0));
@@ -73,7 +80,8 @@ impl<T: Float, const MOMENTS: bool> Work<T> for Shares<'_, T, MOMENTS> {
             let [a, b] = vector_2::<R>(&self.worst.components, i);
             let along = second.mul_add(b * per_length, first.scaled(a * per_length));
             let force = vector::<R>(&self.worst.wrench[0..3], i);
-            let mut variance = zero;
+            let missed = model_error * in_plane;
+            let mut variance = missed.mul_add(missed, scatter);
             let mut k = 0;
             while k < 6 {
                 let v = vector::<R>(&self.stances.linear[3 * k..3 * k + 3], i);

@@ -1,10 +1,13 @@
 //! The largest deviations of the load cases of a point.
 
+use std::ops::Range;
+
 use nalgebra::Vector3;
 
 use crate::numbers::{BLOCK, Float, Plane, Planes, Real, Vector, planes, put, vector};
 
-/// The largest deviations of the cases so far, and the case that decides.
+/// The largest deviations of the cases so far, and the case that decides; `in_plane` and `full` are squares until the last
+/// case is taken.
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 pub(in crate::kernel::lanes) struct Worst<T> {
@@ -38,18 +41,25 @@ impl<T: Float> Worst<T> {
 pub(in crate::kernel::lanes) struct CaseLanes<R> {
     index: R,
     first: bool,
+    last: bool,
     pub force: Vector<R>,
     pub moment: Vector<R>,
     plane: [Vector<R>; 3],
 }
 
 impl<R: Real> CaseLanes<R> {
-    /// Case `index`; `plane` is two directions across the normal, then the normal.
+    /// The first of these cases; `plane` is two directions across the normal, then the normal.
     #[inline(always)]
-    pub fn new(index: usize, force: &Vector3<f64>, moment: &Vector3<f64>, plane: &[Vector3<f64>; 3]) -> Self {
+    pub fn new(
+        cases: Range<usize>,
+        force: &Vector3<f64>,
+        moment: &Vector3<f64>,
+        plane: &[Vector3<f64>; 3],
+    ) -> Self {
         CaseLanes {
-            index: R::of(index as f64),
-            first: index == 0,
+            index: R::of(cases.start as f64),
+            first: cases.start == 0,
+            last: cases.len() == 1,
             force: Vector::of(force),
             moment: Vector::of(moment),
             plane: [
@@ -66,18 +76,18 @@ impl<R: Real> CaseLanes<R> {
         let zero = R::of(0.0);
         let [first, second, normal] = self.plane;
         let (a, b, n) = (delta.dot(first), delta.dot(second), delta.dot(normal));
-        let in_plane = a.mul_add(a, b * b).sqrt();
-        let full = n.mul_add(n, in_plane * in_plane).sqrt();
+        let in_plane = a.mul_add(a, b * b);
+        let full = n.mul_add(n, in_plane);
         // Nothing is smaller in size than the deviation of the first case.
         let most = R::either(self.first, R::of(-1.0), R::load(worst.in_plane[i]));
         let more = in_plane > most;
-        worst.in_plane[i] = R::either(more, in_plane, most).store();
+        let most = R::either(more, in_plane, most);
+        worst.in_plane[i] = if self.last { most.sqrt() } else { most }.store();
         worst.case[i] = R::either(more, self.index, R::load(worst.case[i])).store();
         let normal_so_far = R::either(self.first, zero, R::load(worst.normal[i]));
         worst.normal[i] = R::either(n.abs() > normal_so_far.abs(), n, normal_so_far).store();
-        worst.full[i] = full
-            .max(R::either(self.first, zero, R::load(worst.full[i])))
-            .store();
+        let full = full.max(R::either(self.first, zero, R::load(worst.full[i])));
+        worst.full[i] = if self.last { full.sqrt() } else { full }.store();
         worst.components[0][i] = R::either(more, a, R::load(worst.components[0][i])).store();
         worst.components[1][i] = R::either(more, b, R::load(worst.components[1][i])).store();
         let so_far = vector::<R>(&worst.wrench[0..3], i);

@@ -7,6 +7,8 @@
 //! u^2 = sum_kl S_kl (a . d delta / d c_k) (a . d delta / d c_l) + (m a . elastic and gravity)^2 + u_thermal^2
 //! ```
 
+use std::ops::Range;
+
 use nalgebra::Vector3;
 
 use super::chain::FramePlanes;
@@ -18,7 +20,8 @@ use crate::numbers::{BLOCK, Float, Plane, Planes, Real, Vector, Work, put, vecto
 
 /// Takes the deviation of one case (base) into the worst so far.
 pub(in crate::kernel::lanes) struct TakeCase<'a, T> {
-    pub case: usize,
+    /// Its index and those of the cases that follow.
+    pub cases: Range<usize>,
     pub force: Vector3<f64>,
     pub moment: Vector3<f64>,
     /// Two directions across the normal, then the normal, base.
@@ -30,7 +33,7 @@ pub(in crate::kernel::lanes) struct TakeCase<'a, T> {
 impl<T: Float> Work<T> for TakeCase<'_, T> {
     #[inline(always)]
     fn run<R: Real<Float = T>>(self) {
-        let case = CaseLanes::<R>::new(self.case, &self.force, &self.moment, self.plane);
+        let case = CaseLanes::<R>::new(self.cases, &self.force, &self.moment, self.plane);
         for i in 0..BLOCK {
             R::step();
             case.take::<true>(vector::<R>(self.deviation, i), i, self.worst);

@@ -247,7 +247,7 @@ impl WholeModel {
                 backend.run(OneCase::<f64, MOMENTS> {
                     response,
                     still,
-                    case,
+                    cases: case..cases.len(),
                     wrench,
                     plane,
                     deviation,
@@ -270,7 +270,7 @@ impl WholeModel {
             };
             settle::<DETAILS>(*backend, arm, on_plane, deviation);
             backend.run(TakeCase {
-                case,
+                cases: case..cases.len(),
                 force: wrench.force,
                 moment: wrench.moment,
                 plane,

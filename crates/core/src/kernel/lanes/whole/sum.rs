@@ -2,6 +2,8 @@
 
 use nalgebra::Vector3;
 
+use std::ops::Range;
+
 use super::chain::FramePlanes;
 use super::model::ModelConstants;
 use super::parts::ResponsePlanes;
@@ -142,7 +144,8 @@ impl<T: Float, const MOMENTS: bool> Work<T> for OneWrench<'_, T, MOMENTS> {
 pub(in crate::kernel::lanes) struct OneCase<'a, T, const MOMENTS: bool> {
     pub response: &'a ResponsePlanes<T>,
     pub still: &'a StillPlanes<T>,
-    pub case: usize,
+    /// Index of the case and of those that follow.
+    pub cases: Range<usize>,
     pub wrench: &'a Wrench,
     /// Two directions across the normal, then the normal, base.
     pub plane: &'a [Vector3<f64>; 3],
@@ -154,7 +157,7 @@ impl<T: Float, const MOMENTS: bool> Work<T> for OneCase<'_, T, MOMENTS> {
     #[inline(always)]
     fn run<R: Real<Float = T>>(self) {
         let Wrench { force, moment } = self.wrench;
-        let case = CaseLanes::<R>::new(self.case, force, moment, self.plane);
+        let case = CaseLanes::<R>::new(self.cases, force, moment, self.plane);
         let (response, still, deviation) = (self.response, self.still, self.deviation);
         for i in 0..BLOCK {
             R::step();

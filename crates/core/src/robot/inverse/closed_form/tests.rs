@@ -306,7 +306,7 @@ fn a_neighbour_answers_slightly_beyond_the_reach() {
     let next = ClosedForm::next_to(&chain).unwrap();
     let at = |beyond: f64| {
         let level = Isometry::translation(A1 + L2 + L3 + 0.1 + beyond, 0.0, 0.4);
-        next.chain_positions(&level, Branch::ALL[0], None)
+        positions(&next, &level, Branch::ALL[0], None)
     };
     // The lengths of the neighbour differ from the nominal ones by some 1e-2 m.
     assert!(at(SLACK - 2e-2).is_ok());
