@@ -4,14 +4,18 @@ use std::hint::black_box;
 
 use armill_core::compliance::compliance_at_tool;
 use armill_core::frame::Isometry;
-use armill_core::kernel::{BranchChoice, Question, evaluate, evaluate_at_joints};
+use armill_core::kernel::{BranchChoice, Question, evaluate, evaluate_at_joints, postures_at};
 use armill_core::load::InputUncertainty;
 use armill_core::map::plane_map;
 use armill_core::nalgebra::{Matrix3, Point3, Rotation3, Translation3, Unit, UnitQuaternion, Vector3};
 use armill_core::robot::inverse::{OrthoParallel, ToolAt, posture_at, postures};
 use armill_core::robot::joint::{JointCompliance, Sign};
-use armill_core::robot::{Amount, Axis, Branch, BranchPattern, Joint, Limits, Motion, Robot};
+use armill_core::robot::{
+    Amount, Attachment, Axis, Backlash, BacklashSide, Branch, BranchPattern, Joint, Limits, Mass, Motion,
+    Robot, Spring,
+};
 use armill_core::source::elastic::predict;
+use armill_core::source::stiffness_model::Gravity;
 use armill_core::source::{ArmState, StiffnessModel};
 use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
@@ -32,6 +36,19 @@ pub struct Arm {
     robot: Robot,
     tool: Isometry,
     cases: Vec<Wrench>,
+    sprung: StiffnessModel,
+    worn: StiffnessModel,
+}
+
+/// What is modelled in addition to the drives.
+#[derive(Clone, Copy)]
+pub enum Modelled {
+    /// Nothing.
+    Drives,
+    /// Two bending springs at each joint, 18 with the drives, and gravity on four masses.
+    Springs,
+    /// The same, and backlash of every joint on the side of the torque.
+    Backlash,
 }
 
 impl Arm {
@@ -48,7 +65,20 @@ impl Arm {
                 .expect("six finite compliances for six joints"),
             tool: Isometry::translation(0.0, 0.0, TOOL),
             cases: FORCES.map(|force| Wrench::from_force(force.into())).to_vec(),
+            sprung: sprung(),
+            worn: worn(),
         }
+    }
+
+    /// The question of the workload with more than the drives.
+    pub fn question_with(&self, modelled: Modelled, choice: BranchChoice) -> Question<'_> {
+        let mut question = self.question(choice);
+        question.arm.model = match modelled {
+            Modelled::Drives => StiffnessModel::DRIVES,
+            Modelled::Springs => &self.sprung,
+            Modelled::Backlash => &self.worn,
+        };
+        question
     }
 
     /// The question of the workload.
@@ -139,10 +169,11 @@ pub fn isometry(pose: &Pose) -> Isometry {
 /// Every row of armill.
 pub fn candidates<'a>(arm: &'a Arm, poses: &'a [Isometry], pools: &'a [ThreadPool; 2]) -> Vec<Candidate<'a>> {
     let mut all = kernel(arm, poses, pools);
-    all.extend(general(arm, &poses[..FEW.min(poses.len())]));
+    all.extend(general(arm, &poses[..FEW.min(poses.len())], &pools[0]));
     all.push(known_joints(arm, &pools[0]));
     all.extend(one_pose(arm));
     all.extend(maps(arm, &pools[0]));
+    all.extend(whole_maps(arm, &pools[0]));
     all
 }
 
@@ -162,8 +193,8 @@ fn kernel<'a>(arm: &'a Arm, poses: &'a [Isometry], pools: &'a [ThreadPool; 2]) -
     pools.iter().map(with).collect()
 }
 
-/// The functions that take one posture at a time, on the poses of the workload.
-fn general<'a>(arm: &'a Arm, poses: &'a [Isometry]) -> Vec<Candidate<'a>> {
+/// The functions of the inverse, and those that take one posture at a time, on the poses of the workload.
+fn general<'a>(arm: &'a Arm, poses: &'a [Isometry], one_thread: &'a ThreadPool) -> Vec<Candidate<'a>> {
     let at = ToolAt {
         flange_from_tool: &arm.tool,
         near: None,
@@ -186,7 +217,16 @@ fn general<'a>(arm: &'a Arm, poses: &'a [Isometry]) -> Vec<Candidate<'a>> {
             .ok();
         }
     };
+    let many = move || {
+        let tool_from_flange = arm.tool.inverse();
+        let flange = |i: usize| poses[i] * tool_from_flange;
+        one_thread
+            .install(|| black_box(postures_at(&arm.robot, poses.len(), flange, None, Watch::NONE)))
+            .ok();
+    };
     vec![
+        Candidate::new("armill postures_at", IK8, poses.len(), many)
+            .note("many poses at once; verified by forward kinematics, limits"),
         Candidate::new("armill postures", IK8, poses.len(), all_branches)
             .note("one pose at a time; verified, with screws"),
         Candidate::new("armill compliance_at_tool", C66, poses.len(), compliance)
@@ -277,6 +317,79 @@ fn maps<'a>(arm: &'a Arm, one_thread: &'a ThreadPool) -> Vec<Candidate<'a>> {
         })
     };
     choices.into_iter().map(map).collect()
+}
+
+/// Maps with more than the drives; the rate counts points.
+fn whole_maps<'a>(arm: &'a Arm, one_thread: &'a ThreadPool) -> Vec<Candidate<'a>> {
+    let plane = Plane::tilted(Point3::new(1.0, 0.0, 0.8), 0.0);
+    let grid = Grid::within([0.4, 0.4], 0.008);
+    let models = [
+        ("armill, MH12 with 18 springs and gravity", Modelled::Springs),
+        ("armill, MH12 with springs, gravity, backlash", Modelled::Backlash),
+    ];
+    let choices = [
+        ("map, one posture", ONE_POSTURE),
+        ("map, best of all", BranchChoice::Best),
+    ];
+    let row = |who, modelled, name, choice| {
+        let question = Question {
+            normal: plane.normal(),
+            ..arm.question_with(modelled, choice)
+        };
+        Candidate::new(who, name, grid.len(), move || {
+            one_thread
+                .install(|| black_box(plane_map(&question, plane, grid, Watch::NONE)))
+                .ok();
+        })
+        .note("angles, limits, shares of every source, uncertainty; verified")
+    };
+    models
+        .into_iter()
+        .flat_map(|(who, modelled)| choices.map(|(name, choice)| row(who, modelled, name, choice)))
+        .collect()
+}
+
+/// Two bending springs at each joint, and gravity.
+fn sprung() -> StiffnessModel {
+    let spring = |joint: usize, axis: Vector3<f64>| {
+        let compliance = JointCompliance {
+            value: 3e-7,
+            standard_uncertainty: 3e-8,
+        };
+        Spring::about(Attachment::Joint(joint), axis, compliance)
+    };
+    let mass = |joint: usize, mass: f64, centre: [f64; 3]| Mass {
+        attachment: Attachment::Joint(joint),
+        mass,
+        centre: centre.into(),
+    };
+    let mut model = StiffnessModel::DRIVES.clone();
+    model.structure.springs = (0..6)
+        .flat_map(|joint| [spring(joint, Vector3::x()), spring(joint, Vector3::y())])
+        .collect();
+    model.structure.masses = vec![
+        mass(0, 40.0, [0.05, 0.0, -0.1]),
+        mass(1, 30.0, [0.0, 0.0, 0.3]),
+        mass(2, 25.0, [0.1, 0.0, 0.1]),
+        mass(5, 4.0, [0.0, 0.0, 0.1]),
+    ];
+    model.gravity = Some(Gravity {
+        acceleration: Vector3::new(0.0, 0.0, -9.81),
+        reference: vec![0.2; 6],
+    });
+    model
+}
+
+/// [`sprung`] with backlash.
+fn worn() -> StiffnessModel {
+    let mut model = sprung();
+    let backlash = Backlash {
+        gap: 1e-4,
+        standard_uncertainty: 1e-5,
+        side: BacklashSide::Torque,
+    };
+    model.structure.backlash = vec![Some(backlash); 6];
+    model
 }
 
 /// The chain of the MH12 as ros-industrial/motoman has it, `workload`'s lengths in it.

@@ -26,7 +26,7 @@ use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
 use rayon::ThreadPool;
 
-use crate::armill::{Arm, ONE_POSTURE};
+use crate::armill::{Arm, Modelled, ONE_POSTURE};
 use crate::clock::Candidate;
 use crate::workload::FORCES;
 
@@ -34,6 +34,8 @@ use crate::workload::FORCES;
 pub const STEADY: &str = "placement x point x case, one tool axis";
 /// Placements evaluated, variable tool axis.
 pub const LEANING: &str = "placement x point x case, five axes";
+/// Placements evaluated with springs and gravity.
+pub const WHOLE: &str = "placement x point x case, 18 springs and gravity";
 /// A search for the smallest largest deviation.
 pub const SEARCH_WORST: &str = "placement x point x case, search for the least largest";
 /// A search for the smallest mean deviation.
@@ -140,8 +142,11 @@ pub fn candidates<'a>(
     one_thread: &'a ThreadPool,
 ) -> Vec<Candidate<'a>> {
     const WHO: &str = "armill placement";
-    let evaluated = move |placements: &[PartPlacement], path: &PlacedPath, search: Option<Objective>| {
-        let question: Question<'_> = arm.question(ONE_POSTURE);
+    let evaluated_with = move |modelled: Modelled,
+                               placements: &[PartPlacement],
+                               path: &PlacedPath,
+                               search: Option<Objective>| {
+        let question: Question<'_> = arm.question_with(modelled, ONE_POSTURE);
         let placeable = Placeable {
             question: &question,
             path,
@@ -172,6 +177,9 @@ pub fn candidates<'a>(
         }
         black_box(best);
     };
+    let evaluated = move |placements: &[PartPlacement], path: &PlacedPath, search: Option<Objective>| {
+        evaluated_with(Modelled::Drives, placements, path, search);
+    };
     let count = |places: usize| places * POINTS * steady.path.case_count();
     vec![
         Candidate::new(WHO, STEADY, count(PLACES), move || {
@@ -182,6 +190,15 @@ pub fn candidates<'a>(
             evaluated(&leaning.placements[..PLACES], &leaning.path, None);
         })
         .note("the same, with a rotation, directions and wrenches of its own at each point"),
+        Candidate::new(WHO, WHOLE, count(PLACES / 8), move || {
+            evaluated_with(
+                Modelled::Springs,
+                &steady.placements[..PLACES / 8],
+                &steady.path,
+                None,
+            );
+        })
+        .note("as with one tool axis"),
         Candidate::new(WHO, SEARCH_WORST, count(SEARCHED), move || {
             evaluated(&steady.placements, &steady.path, Some(Objective::Worst));
         })

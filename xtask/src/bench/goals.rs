@@ -26,6 +26,89 @@ struct Goal {
     stretch: f64,
 }
 
+/// A rate that no other program of this run can be compared with.
+struct Aim {
+    text: &'static str,
+    row: Side,
+    /// The rate below which the aim is missed, and from which it is more than reached, million points a second.
+    must: f64,
+    stretch: f64,
+}
+
+/// Rates on one core of a Zen 5 processor.
+const AIMS: &[Aim] = &[
+    aim(
+        "evaluate: angles, limits, shares, uncertainty, one posture",
+        side("armill evaluate", "evaluate", "dev"),
+        60.0,
+        100.0,
+    ),
+    aim(
+        "the same as a map of 101 x 101",
+        side("armill, map", "", "one posture"),
+        60.0,
+        100.0,
+    ),
+    aim(
+        "the same, best of all postures",
+        side("armill, map", "", "best of all 8"),
+        25.0,
+        40.0,
+    ),
+    aim(
+        "MH12 a micrometre off, map, one posture",
+        side("armill, MH12 a micrometre", "", "map, one posture"),
+        15.0,
+        40.0,
+    ),
+    aim(
+        "MH12 a micrometre off, map, best of all",
+        side("armill, MH12 a micrometre", "", "map, best of all"),
+        5.0,
+        15.0,
+    ),
+    aim(
+        "MH12 with 18 springs, gravity and backlash, map, one posture",
+        side("armill, MH12 with springs", "", "map, one posture"),
+        10.0,
+        30.0,
+    ),
+    aim("UR10, all postures", side("armill, UR10", "", "ik8"), 5.0, 15.0),
+    aim("iiwa 14, all postures", side("armill, iiwa", "", "ik8"), 1.0, 4.0),
+    aim(
+        "MH12 with an open wrist, all postures",
+        side("armill, MH12 with an open", "", "ik8"),
+        0.1,
+        0.5,
+    ),
+    aim(
+        "placements, nothing pruned, points x cases",
+        side("armill placement", "", "placement x point x case, one tool axis"),
+        1000.0,
+        1500.0,
+    ),
+    aim(
+        "the same with 18 springs and gravity",
+        side(
+            "armill placement",
+            "",
+            "placement x point x case, 18 springs and gravity",
+        ),
+        100.0,
+        300.0,
+    ),
+];
+
+/// An aim.
+const fn aim(text: &'static str, row: Side, must: f64, stretch: f64) -> Aim {
+    Aim {
+        text,
+        row,
+        must,
+        stretch,
+    }
+}
+
 /// How rows of armill's lanes begin, without the back end.
 const LANES: &str = "armill lanes f64";
 /// The row of the version that anyone would write.
@@ -56,7 +139,7 @@ const GOALS: &[Goal] = &[
     },
     Goal {
         text: "one pose, all postures, against rs-opw-kinematics",
-        ours: side("armill postures", "", "ik8"),
+        ours: side("armill postures", "postures", "ik8"),
         theirs: side("rs-opw-kinematics", "", "ik8"),
         must: 1.5,
         stretch: 3.0,
@@ -190,6 +273,37 @@ pub fn waits(rows: &[Row]) -> String {
     format!("| a million points | seconds | at most | |\n|---|--:|--:|---|\n{lines}")
 }
 
+/// The rates of `rows` that have an aim, as a Markdown table; empty if there is none.
+pub fn aims(rows: &[Row]) -> String {
+    let mut lines = String::new();
+    for aim in AIMS {
+        if let Some(rate) = aim.row.rate(rows) {
+            lines += &format!(
+                "| {} | {} | {} | {} | {} |\n",
+                aim.text,
+                digits(rate),
+                digits(aim.must),
+                digits(aim.stretch),
+                verdict(rate, aim.must, aim.stretch),
+            );
+        }
+    }
+    if lines.is_empty() {
+        return lines;
+    }
+    format!("| work | measured | must | stretch | |\n|---|--:|--:|--:|---|\n{lines}")
+}
+
+fn verdict(measured: f64, must: f64, stretch: f64) -> &'static str {
+    if measured >= stretch {
+        "beyond"
+    } else if measured >= must {
+        "met"
+    } else {
+        "missed"
+    }
+}
+
 /// The goals of which both sides are in `rows`, as a Markdown table; empty if there is none.
 pub fn table(rows: &[Row]) -> String {
     let mut lines = String::new();
@@ -198,13 +312,7 @@ pub fn table(rows: &[Row]) -> String {
             continue;
         };
         let ratio = ours / theirs;
-        let verdict = if ratio >= goal.stretch {
-            "beyond"
-        } else if ratio >= goal.must {
-            "met"
-        } else {
-            "missed"
-        };
+        let verdict = verdict(ratio, goal.must, goal.stretch);
         lines += &format!(
             "| {} | {} | {} | {} | {verdict} |\n",
             goal.text,
@@ -249,6 +357,13 @@ mod tests {
         assert_eq!(table(&rows(&[plain])), "");
         let both = table(&rows(&[plain, "armill lanes f64\tdev\t1\t240.0"]));
         assert!(both.contains("| 60.0 | 50.0 | 70.0 | met |"), "{both}");
+    }
+
+    #[test]
+    fn an_aim_is_a_rate_and_shows_once_it_was_measured() {
+        assert_eq!(aims(&rows(&["armill, UR10\tmap, one posture\t1\t9.0"])), "");
+        let table = aims(&rows(&["armill, UR10\tik8\t1\t9.0"]));
+        assert!(table.contains("| 9.00 | 5.00 | 15.0 | met |"), "{table}");
     }
 
     #[test]

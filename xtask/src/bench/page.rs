@@ -63,6 +63,12 @@ pub fn page(rows: &[Row], skipped: &[String], machine: &[String]) -> String {
     if !goals.is_empty() {
         page += &format!("\n## Goals\n\nRatios of rates in this run.\n\n{goals}");
     }
+    let aims = goals::aims(rows);
+    if !aims.is_empty() {
+        page += &format!(
+            "\n## Rates with an aim\n\nMillion a second on one thread, where no other program does the work; the aims are those of one core of a Zen\n5 processor.\n\n{aims}"
+        );
+    }
     let waits = goals::waits(rows);
     if !waits.is_empty() {
         page += &format!("\n## Tool paths\n\nOn one thread; no other program does this work.\n\n{waits}");
