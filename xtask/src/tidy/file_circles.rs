@@ -24,83 +24,21 @@ use super::violation::Violation;
 pub const RULE: Rule = Rule {
     name: "file circles",
     reason: "a file must be readable without the ones that use it",
-    check: |tree| check(tree, PARSERS),
+    check,
 };
-
-/// Files that may use each other, from the repository root, with the reason.
-type Parser = (&'static [&'static str], &'static str);
-
-/// Parsers whose rules contain each other, as those of their grammar do: the files of one grammar, and which of its
-/// rules contain each other.
-const PARSERS: &[Parser] = &[];
-
-/// Where [`PARSERS`] is.
-const OWN_PATH: &str = "xtask/src/tidy/file_circles.rs";
 
 /// A name that is exported again more often than this is not followed further.
 const MOST_EXPORTS: usize = 8;
 
-/// Finds the circles of each crate other than those inside of `parsers`, and the parsers without one.
-fn check(tree: &Tree, parsers: &[Parser]) -> Vec<Violation> {
+/// Finds the circles of each crate.
+fn check(tree: &Tree) -> Vec<Violation> {
     let manifests = tree.texts_in("crates/", "/Cargo.toml");
     let folders = manifests.filter_map(|(path, _)| path.strip_suffix("Cargo.toml"));
-    let mut violations = Vec::new();
-    let mut unneeded: Vec<&Parser> = parsers.iter().collect();
-    for folder in folders {
-        let source = format!("{folder}src/");
-        let mut uses = Crate::read(tree, &source).uses();
-        for (files, _) in parsers {
-            let inside: Vec<&str> = files
-                .iter()
-                .filter_map(|file| file.strip_prefix(&source))
-                .collect();
-            if !circles(&among(&uses, &inside), "").is_empty() {
-                unneeded.retain(|(other, _)| other != files);
-            }
-            uses = as_one(uses, &inside);
-        }
-        violations.extend(circles(&uses, "move what both need into a file below them"));
-    }
-    for (files, reason) in unneeded {
-        let what = format!("{} do not use each other ({reason})", files.join(", "));
-        violations.push(Violation::new(OWN_PATH, 1, what, "remove them from PARSERS"));
-    }
-    violations
-}
-
-/// The uses from one of `files` to another.
-fn among(uses: &Uses, files: &[&str]) -> Uses {
-    let mut uses = uses.clone();
-    let is_inside = |name: &str| files.contains(&name);
-    uses.retain(|user, _| is_inside(user));
-    for used in uses.values_mut() {
-        used.retain(|name, _| is_inside(name));
-    }
-    uses
-}
-
-/// The uses where `files` are one.
-fn as_one(uses: Uses, files: &[&str]) -> Uses {
-    let one = files.join(" + ");
-    let renamed = |name: String| {
-        if files.contains(&name.as_str()) {
-            one.clone()
-        } else {
-            name
-        }
+    let of_folder = |folder| {
+        let uses = Crate::read(tree, &format!("{folder}src/")).uses();
+        circles(&uses, "move what both need into a file below them")
     };
-    let mut merged = Uses::new();
-    for (user, used) in uses {
-        let user = renamed(user);
-        let of_user = merged.entry(user.clone()).or_default();
-        for (name, place) in used {
-            let name = renamed(name);
-            if name != user {
-                of_user.entry(name).or_insert(place);
-            }
-        }
-    }
-    merged
+    folders.flat_map(of_folder).collect()
 }
 
 /// The path of a module from the root of its crate.
@@ -244,17 +182,13 @@ fn module(path: &str) -> Module {
 mod tests {
     use super::*;
 
-    fn with_parsers(files: &[(&str, &str)], parsers: &[Parser]) -> Vec<String> {
+    fn given(files: &[(&str, &str)]) -> Vec<String> {
         let mut all = vec![("crates/some/Cargo.toml", "[package]\nname = \"armill-some\"\n")];
         all.extend(files);
-        check(&Tree::of(&all), parsers)
+        check(&Tree::of(&all))
             .into_iter()
             .map(|violation| format!("{}:{}: {}", violation.path, violation.line, violation.what))
             .collect()
-    }
-
-    fn given(files: &[(&str, &str)]) -> Vec<String> {
-        with_parsers(files, &[])
     }
 
     #[test]
@@ -322,31 +256,5 @@ mod tests {
             ),
         ];
         assert_eq!(given(&files), Vec::<String>::new());
-    }
-
-    #[test]
-    fn parsers_may_use_each_other_as_long_as_they_do() {
-        const FILES: &[Parser] = &[(
-            &["crates/some/src/a.rs", "crates/some/src/b.rs"],
-            "a block contains statements",
-        )];
-        let block = ("crates/some/src/a.rs", "use crate::b::statement;\n");
-        let statement = ("crates/some/src/b.rs", "use crate::a::block;\n");
-        assert_eq!(with_parsers(&[block, statement], FILES), Vec::<String>::new());
-        let third = ("crates/some/src/c.rs", "use crate::a::block;\n");
-        let and_third = ("crates/some/src/b.rs", "use crate::a::block;\nuse crate::c::d;\n");
-        assert_eq!(
-            with_parsers(&[block, and_third, third], FILES),
-            [
-                "crates/some/src/c.rs:1: `c.rs` uses `a.rs + b.rs`, which leads back to it: a.rs + b.rs -> c.rs"
-            ]
-        );
-        let alone = ("crates/some/src/b.rs", "");
-        assert_eq!(
-            with_parsers(&[block, alone], FILES),
-            [
-                "xtask/src/tidy/file_circles.rs:1: crates/some/src/a.rs, crates/some/src/b.rs do not use each other (a block contains statements)"
-            ]
-        );
     }
 }

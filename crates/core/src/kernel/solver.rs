@@ -32,7 +32,7 @@ pub(super) struct Solver<'q> {
 /// The lanes of an arm and its model.
 enum Lanes<'q> {
     /// An ortho-parallel arm, the drives alone.
-    Drives(Points<'q>),
+    Drives(Box<Points<'q>>),
     /// An arm with named branches, and its whole model.
     Whole(Box<WholePoints<'q>>),
 }
@@ -47,7 +47,7 @@ impl<'q> Lanes<'q> {
             && by_load_alone
             && question.uncertainty.is_none()
         {
-            return Some(Lanes::Drives(Points::new(question, arm)));
+            return Some(Lanes::Drives(Box::new(Points::new(question, arm))));
         }
         let in_turn = order == Order::Any || turns_follow(question);
         in_turn.then(|| Some(Lanes::Whole(Box::new(WholePoints::of(question, detail)?))))?

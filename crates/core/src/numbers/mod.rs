@@ -2,7 +2,8 @@
 //! the eight branches of one pose in the inverse kinematics.
 //!
 //! In reading order: `real` (a number of one lane), `vector` (three of them), `angle` (arc tangent, sine and cosine),
-//! `block` (planes of numbers, one value per point), `eight` (one value per branch), `backend` (the instruction set, chosen at run time).
+//! `block` (planes of numbers, one value per point), `eight` (one value per branch), `backend` (the instruction set,
+//! chosen at run time).
 
 mod angle;
 mod backend;

@@ -1,11 +1,13 @@
-use nalgebra::{Rotation3, UnitQuaternion};
+use nalgebra::{Rotation3, UnitQuaternion, Vector3};
 
 use super::*;
 use crate::arms::{self, Stream};
 use crate::frame::tool_orientation;
 use crate::kernel::tests::subjects;
 use crate::robot::inverse::{Inverse, ToolAt, postures};
+use crate::robot::{Branch, PostureName, Robot};
 use crate::source::StiffnessModel;
+use crate::spatial::Wrench;
 
 const WRIST: f64 = 0.1;
 

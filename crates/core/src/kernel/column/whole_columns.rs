@@ -1,6 +1,7 @@
 //! Columns of arms with named branches by the whole model in lanes; poses that lanes cannot decide one after the other.
 
-use super::{ArmMargins, Column, ColumnLoad, OneByOne, PostureStatus, SLOTS};
+use super::one_by_one::{ArmMargins, OneByOne};
+use super::postures::{Column, ColumnLoad, PostureStatus, SLOTS};
 use crate::frame::Isometry;
 use crate::kernel::lanes::{BranchMargins, BranchStatus, LoadedBranches, POINTS, PointLoads};
 use crate::kernel::question::Question;
@@ -10,6 +11,12 @@ use crate::robot::Branch;
 pub(super) struct WholeColumns {
     lanes: LoadedBranches,
     loads: PointLoads,
+}
+
+/// The arm, and what computes the poses that lanes cannot decide.
+pub(super) struct WholeFill<'a, 'q> {
+    pub margins: &'a ArmMargins<'q>,
+    pub rest: &'a mut OneByOne<'q>,
 }
 
 impl WholeColumns {
@@ -26,15 +33,15 @@ impl WholeColumns {
         })
     }
 
-    /// Fills `out`, which is clear; `rest` computes the poses that lanes cannot decide.
+    /// Fills `out`, which is clear.
     pub fn fill(
         &mut self,
-        margins: &ArmMargins<'_>,
         poses: &[Isometry],
         push: &ColumnLoad<'_>,
-        rest: &mut OneByOne<'_>,
+        with: WholeFill<'_, '_>,
         out: &mut Column,
     ) {
+        let WholeFill { margins, rest } = with;
         let joint_count = margins.arm.robot.joints().len();
         for i in 0..poses.len().min(POINTS) {
             self.loads.set(i, push.cases.iter().copied(), &push.along);

@@ -1,9 +1,12 @@
-use nalgebra::{Rotation3, Translation3};
+use nalgebra::{Rotation3, Translation3, UnitQuaternion, Vector3};
 
 use super::*;
 use crate::arms::{self, Stream};
+use crate::frame::Isometry;
+use crate::kernel::path_on_part::{PathWrenches, PlacedPoint, WrenchAxes};
 use crate::kernel::tests::subjects;
 use crate::source::StiffnessModel;
+use crate::spatial::Wrench;
 
 fn arm<'a>(robot: &'a crate::robot::Robot, tool: &'a Isometry, model: &'a StiffnessModel) -> Arm<'a> {
     Arm {

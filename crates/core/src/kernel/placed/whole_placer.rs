@@ -1,8 +1,10 @@
 //! A path on a part at a placement, by the whole model in lanes: blocks of points, each with its own load.
 
-use nalgebra::UnitQuaternion;
+use std::ops::Range;
 
-use super::{PathTotals, PlacedPath};
+use nalgebra::{UnitQuaternion, Vector3};
+
+use super::path::{PathTotals, PlacedPath};
 use crate::frame::Isometry;
 use crate::kernel::column::{Column, Columns, SLOTS};
 use crate::kernel::lanes::{BranchMargins, BranchStatus, LoadedBranches, POINTS, PointLoads};
@@ -17,6 +19,13 @@ pub(super) struct WholePlacer {
     loads: PointLoads,
     poses: Vec<Isometry>,
     tolerance: f64,
+}
+
+/// A path at a placement of its part.
+#[derive(Clone, Copy)]
+pub(super) struct Placed<'a> {
+    pub path: &'a PlacedPath,
+    pub placement: &'a PartPlacement,
 }
 
 impl WholePlacer {
@@ -38,16 +47,16 @@ impl WholePlacer {
     /// its totals so far. `rest` computes the points that lanes cannot decide.
     pub fn evaluate(
         &mut self,
-        path: &PlacedPath,
-        placement: &PartPlacement,
+        placed: Placed<'_>,
         mut open: [bool; SLOTS],
         rest: &mut Columns<'_>,
         mut keep: impl FnMut(&PathTotals) -> bool,
     ) -> [Option<PathTotals>; SLOTS] {
+        let path = placed.path;
         let mut totals = [PathTotals::default(); SLOTS];
         for first in (0..path.len()).step_by(POINTS) {
             let last = path.len().min(first + POINTS);
-            self.place(path, placement, first..last);
+            self.place(placed, first..last);
             // Of each undecided point: the deviations of all its branches.
             let mut decided: [Option<[f64; SLOTS]>; POINTS] = [None; POINTS];
             for (slot, branch) in Branch::ALL
@@ -60,7 +69,7 @@ impl WholePlacer {
                     let deviation = match self.lanes.status(i) {
                         BranchStatus::Usable => self.lanes.deviation(i),
                         BranchStatus::Undecided => {
-                            let one_by_one = || deviations_at(path, placement, first + i, rest);
+                            let one_by_one = || deviations_at(placed, first + i, rest);
                             decided.get_or_insert_with(one_by_one)[slot]
                         }
                         _ => f64::INFINITY,
@@ -79,8 +88,9 @@ impl WholePlacer {
     }
 
     /// Sets poses and loads of these points.
-    fn place(&mut self, path: &PlacedPath, placement: &PartPlacement, points: std::ops::Range<usize>) {
-        let spun = UnitQuaternion::from_axis_angle(&nalgebra::Vector3::z_axis(), placement.spin);
+    fn place(&mut self, placed: Placed<'_>, points: Range<usize>) {
+        let Placed { path, placement } = placed;
+        let spun = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), placement.spin);
         self.poses.clear();
         for (i, index) in points.enumerate() {
             let point = &path.points[index];
@@ -94,12 +104,8 @@ impl WholePlacer {
 }
 
 /// The deviations of all branches at point `index`, infinite where a branch cannot be used, m.
-fn deviations_at(
-    path: &PlacedPath,
-    placement: &PartPlacement,
-    index: usize,
-    rest: &mut Columns<'_>,
-) -> [f64; SLOTS] {
+fn deviations_at(placed: Placed<'_>, index: usize, rest: &mut Columns<'_>) -> [f64; SLOTS] {
+    let Placed { path, placement } = placed;
     let unspun = SpunPlacement {
         placement,
         spins: &[0.0],

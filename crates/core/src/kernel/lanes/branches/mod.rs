@@ -6,9 +6,10 @@
 //! positions and margins from the conventions of the joints. Solutions are verified by forward kinematics by those who
 //! use them, with the frames that they need anyway.
 //!
-//! In reading order: `target` (requested flange poses), `ortho_parallel` and `three_parallel` (closed forms), `newton`,
+//! In reading order: `found` (a solved branch), `target` (requested flange poses), `ortho_parallel` and `three_parallel` (closed forms), `newton`,
 //! `name`, `position` (joint positions and margins). [`BranchSolver`] runs them.
 
+mod found;
 mod name;
 mod newton;
 mod ortho_parallel;
@@ -21,7 +22,7 @@ use crate::kernel::lanes::whole::FramePlanes;
 use crate::kernel::question::Question;
 use crate::numbers::{BLOCK, Backend, Plane};
 use crate::robot::inverse::{ClosedForm, Inverse};
-use crate::robot::{Branch, Robot, Singularity};
+use crate::robot::{Branch, Robot};
 use name::{CheckNames, NameConstants};
 use newton::Newton;
 use ortho_parallel::OrthoParallelBlock;
@@ -29,65 +30,8 @@ use position::{JointRows, TakePositions};
 use target::set_targets;
 use three_parallel::ThreeParallelBlock;
 
+pub(in crate::kernel::lanes) use found::{BranchPlanes, singularity, state};
 pub(in crate::kernel::lanes) use target::find_missed;
-
-/// What is known of a branch at a point, as a number.
-pub(in crate::kernel::lanes) mod state {
-    /// It reaches the pose.
-    pub const REACHED: f64 = 0.0;
-    /// It does not reach the pose.
-    pub const UNREACHED: f64 = 1.0;
-    /// Lanes cannot decide it: singular, at the end of the reach, or Newton's iteration ends in another branch.
-    pub const UNDECIDED: f64 = 2.0;
-}
-
-/// One branch of a block of poses.
-#[derive(Clone, Debug)]
-pub(in crate::kernel::lanes) struct BranchPlanes {
-    /// Joint positions, rad, one plane per joint.
-    pub joints: Vec<Plane<f64>>,
-    /// Smallest distance to a joint limit, and the joint.
-    pub margin: Plane<f64>,
-    pub nearest: Plane<f64>,
-    /// One of [`state`].
-    pub state: Plane<f64>,
-    /// The singularity that it is near to: see [`singularity`].
-    pub singularity: Plane<f64>,
-}
-
-impl BranchPlanes {
-    /// Memory for this many joints.
-    pub fn of(joints: usize) -> BranchPlanes {
-        BranchPlanes {
-            joints: vec![[0.0; BLOCK]; joints],
-            margin: [0.0; BLOCK],
-            nearest: [0.0; BLOCK],
-            state: [state::UNREACHED; BLOCK],
-            singularity: [0.0; BLOCK],
-        }
-    }
-
-    /// Takes point `i` of another branch.
-    pub fn take(&mut self, other: &BranchPlanes, i: usize) {
-        for (joint, from) in self.joints.iter_mut().zip(&other.joints) {
-            joint[i] = from[i];
-        }
-        self.margin[i] = other.margin[i];
-        self.nearest[i] = other.nearest[i];
-        self.state[i] = other.state[i];
-        self.singularity[i] = other.singularity[i];
-    }
-}
-
-/// The singularity of [`BranchPlanes::singularity`].
-pub(in crate::kernel::lanes) fn singularity(number: f64) -> Option<Singularity> {
-    match number as u32 {
-        1 => Some(Singularity::Wrist),
-        2 => Some(Singularity::Elbow),
-        3 => Some(Singularity::Shoulder),
-        _ => None,
-    }
-}
 
 /// Solves one branch after the other of a block of poses; one per thread.
 #[derive(Clone, Debug)]

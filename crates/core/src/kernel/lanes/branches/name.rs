@@ -5,7 +5,7 @@
 //! elbow up where sin(chi - psi) and r - a1 - hand have one sign         no flip where sin(bend) >= 0
 //! ```
 
-use super::state;
+use super::found::state;
 use crate::numbers::{BLOCK, Float, Plane, Real, Work, sin_cos};
 use crate::robot::inverse::ClosedForm;
 use crate::robot::inverse::two_links::NEAR_SINGULAR;

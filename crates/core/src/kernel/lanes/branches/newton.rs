@@ -2,13 +2,13 @@
 //!
 //! ```text
 //! e = (away / l, turned)         J = columns (v_k / l, w_k)         dtheta = J^T (J J^T + lambda I)^-1 e
-//! J J^T = [A B; B^T D]           S = A - B D^-1 B^T                 x = S^-1 (e_v - B D^-1 e_w), y = D^-1 (e_w - B^T x)
+//! J J^T = [A B; B^T D]     S = A - B D^-1 B^T     x = S^-1 (e_v - B D^-1 e_w), y = D^-1 (e_w - B^T x)
 //! ```
 //!
-//! `l` a length of the arm (m), `lambda = 1e-2 e^2` and rounding, as in `robot::inverse::descent`: the sum over joints and
-//! two symmetric 3 x 3 inverses need no pivots. Points where the step does not become small are undecided.
+//! `l` a length of the arm (m), `lambda = 1e-2 e^2` and rounding, as in `robot::inverse::descent`. The sum over joints
+//! and two symmetric 3 x 3 inverses need no pivots. Points where the step does not become small are undecided.
 
-use super::state;
+use super::found::state;
 use crate::kernel::lanes::whole::{ChainConstants, Displacement, FindFrames, FramePlanes};
 use crate::numbers::{BLOCK, Backend, Float, Plane, Planes, Real, Vector, Work, planes, put, vector};
 use crate::robot::Chain;
@@ -71,17 +71,22 @@ impl Newton {
                 solved: &mut self.solved,
                 step: &mut self.step,
             });
-            let arrived = |(step, found): (&f64, &f64)| *found != state::REACHED || *step < LAST_STEP;
-            if self.step.iter().zip(&*found).all(arrived) {
+            let under_way = |(step, found): (&f64, &f64)| *found == state::REACHED && is_long(*step);
+            if !self.step.iter().zip(&*found).any(under_way) {
                 return;
             }
         }
         for (step, found) in self.step.iter().zip(found) {
-            if *found == state::REACHED && !(*step < LAST_STEP) {
+            if *found == state::REACHED && is_long(*step) {
                 *found = state::UNDECIDED;
             }
         }
     }
+}
+
+/// Whether a step is not the last one; true for one that is no number.
+fn is_long(step: f64) -> bool {
+    step.is_nan() || step >= LAST_STEP
 }
 
 /// One step at every point; fills the size of the largest change of a joint, rad.

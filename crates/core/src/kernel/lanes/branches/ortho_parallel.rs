@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{BranchPlanes, state};
+use super::found::{BranchPlanes, state};
 use crate::frame::Isometry;
 use crate::kernel::lanes::by_block::{Batch, signs};
 use crate::kernel::lanes::geometry::{Aims, Arm, Prepared, Second, aim};

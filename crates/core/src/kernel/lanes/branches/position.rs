@@ -1,6 +1,6 @@
 //! Joint positions and margins from chain positions, by the conventions of the joints.
 
-use super::BranchPlanes;
+use super::found::BranchPlanes;
 use crate::kernel::lanes::geometry::{JointRow, UNLIMITED};
 use crate::kernel::lanes::solve::Counting;
 use crate::numbers::{Plane, Real, Work};

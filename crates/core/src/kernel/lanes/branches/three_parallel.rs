@@ -3,7 +3,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::state;
+use super::found::state;
 use crate::kernel::lanes::whole::FramePlanes;
 use crate::numbers::{BLOCK, Backend, Float, Plane, Planes, Real, Vector, Work, atan2, planes, put, vector};
 use crate::robot::inverse::ThreeParallel;
@@ -157,7 +157,7 @@ impl<T: Float> Work<T> for FindTurns<'_, T> {
             turns[0][i] = c1.store();
             turns[1][i] = s1.store();
             let inside = b.abs() - h2.sqrt();
-            let lateral = (r2 < zero) & !(inside < slack);
+            let lateral = (r2 < zero) & (inside >= slack);
 
             let out = Vector::new(
                 c1.mul_add(out.x, s1 * out.y),
@@ -190,8 +190,8 @@ impl<T: Float> Work<T> for FindTurns<'_, T> {
             let d2 = u.mul_add(u, v * v);
             let d = d2.sqrt();
             let (stretched, folded) = (reach.mul_add(reach, -d2), d2 - fold * fold);
-            let far = (stretched < zero) & !(d - reach < slack);
-            let near = (folded < zero) & !(fold - d < slack);
+            let far = (stretched < zero) & (d - reach >= slack);
+            let near = (folded < zero) & (fold - d >= slack);
             let product = stretched.max(least) * folded.max(least);
             let across = half * product.max(zero).sqrt() / l2;
             let along = half * (d2 - l2 * l2 - l3 * l3) / l2;
@@ -210,17 +210,11 @@ impl<T: Float> Work<T> for FindTurns<'_, T> {
             let axis_5 = Vector::new(x5, zero, z5);
             turns[10][i] = axis_5.dot(second).store();
             turns[11][i] = out.dot(axis_5.cross(second)).store();
-            let found = R::either(straight, undecided, reached);
-            state[i] = R::either(lateral | far | near, unreached, found).store();
-            if_straight_is_out_of_reach(straight, &mut state[i], undecided);
+            // With axis 6 parallel to axes 2 to 4 joint 6 is free, and the reach depends on it.
+            let found = R::either(lateral | far | near, unreached, reached);
+            state[i] = R::either(straight, undecided, found).store();
         }
     }
-}
-
-/// With axis 6 parallel to axes 2 to 4 joint 6 is free, and the reach depends on it.
-#[inline(always)]
-fn if_straight_is_out_of_reach<R: Real>(straight: bool, state: &mut R::Float, undecided: R) {
-    *state = R::either(straight, undecided, R::load(*state)).store();
 }
 
 /// Fills the chain positions.

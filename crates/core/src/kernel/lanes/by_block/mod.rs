@@ -1,8 +1,9 @@
 //! All stages for many poses, one block after the other.
 //!
 //! In reading order: `arrays` (input and output), `posture_signs` (the four postures), `batch` (entry point: a prepared
-//! question), `steps` (its stages, each on the current block); `aimed`, `points` and `written` (whole answers), `column` (every
-//! posture under one load).
+//! question), `steps` (its stages, each on the current block), `aimed` (a block looked into). Whole answers: `points`
+//! (ortho-parallel arms, the drives alone), `whole_points` (named branches, the whole model), `written` (their output).
+//! Searches: `column` and `loaded_branches`, as the two before. Every posture: `every_branch`.
 
 mod aimed;
 mod arrays;

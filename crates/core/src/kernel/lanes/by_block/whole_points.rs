@@ -38,7 +38,8 @@ struct Best {
 }
 
 impl<'q> WholePoints<'q> {
-    /// For this question, with backlash and geometry where shares are computed; none if its arm has no named branches, or a part that lanes do not know.
+    /// For this question, with backlash and geometry where shares are computed; none if its arm has no named branches,
+    /// or a part that lanes do not know.
     pub fn of(question: &'q Question<'q>, detail: AnswerDetail) -> Option<WholePoints<'q>> {
         let backend = Backend::fastest();
         let model = match detail {

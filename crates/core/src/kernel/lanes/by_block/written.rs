@@ -28,8 +28,8 @@ pub(super) struct SolvedAnswers<'a> {
 
 impl SolvedAnswers<'_> {
     /// Fills the slots; `posture` gives the branch of a point and the singularity that it is near to, or none where
-    /// lanes cannot decide. Returns for each point whether lanes decide it; slots of the other points have no evaluation
-    /// and unspecified numbers.
+    /// lanes cannot decide. Returns for each point whether lanes decide it; slots of the other points have no
+    /// evaluation and unspecified numbers.
     pub fn write(
         &self,
         slots: &mut Slots<'_>,

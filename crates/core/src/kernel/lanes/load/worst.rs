@@ -6,8 +6,8 @@ use nalgebra::Vector3;
 
 use crate::numbers::{BLOCK, Float, Plane, Planes, Real, Vector, planes, put, vector};
 
-/// The largest deviations of the cases so far, and the case that decides; `in_plane` and `full` are squares until the last
-/// case is taken.
+/// The largest deviations of the cases so far, and the case that decides; `in_plane` and `full` are squares until the
+/// last case is taken.
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 pub(in crate::kernel::lanes) struct Worst<T> {

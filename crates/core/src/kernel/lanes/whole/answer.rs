@@ -13,7 +13,7 @@ use nalgebra::Vector3;
 
 use super::chain::FramePlanes;
 use super::model::ModelConstants;
-use super::parts::PartPlanes;
+use super::parts::{PartPlanes, angular};
 use super::sum::StillPlanes;
 use crate::kernel::lanes::load::{CaseLanes, Worst};
 use crate::numbers::{BLOCK, Float, Plane, Planes, Real, Vector, Work, put, vector};
@@ -176,7 +176,7 @@ impl<T: Float> OfGroup<'_, T> {
             let constants = &self.model.parts[self.first + n];
             (c[n], u[n]) = (R::of(constants.compliance), R::of(constants.uncertainty));
             there[n] = Vector::of(&constants.reference);
-            axes[n] = self.model.angular(self.frames, self.parts, self.first + n);
+            axes[n] = angular(self.model, self.frames, self.parts, self.first + n);
             n += 1;
         }
         for i in 0..BLOCK {

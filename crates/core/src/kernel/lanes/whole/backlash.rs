@@ -14,26 +14,13 @@
 use nalgebra::Vector3;
 
 use super::chain::FramePlanes;
-use super::model::ModelConstants;
-use super::parts::PartPlanes;
+use super::model::{MOST_GAPS, ModelConstants};
+use super::parts::{PartPlanes, angular};
 use crate::kernel::lanes::load::Worst;
 use crate::numbers::{BLOCK, Backend, Float, Plane, Planes, Real, Vector, Work, planes, put, vector};
 use crate::source::backlash::NO_TORQUE;
 use crate::spatial::Wrench;
 
-/// A joint with backlash.
-#[derive(Clone, Debug)]
-pub(in crate::kernel::lanes) struct GapConstants {
-    /// Index of the drive of its joint.
-    pub part: usize,
-    /// Half of the backlash, rad (m), and its standard uncertainty over it.
-    pub half: f64,
-    pub relative: f64,
-    pub by_torque: bool,
-}
-
-/// Most gaps that lanes know. They are computed six or eight at once; those that an arm lacks are zero.
-pub(in crate::kernel::lanes) const MOST_GAPS: usize = 8;
 const FEW_GAPS: usize = 6;
 
 /// A gap at each point.
@@ -156,7 +143,7 @@ impl<T: Float> Work<T> for FindSides<'_, T> {
         while g < self.model.backlash.len() {
             let (constants, gap) = (&self.model.backlash[g], &mut self.gaps[g]);
             let part = &self.parts[constants.part];
-            let axis = self.model.angular(self.frames, self.parts, constants.part);
+            let axis = angular(self.model, self.frames, self.parts, constants.part);
             let half = R::of(constants.half);
             let by_torque = constants.by_torque;
             for i in 0..BLOCK {

@@ -10,7 +10,7 @@
 
 use super::chain::FramePlanes;
 use super::model::ModelConstants;
-use super::parts::{PartPlanes, ResponsePlanes};
+use super::parts::{PartPlanes, ResponsePlanes, angular};
 use crate::kernel::lanes::load::Worst;
 use crate::load::InputUncertainty;
 use crate::numbers::{BLOCK, Float, Plane, Planes, Real, Vector, Work, vector};
@@ -80,7 +80,7 @@ impl<T: Float, const MOMENTS: bool> AddInputs<'_, T, MOMENTS> {
         let mut k = 0;
         while k < self.parts.len() {
             let (constants, part) = (&self.model.parts[k], &self.parts[k]);
-            let about = self.model.angular(self.frames, self.parts, k);
+            let about = angular(self.model, self.frames, self.parts, k);
             let c = R::of(constants.compliance);
             if constants.rank != last {
                 for i in 0..BLOCK {

@@ -4,10 +4,7 @@ use std::cmp::Reverse;
 
 use nalgebra::{DMatrix, Vector3};
 
-use super::backlash::{GapConstants, MOST_GAPS};
-use super::chain::{ChainConstants, Displacement, FramePlanes};
-use super::parts::PartPlanes;
-use crate::numbers::Planes;
+use super::chain::{ChainConstants, Displacement};
 use crate::robot::{Attachment, BacklashSide, JointCompliance};
 use crate::source::{Arm, ArmState, Contributor};
 use crate::spatial::Twist;
@@ -47,6 +44,20 @@ pub(in crate::kernel::lanes) struct CovarianceRow {
     pub part: usize,
     pub entries: Vec<(usize, f64)>,
 }
+
+/// A joint with backlash.
+#[derive(Clone, Debug)]
+pub(in crate::kernel::lanes) struct GapConstants {
+    /// Index of the drive of its joint.
+    pub part: usize,
+    /// Half of the backlash, rad (m), and its standard uncertainty over it.
+    pub half: f64,
+    pub relative: f64,
+    pub by_torque: bool,
+}
+
+/// Most gaps that lanes know. They are computed six or eight at once; those that an arm lacks are zero.
+pub(in crate::kernel::lanes) const MOST_GAPS: usize = 8;
 
 /// A mass.
 #[derive(Clone, Debug)]
@@ -88,22 +99,6 @@ pub(in crate::kernel::lanes) struct ModelConstants {
 }
 
 impl ModelConstants {
-    /// Angular parts of part `k` at each point, base.
-    #[inline(always)]
-    pub fn angular<'a, T>(
-        &self,
-        frames: &'a [FramePlanes<T>],
-        parts: &'a [PartPlanes<T>],
-        k: usize,
-    ) -> &'a Planes<T, 3> {
-        let part = &self.parts[k];
-        if part.about {
-            &frames[part.rank].axes[part.axis]
-        } else {
-            &parts[k].angular
-        }
-    }
-
     /// The constants of `arm`, with or without geometry, thermal growth and backlash (`unloaded`); none if it has a part
     /// that lanes do not know: torque curves, a compensator, a load-dependent equilibrium, more than
     /// [`MOST_GAPS`] joints with backlash.

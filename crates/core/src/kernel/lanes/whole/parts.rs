@@ -69,6 +69,22 @@ impl<T: Float> ResponsePlanes<T> {
     }
 }
 
+/// Angular parts of part `k` at each point, base.
+#[inline(always)]
+pub(in crate::kernel::lanes) fn angular<'a, T>(
+    model: &ModelConstants,
+    frames: &'a [FramePlanes<T>],
+    parts: &'a [PartPlanes<T>],
+    k: usize,
+) -> &'a Planes<T, 3> {
+    let part = &model.parts[k];
+    if part.about {
+        &frames[part.rank].axes[part.axis]
+    } else {
+        &parts[k].angular
+    }
+}
+
 /// Fills the response from the frames, which are in the order of ranks, without that to moments unless `MOMENTS`; and the
 /// parts if `PARTS`.
 pub(in crate::kernel::lanes) struct FindParts<'a, T, const MOMENTS: bool, const PARTS: bool> {

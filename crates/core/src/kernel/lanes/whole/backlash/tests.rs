@@ -1,3 +1,4 @@
+use super::super::model::GapConstants;
 use super::*;
 use crate::arms;
 use crate::robot::{Attachment, JointCompliance, Spring};
