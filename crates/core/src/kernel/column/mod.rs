@@ -138,8 +138,8 @@ impl<'q> Columns<'q> {
         });
     }
 
-    /// Whether slots are branches, in the order of [`Branch::ALL`]; otherwise they are the postures found, in an order
-    /// that differs from pose to pose.
+    /// Whether slots are branches, in the order of [`Branch::ALL`](crate::robot::Branch::ALL); otherwise they are the
+    /// postures found, in an order that differs from pose to pose.
     pub fn slots_are_branches(&self) -> bool {
         self.margins.arm.robot.inverse().has_branches()
     }

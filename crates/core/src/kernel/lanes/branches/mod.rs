@@ -6,10 +6,11 @@
 //! positions and margins from the conventions of the joints. Solutions are verified by forward kinematics by those who
 //! use them, with the frames that they need anyway.
 //!
-//! In reading order: `found` (a solved branch), `target` (requested flange poses), `ortho_parallel` and `three_parallel` (closed forms), `newton`,
-//! `name`, `position` (joint positions and margins). [`BranchSolver`] runs them.
+//! In reading order: `found` (a solved branch), `target` (requested flange poses), `ortho_parallel` and `three_parallel`
+//! (closed forms), `newton` (with `gram`), `name`, `position` (joint positions and margins). [`BranchSolver`] runs them.
 
 mod found;
+mod gram;
 mod name;
 mod newton;
 mod ortho_parallel;
