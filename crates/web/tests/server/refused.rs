@@ -306,8 +306,13 @@ fn files_are_uploaded_once_and_completely() {
         served.port, served.token
     );
     stream.write_all(head.as_bytes()).unwrap();
-    drop(stream);
     let left = || unfinished(&inner).len();
+    let begun = Instant::now();
+    while left() == 0 {
+        assert!(begun.elapsed() < Duration::from_secs(9), "no upload began");
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    drop(stream);
     let begun = Instant::now();
     while left() > 0 && begun.elapsed() < Duration::from_secs(10) {
         std::thread::sleep(Duration::from_millis(20));
