@@ -154,3 +154,51 @@ async fn turn(tab: &Tab) -> Result<OwnedSemaphorePermit, ApiError> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::future::Future;
+    use std::pin::pin;
+    use std::sync::mpsc::channel;
+    use std::task::{Context, Waker};
+
+    use super::*;
+
+    #[test]
+    fn tabs_are_answered_at_once_and_a_later_request_replaces_the_waiting_one() {
+        let runtime = tokio::runtime::Builder::new_multi_thread()
+            .worker_threads(1)
+            .build()
+            .unwrap();
+        let _entered = runtime.enter();
+        let work = Work::new();
+        let tab = |name: &str| HeaderMap::from_iter([("x-tab".parse().unwrap(), name.parse().unwrap())]);
+        let (tab_a, tab_b) = (tab("a"), tab("b"));
+        let (begin, begun) = channel();
+        let (finish, finished) = channel();
+        let mut first = pin!(work.done_in_tab(&tab_a, move |_| {
+            begin.send(()).unwrap();
+            finished.recv().unwrap();
+            Ok(1)
+        }));
+        let mut second = pin!(work.done_in_tab(&tab_a, |_| Ok(2)));
+        let mut third = pin!(work.done_in_tab(&tab_a, |_| Ok(3)));
+        let context = &mut Context::from_waker(Waker::noop());
+
+        // The first is under way, and the second waits for it.
+        assert!(first.as_mut().poll(context).is_pending());
+        begun.recv().unwrap();
+        assert!(second.as_mut().poll(context).is_pending());
+        assert_eq!(
+            runtime.block_on(work.done_in_tab(&tab_b, |_| Ok(4))).unwrap(),
+            4
+        );
+        assert!(third.as_mut().poll(context).is_pending());
+        let replaced = runtime.block_on(second).unwrap_err();
+        assert_eq!(format!("{replaced:?}"), format!("{:?}", ApiError::superseded()));
+        assert!(third.as_mut().poll(context).is_pending());
+        finish.send(()).unwrap();
+        assert_eq!(runtime.block_on(first).unwrap(), 1);
+        assert_eq!(runtime.block_on(third).unwrap(), 3);
+    }
+}

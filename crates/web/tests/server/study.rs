@@ -356,34 +356,6 @@ fn only_meshes_that_the_robot_names_are_served() {
 }
 
 #[test]
-fn two_tabs_are_answered_at_once_and_a_later_request_replaces_the_waiting_one() {
-    let served = serve(Path::new("mh12-groove"));
-    // So large that the next request arrives meanwhile.
-    let large = STUDY.replace("step_mm = 20", "step_mm = 0.25");
-    let analysis = |tab: &str, text: &str| {
-        let body = json!({ "text": text, "analysis": "plate" }).to_string();
-        let head = format!(
-            "POST /api/answer HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nAuthorization: Bearer {}\r\nX-Tab: {tab}\r\nContent-Length: {}\r\nConnection: close\r\n\r\n{body}",
-            served.port,
-            served.token,
-            body.len()
-        );
-        served.raw(head.as_bytes())
-    };
-    std::thread::scope(|scope| {
-        let first = scope.spawn(|| analysis("a", &large).status);
-        std::thread::sleep(std::time::Duration::from_millis(200));
-        let second = scope.spawn(|| analysis("a", &large));
-        std::thread::sleep(std::time::Duration::from_millis(100));
-        let third = scope.spawn(|| analysis("a", STUDY).status);
-        assert_eq!(analysis("b", STUDY).status, 200);
-        let second = second.join().unwrap();
-        assert_eq!((second.status, second.kind().as_str()), (409, "superseded"));
-        assert_eq!((first.join().unwrap(), third.join().unwrap()), (200, 200));
-    });
-}
-
-#[test]
 fn every_documented_path_answers_by_its_method() {
     let served = serve(Path::new("mh12-groove"));
     let document = served.get("/api/openapi.json").json();
