@@ -128,7 +128,11 @@ pub fn advise(
     let mut turned = there.clone();
     turned.search_postures(None)?;
     let (still, with) = (run(&there, quiet)?, run(&turned, quiet)?);
-    let turns = is_better(&statistics(&turned, &with), &statistics(&there, &still));
+    let turns = with
+        .first()
+        .and_then(path_of)
+        .and_then(|(_, found)| found.searched.as_ref())
+        .is_some_and(|searched| searched.applied);
     let (advised, done) = match turns {
         true => (&turned, with),
         false => (&there, still),
@@ -206,18 +210,6 @@ fn statistics(study: &Study, done: &[AnalysisResult<'_>]) -> StatisticsAnswer {
         })
 }
 
-/// Whether a path is better so than as the other: reached, inside limits, within the tolerance, least at its worst.
-fn is_better(one: &StatisticsAnswer, other: &StatisticsAnswer) -> bool {
-    let lost = |of: &StatisticsAnswer| of.unreachable + of.outside_joint_limits;
-    let worst = |of: &StatisticsAnswer| of.max_in_plane_um.unwrap_or(f64::INFINITY);
-    let by_lost = lost(one).cmp(&lost(other));
-    let by_share = other.fraction_within.total_cmp(&one.fraction_within);
-    by_lost
-        .then(by_share)
-        .then(worst(one).total_cmp(&worst(other)))
-        .is_lt()
-}
-
 /// Stretches of the path out of tolerance, the worst first.
 fn out_of_tolerance(
     study: &Study,
@@ -284,9 +276,10 @@ impl AdviceAnswer {
             steps.push(format!("place the part at {}", self.placement.place_in_words()));
         }
         if let Some(turns) = &self.turns {
-            let [from, to] = turns.turn_range_deg;
             steps.push(format!(
-                "use a tool spin of {from:.0} to {to:.0} deg along the path"
+                "use a tool spin of {} along the path, with {}",
+                turns.turn_in_words(),
+                turns.gain_in_words()
             ));
         }
         if steps.is_empty() {

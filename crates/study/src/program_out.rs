@@ -21,6 +21,7 @@ use armill_core::robot::inverse::{ToolAt, postures};
 use armill_core::units::to_mm;
 use armill_programs::{Draft, DraftPoint, Language, Written, write};
 
+use crate::analysis::path::answer::obstacles;
 use crate::error::StudyError;
 use crate::file::resolve::Study;
 use crate::input::setting::Setting;
@@ -53,7 +54,7 @@ const TURN: f64 = 3e-4;
 /// The program along `track`, whose postures are in `answers`.
 ///
 /// # Errors
-/// A point without posture or outside joint limits; a point above a cut that is out of reach; a path without feed
+/// An obstacle on the path (no posture, joint limits, a jump, the speed of a joint); a point above a cut that is out of reach; a path without feed
 /// if none is given; data that the language cannot express.
 pub fn program(
     study: &Study,
@@ -69,6 +70,7 @@ pub fn program(
         answers,
         requested,
     };
+    maker.check()?;
     let mut points = Vec::new();
     for stretch in track.path.stretches() {
         maker.stretch(stretch, &mut points)?;
@@ -104,9 +106,6 @@ struct Maker<'a> {
 impl Maker<'_> {
     /// Above, down, along, and up again.
     fn stretch(&self, stretch: Range<usize>, points: &mut Vec<DraftPoint>) -> Result<(), StudyError> {
-        for index in stretch.clone() {
-            self.check(index)?;
-        }
         let (first, last) = (stretch.start, stretch.end - 1);
         let begin = DraftPoint {
             speed: None,
@@ -157,25 +156,25 @@ impl Maker<'_> {
         kept
     }
 
-    fn check(&self, index: usize) -> Result<(), StudyError> {
-        let line = self.track.path.points[index].line;
-        let refused = |why: String| {
-            StudyError::value(
-                format!("line {line}: {why}; no program can be written"),
-                "move the part, or let `posture.search` look for a posture",
-            )
-        };
-        match &self.answers.points[index] {
-            Err(reason) => Err(refused(format!(
-                "no posture ({})",
-                reason.word().replace('_', " ")
-            ))),
-            Ok(evaluation) if !evaluation.within_limits() => {
-                let joint = &self.study.robot.robot.joints()[evaluation.limit_joint].name;
-                Err(refused(format!("joint {joint} is outside its limits")))
-            }
-            Ok(_) => Ok(()),
+    /// The arm must be able to follow every cut at its feed without a stop.
+    fn check(&self) -> Result<(), StudyError> {
+        let robot = &self.study.robot.robot;
+        let all = obstacles::found(robot, &self.track.path, self.answers, 0.0);
+        if all.is_empty() {
+            return Ok(());
         }
+        let messages: Vec<&str> = all.iter().map(|obstacle| obstacle.message.as_str()).collect();
+        let slower = all.iter().all(|obstacle| obstacle.kind == "joint-speed");
+        Err(StudyError::value(
+            format!(
+                "no program can be written, for the robot cannot follow the path: {}",
+                messages.join("; ")
+            ),
+            match slower {
+                true => "reduce the feed there, or change the posture or the placement of the part",
+                false => "move the part, or let `posture.search` look for a posture",
+            },
+        ))
     }
 
     /// The place above a point, and the joints there.

@@ -41,6 +41,10 @@ pub(crate) struct PostureArguments {
     #[arg(long, value_name = "DEG")]
     pub least_wrist_deg: Option<f64>,
 
+    /// Minimum distance of every joint from its limits [default: 0]
+    #[arg(long, value_name = "DEG")]
+    pub margin_deg: Option<f64>,
+
     /// Penalty for each reversal of a joint, as deviation times path length [default: 0]
     #[arg(long, value_name = "UM*MM")]
     pub reversal_um_mm: Option<f64>,
@@ -94,5 +98,6 @@ Examples:
   armill posture cell --turns-deg -30,30 --objective mean
   armill posture cell --component cross-track --step-deg 2 --out best
   armill posture cell --reversal-um-mm 200         fewer reversals: one weighs as much as 20 um over 10 mm
-The results are those of `armill run` with the best spins, which are in the column turn_deg of the table of each path.
+Spins and branches change only where that is an improvement beyond its uncertainty (`improvement` in the study).
+The results are those of `armill run` with these spins, which are in the column turn_deg of the table of each path.
 The picture NAME-turns.svg shows the deviation of every spin.";

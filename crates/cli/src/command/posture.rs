@@ -46,6 +46,7 @@ fn requested(arguments: &PostureArguments) -> Result<Option<SearchTable>, StudyE
         objective: arguments.objective.map(ObjectiveName::from),
         turn_deg_per_mm: bounded("--turn-deg-per-mm", arguments.turn_deg_per_mm, [1e-6, 1e3])?,
         least_wrist_deg: bounded("--least-wrist-deg", arguments.least_wrist_deg, [0.0, 80.0])?,
+        margin_deg: bounded("--margin-deg", arguments.margin_deg, [0.0, 90.0])?,
         reversal_um_mm: bounded("--reversal-um-mm", arguments.reversal_um_mm, [0.0, 1e9])?,
     };
     Ok((!table.is_empty()).then_some(table))

@@ -122,6 +122,46 @@ impl PathLoad {
         closed
     }
 
+    /// The load with all forces and moments multiplied by `factor`; of a cut with those of its law.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> PathLoad {
+        let mut scaled = self.clone();
+        match &mut scaled {
+            PathLoad::Cases(load) => load
+                .cases
+                .iter_mut()
+                .for_each(|wrench| *wrench = *wrench * factor),
+            PathLoad::OfEach { wrenches, .. } => {
+                wrenches.iter_mut().for_each(|wrench| *wrench = *wrench * factor)
+            }
+            PathLoad::Cuts(cuts) => {
+                cuts.law = cuts.law.scaled(factor);
+                for here in &mut cuts.points {
+                    here.mean *= factor;
+                    here.greatest *= factor;
+                }
+            }
+        }
+        scaled
+    }
+
+    /// The load with this force (N, base) added to every case, for a part placed at `base_from_part`; unchanged where
+    /// the load turns with the feed.
+    #[must_use]
+    pub fn with_force(&self, force: Vector3<f64>, base_from_part: &Isometry) -> PathLoad {
+        let mut changed = self.clone();
+        let (wrenches, frame) = match &mut changed {
+            PathLoad::Cases(load) => (&mut load.cases, load.frame),
+            PathLoad::OfEach { frame, wrenches, .. } => (wrenches, *frame),
+            PathLoad::Cuts(_) => return changed,
+        };
+        if let Some(axes) = frame.axes(base_from_part, None) {
+            let by = axes.inverse() * force;
+            wrenches.iter_mut().for_each(|wrench| wrench.force += by);
+        }
+        changed
+    }
+
     /// Whether the load is given at each of this many points, and every cut refers to one of its tools.
     pub fn covers(&self, points: usize) -> bool {
         match self {
@@ -196,6 +236,55 @@ mod tests {
         let mut out = vec![Wrench::from_force(Vector3::zeros()); load.case_count()];
         load.in_base(index, part, feed, &mut out);
         out
+    }
+
+    #[test]
+    fn a_scaled_load_and_an_added_force_are_those_in_base() {
+        let part = from_xyz_and_fixed_angles(Vector3::new(1.0, 2.0, 3.0), Vector3::new(0.3, -0.8, 2.0));
+        let feed = Rotation3::new(Vector3::new(-0.4, 1.1, 0.2));
+        let by = Vector3::new(5.0, -1.0, 2.0);
+        let of_cut = CutHere {
+            mean: Vector3::new(10.0, 20.0, 30.0),
+            greatest: Vector3::new(40.0, 0.0, 0.0),
+            ..CutHere::NOTHING
+        };
+        let given = |frame| {
+            PathLoad::Cases(LoadCases {
+                frame,
+                cases: vec![wrench(3.0)],
+            })
+        };
+        let each = PathLoad::OfEach {
+            cases: 1,
+            frame: LoadFrame::Part,
+            wrenches: vec![wrench(1.0)],
+        };
+        let turning = [given(LoadFrame::Feed), cuts(vec![of_cut])];
+        let steady = [given(LoadFrame::Base), given(LoadFrame::Part), each];
+        for load in turning.iter().chain(&steady) {
+            let (as_is, scaled) = (
+                in_base(load, 0, &part, &feed),
+                in_base(&load.scaled(1.5), 0, &part, &feed),
+            );
+            for (as_is, scaled) in as_is.iter().zip(&scaled) {
+                assert!((as_is.force * 1.5 - scaled.force).norm() < 1e-12);
+                assert!((as_is.moment * 1.5 - scaled.moment).norm() < 1e-12);
+            }
+        }
+        for load in &steady {
+            let (as_is, pushed) = (
+                in_base(load, 0, &part, &feed),
+                in_base(&load.with_force(by, &part), 0, &part, &feed),
+            );
+            assert!((pushed[0].force - as_is[0].force - by).norm() < 1e-12);
+        }
+        for load in &turning {
+            assert_eq!(load.with_force(by, &part), *load);
+        }
+        let PathLoad::Cuts(CutsAlong { law, .. }) = turning[1].scaled(1.5) else {
+            unreachable!()
+        };
+        assert!((law.force(1e-4) - Vector3::new(8e4, 2e4, 2e4) * 1.5).norm() < 1e-6);
     }
 
     #[test]

@@ -101,6 +101,13 @@ impl Kienzle {
         self
     }
 
+    /// The same with all forces multiplied by `factor`.
+    #[must_use]
+    pub(super) fn scaled(mut self, factor: f64) -> Kienzle {
+        self.values.specific_force.value *= factor;
+        self
+    }
+
     /// The values that it was made of.
     pub fn values(&self) -> &KienzleValues {
         &self.values

@@ -36,6 +36,15 @@ impl CuttingLaw {
         }
     }
 
+    /// The same law with all forces multiplied by `factor`, and their uncertainties as they are.
+    #[must_use]
+    pub fn scaled(self, factor: f64) -> CuttingLaw {
+        match self {
+            CuttingLaw::Mechanistic(law) => CuttingLaw::Mechanistic(law.scaled(factor)),
+            CuttingLaw::Kienzle(law) => CuttingLaw::Kienzle(law.scaled(factor)),
+        }
+    }
+
     /// Tangential, radial and axial force per chip width (N/m) at the thickness `h` (m, not negative).
     pub fn force(&self, h: f64) -> Vector3<f64> {
         match self {
@@ -91,6 +100,8 @@ mod tests {
         for law in both() {
             let sizes = [1e-6, 1e-5, 1e-4, 1e-3].map(|h| law.force(h).norm());
             assert!(sizes.windows(2).all(|pair| pair[0] < pair[1]), "{sizes:?}");
+            let more = law.scaled(1.25).force(1e-4);
+            assert!((more - law.force(1e-4) * 1.25).norm() < 1e-12 * more.norm());
         }
         let [_, power] = both();
         let ratios = |h: f64| power.force(h) / power.force(h).x;

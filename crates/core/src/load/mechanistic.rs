@@ -80,6 +80,13 @@ impl Mechanistic {
         self.with_covariance(Matrix6::from_diagonal(&deviation.component_mul(&deviation)))
     }
 
+    /// The same with all forces multiplied by `factor`.
+    #[must_use]
+    pub(super) fn scaled(mut self, factor: f64) -> Mechanistic {
+        self.coefficients *= factor;
+        self
+    }
+
     /// Ktc, Krc, Kac (Pa), Kte, Kre, Kae (N/m).
     pub fn coefficients(&self) -> &Vector6<f64> {
         &self.coefficients

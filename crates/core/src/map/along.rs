@@ -129,7 +129,7 @@ pub fn along_postures(
             (answers, load, None)
         }
     };
-    turns::count_on(question.arm.robot, &mut answers, |i| !track.path.begins(i));
+    turns::continue_turns(question.arm.robot, &track.path, &mut answers);
     let path = LoadedTrack { track, load: &load };
     let backlash_geometry = add_backlash_and_geometry(&question.arm, path, &mut answers);
     Ok(AlongPath {

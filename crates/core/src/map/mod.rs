@@ -2,8 +2,8 @@
 //!
 //! [`plane`]: deviation over a plane; [`volume`]: in space; [`along`]: along a path; [`radial`]: radial deviation and
 //! roundness of a circle; [`radial_parts`]: the part without load, and its uncertainty; [`backlash_geometry`]: effect
-//! of backlash and geometry along a path; `worst` and `jumps`: the largest deviations of a path, and jumps of the
-//! joints; [`limits`]: permitted force and cut along a path (`point_limits`: at a point; `varied`: one cut with a
+//! of backlash and geometry along a path; `worst`: the largest deviations of a path; `obstacles`: where the arm cannot
+//! follow it; [`limits`]: permitted force and cut along a path (`point_limits`: at a point; `varied`: one cut with a
 //! varied parameter), [`depth_by_feed`]: depth over feed; [`region`]: the part of a plane within the tolerance, its
 //! area, boundary and inscribed shapes; [`certainty`]: its uncertainty.
 //!
@@ -14,8 +14,8 @@ pub mod backlash_geometry;
 pub mod certainty;
 pub mod depth_by_feed;
 mod inscribed;
-mod jumps;
 pub mod limits;
+mod obstacles;
 pub mod plane;
 mod point_limits;
 pub mod radial;
@@ -30,8 +30,8 @@ pub use along::{AlongPath, EquilibriumSummary, along_path, along_postures};
 pub use backlash_geometry::BacklashGeometry;
 pub use certainty::{COVERAGE, Certainty, probability_within};
 pub use depth_by_feed::DepthByFeed;
-pub use jumps::{Jump, jumps};
 pub use limits::{CutLimits, Permitted, ProgramLimits, program_limits};
+pub use obstacles::{Obstacle, ObstacleKind, obstacles};
 pub use plane::{Counts, PlaneMap, plane_map};
 pub use point_limits::{PermittedForces, PointLimits};
 pub use radial::{RadialDeviation, radial_deviations};

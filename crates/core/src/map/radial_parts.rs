@@ -23,7 +23,7 @@
 //! An uncertain input is the same all round the circle: its curve keeps its sign, and its centre and radius are removed
 //! as for any curve.
 
-use nalgebra::{Point2, SymmetricEigen, Vector3};
+use nalgebra::{Point2, Vector3};
 
 use super::along::{AlongPath, along_postures};
 use super::radial::radial_deviations;
@@ -33,7 +33,7 @@ use crate::load::{LoadCases, LoadFrame, PathLoad};
 use crate::path::Track;
 use crate::robot::forward::{Frames, forward_into};
 use crate::source::arm_state::LoadedPosture;
-use crate::source::{Arm, ArmState, Unstable};
+use crate::source::{Arm, ArmState, Unstable, compliance_changes};
 use crate::spatial::Wrench;
 use crate::watch::{Cancelled, Watch};
 
@@ -176,7 +176,7 @@ impl<'q> Room<'q> {
             question: *question,
             arm_state: ArmState::new(question.arm),
             frames: Frames::for_robot(question.arm.robot),
-            unknowns: unknowns(&question.arm),
+            unknowns: compliance_changes(&question.arm),
         }
     }
 
@@ -227,35 +227,6 @@ impl<'q> Room<'q> {
         arm_state.displacements_by_inputs(&question.uncertainty, &posture, outward, |by| moves.push(by))?;
         Ok(moves)
     }
-}
-
-/// Compliances as independent inputs: one each where they are independent, and the axes of their covariance where one
-/// is known.
-fn unknowns(arm: &Arm<'_>) -> Vec<Vec<f64>> {
-    let compliances = arm.compliances();
-    let row = |of: &dyn Fn(usize) -> f64| -> Vec<f64> { (0..compliances.len()).map(of).collect() };
-    let known = arm.model.structure.covariance.as_ref();
-    let size = known.map_or(0, nalgebra::DMatrix::nrows);
-    let axes = known.map(|covariance| SymmetricEigen::new(covariance.clone()));
-    let together = axes.iter().flat_map(|axes| {
-        (0..size).map(|m| {
-            let length = axes.eigenvalues[m].max(0.0).sqrt();
-            row(&|k| {
-                if k < size {
-                    length * axes.eigenvectors[(k, m)]
-                } else {
-                    0.0
-                }
-            })
-        })
-    });
-    let alone = (size..compliances.len())
-        .map(|own| {
-            let u = compliances[own].standard_uncertainty;
-            row(&|k| if k == own { u } else { 0.0 })
-        })
-        .collect::<Vec<_>>();
-    together.chain(alone).collect()
 }
 
 #[cfg(test)]

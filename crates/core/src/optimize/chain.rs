@@ -17,10 +17,15 @@
 //! therefore missed: with this price the chain is good, but not proven to be the best, unless the tool keeps its turn.
 //! The tool turns in steps; a joint may reverse there that no longer reverses once the steps are smoothed.
 //!
+//! Whole turns of joints are counted in the same way, of the best chain to each state: a transition that would wind a
+//! joint beyond its limit is not used. The chain can therefore be driven, and may be missed where a chain with a higher
+//! cost so far would have been less wound.
+//!
 //! For the objective `worst`, sums become maxima. A column that cannot be reached restarts after the best chain so far
 //! and counts as a break: the arm stops there and changes its posture. A column without any state is skipped.
 
 use super::heading::Heading;
+use super::winding::Winding;
 use crate::kernel::SLOTS;
 
 /// How the costs along a chain are combined.
@@ -42,6 +47,12 @@ pub(super) trait Links {
     fn turns(&self, turn: usize, next: usize, from: usize, to: usize) -> bool;
     /// Directions of the joints on this transition.
     fn moves_by_turn(&self, turn: usize, next: usize, from: usize, to: usize) -> Heading;
+    /// Whole turns at a state of this column where a cut begins.
+    fn starts(&self, state: usize) -> Winding;
+    /// Whole turns after the transition of [`Links::goes_on`]; `None` where they exceed a limit.
+    fn winds_on(&self, before: &Winding, turn: usize, from: usize, to: usize) -> Option<Winding>;
+    /// Whole turns after the tool has turned within the column from one state to the other; `None` as above.
+    fn winds_by_turn(&self, before: &Winding, states: [usize; 2]) -> Option<Winding>;
 }
 
 /// The turns of a lattice, and which are neighbours.
@@ -57,6 +68,8 @@ pub(super) struct Turns {
     pub price: f64,
     /// Price of a reversal of a joint; zero: reversals are neglected.
     pub back_price: f64,
+    /// Whether whole turns of joints are counted.
+    pub winds: bool,
 }
 
 /// How a column starts.
@@ -100,6 +113,9 @@ pub(super) struct Chain {
     /// reversals have no price.
     came: Vec<Came>,
     next_came: Vec<Came>,
+    /// Whole turns at the states of the last column with states; empty where they are not counted.
+    windings: Vec<Winding>,
+    next_windings: Vec<Winding>,
 }
 
 /// Directions and reversals along a chain.
@@ -125,6 +141,7 @@ impl Chain {
     pub fn new(turns: Turns, together: Together, traced: Option<usize>) -> Chain {
         let states = turns.count * SLOTS;
         let headed = if turns.back_price > 0.0 { states } else { 0 };
+        let wound = if turns.winds { states } else { 0 };
         Chain {
             turns,
             together,
@@ -135,6 +152,8 @@ impl Chain {
             ways: vec![0; states],
             came: vec![Came::default(); headed],
             next_came: vec![Came::default(); headed],
+            windings: vec![Winding::default(); wound],
+            next_windings: vec![Winding::default(); wound],
         }
     }
 
@@ -166,12 +185,20 @@ impl Chain {
         } else if entry == Entry::From(None) {
             self.begin(costs, 0.0, 0);
         }
+        if entry != Entry::Linked {
+            for (state, winding) in self.next_windings.iter_mut().enumerate() {
+                if costs[state].is_finite() {
+                    *winding = links.starts(state);
+                }
+            }
+        }
         self.entries.push(entry);
         if let Some(back) = &mut self.back {
             back.extend_from_slice(&self.ways);
         }
         std::mem::swap(&mut self.values, &mut self.next);
         std::mem::swap(&mut self.came, &mut self.next_came);
+        std::mem::swap(&mut self.windings, &mut self.next_windings);
     }
 
     /// Restarts after a chain of this cost with this number of reversals.
@@ -206,12 +233,20 @@ impl Chain {
                     if before >= self.next[state] || !links.goes_on(turn, slot, to) {
                         continue;
                     }
+                    let winding = self.windings.get(origin);
+                    let winding = winding.map(|before| links.winds_on(before, turn, slot, to));
+                    if winding == Some(None) {
+                        continue;
+                    }
                     let came = self.came.get(origin);
                     let came = came.map(|came| came.then(links.moves_on(turn, slot, to)));
                     let value = before + self.back_price(came);
                     if value < self.next[state] {
                         self.next[state] = value;
                         self.ways[state] = way(0, slot);
+                        if let Some(winding) = winding.flatten() {
+                            self.next_windings[state] = winding;
+                        }
                         if let Some((came, _)) = came {
                             self.next_came[state] = came;
                         }
@@ -240,6 +275,7 @@ impl Chain {
         let before = self.next.clone();
         let ways = self.ways.clone();
         let came = self.next_came.clone();
+        let windings = self.next_windings.clone();
         for turn in 0..count {
             for (sense, neighbour) in neighbours(turn, count, around) {
                 for to in 0..SLOTS {
@@ -254,12 +290,20 @@ impl Chain {
                         if value >= self.next[state] || !links.turns(neighbour, turn, slot, to) {
                             continue;
                         }
+                        let winding = windings.get(there);
+                        let winding = winding.map(|before| links.winds_by_turn(before, [there, state]));
+                        if winding == Some(None) {
+                            continue;
+                        }
                         let came = came.get(there);
                         let came = came.map(|came| came.then(links.moves_by_turn(neighbour, turn, slot, to)));
                         let value = value + self.back_price(came);
                         if value < self.next[state] {
                             let (by, origin) = steps_and_slot(ways[there]);
                             self.next[state] = value;
+                            if let Some(winding) = winding.flatten() {
+                                self.next_windings[state] = winding;
+                            }
                             self.ways[state] = way(by + sense, origin);
                             if let Some((came, _)) = came {
                                 self.next_came[state] = came;

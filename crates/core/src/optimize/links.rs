@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use super::chain::Links;
 use super::heading::Heading;
+use super::winding::{Winding, WindingJoints};
 use crate::kernel::{Column, PostureStatus, SLOTS};
 use crate::robot::{Joint, Limits, Robot};
 
@@ -18,8 +19,7 @@ pub(super) struct JointRate {
     /// Largest speed, rad/s (m/s).
     most: Option<f64>,
     slides: bool,
-    /// Whether it can also be a whole turn away. The chain does not count turns; for a joint with a range slightly
-    /// above one turn this is false.
+    /// Whether it can also be a whole turn away.
     wraps: bool,
 }
 
@@ -38,6 +38,11 @@ impl JointRate {
             }
         };
         robot.joints().iter().enumerate().map(of).collect()
+    }
+
+    /// Whether the joint can be a whole turn away.
+    pub fn wraps(&self) -> bool {
+        self.wraps
     }
 
     /// Motion of the joint from one position to the other, the shorter direction where both are possible.
@@ -66,6 +71,7 @@ pub(super) struct Between<'a> {
     pub before: &'a Column,
     pub here: &'a Column,
     pub joints: &'a [JointRate],
+    pub winding: &'a WindingJoints,
     pub time: Option<f64>,
     pub turn_time: Option<f64>,
 }
@@ -78,6 +84,14 @@ impl<'a> Between<'a> {
             && self
                 .positions(from, to)
                 .all(|(joint, from, to)| joint.can(from, to, time))
+    }
+
+    /// Whole turns of the joints from one state to the other; `None` where they exceed a limit.
+    fn wound(&self, before: &Winding, from: (&'a Column, usize), to: (&'a Column, usize)) -> Option<Winding> {
+        let count = self.joints.len();
+        let [from, to] = [from, to].map(|(column, slot)| column.joints_of(slot, count));
+        let by = |joint: usize| self.joints[joint].by(from[joint], to[joint]);
+        self.winding.after(before, by)
     }
 
     /// Directions of the joints between two states.
@@ -113,6 +127,19 @@ impl Links for Between<'_> {
     fn moves_on(&self, turn: usize, from: usize, to: usize) -> Heading {
         let first = turn * SLOTS;
         self.heading((self.before, first + from), (self.here, first + to))
+    }
+
+    fn starts(&self, state: usize) -> Winding {
+        self.winding.start(self.here.joints_of(state, self.joints.len()))
+    }
+
+    fn winds_on(&self, before: &Winding, turn: usize, from: usize, to: usize) -> Option<Winding> {
+        let first = turn * SLOTS;
+        self.wound(before, (self.before, first + from), (self.here, first + to))
+    }
+
+    fn winds_by_turn(&self, before: &Winding, [from, to]: [usize; 2]) -> Option<Winding> {
+        self.wound(before, (self.here, from), (self.here, to))
     }
 
     fn turns(&self, turn: usize, next: usize, from: usize, to: usize) -> bool {

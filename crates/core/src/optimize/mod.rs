@@ -5,14 +5,16 @@
 //! - [`placement`]: score of a placement of the part.
 //! - [`compensation`]: the commanded path for which the tool follows the nominal path.
 //! - [`nodes`]: the same with few targets and straight moves between them.
+//! - [`gain`](fn@gain): decrease of an objective by a change, with its uncertainty.
 //! - [`reversals`](fn@reversals): number of reversals of each joint.
 //!
 //! `spins`: the turns that are tried; `chain`: the chain of postures with the lowest cost; `links`: transitions between
-//! neighbouring points; `heading`: directions of the joints; `lattice`: data for pictures; `smooth`: turns without
+//! neighbouring points; `heading`: directions of the joints; `winding`: their whole turns; `lattice`: data for pictures; `smooth`: turns without
 //! steps; `rank_by`: uncertainty of the cost of a placement.
 
 mod chain;
 pub mod compensation;
+mod gain;
 mod heading;
 pub mod holes;
 mod lattice;
@@ -24,8 +26,10 @@ mod rank_by;
 mod reversals;
 mod smooth;
 mod spins;
+mod winding;
 
 pub use compensation::{Compensated, Compensation, compensated, residual_of};
+pub use gain::{FollowedTrack, Gain, LeastGain, gain, gain_along};
 pub use holes::{HolesFound, hole_postures};
 pub use lattice::Lattice;
 pub use nodes::{Shares, fitted};

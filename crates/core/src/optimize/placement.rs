@@ -17,7 +17,7 @@ use nalgebra::{Unit, UnitQuaternion, Vector3};
 use rayon::prelude::*;
 
 use super::posture::{Component, Objective, WITHIN};
-use super::rank_by::{RankBy, one_off};
+use super::rank_by::{RankBy, changed_arms};
 use super::spins::Spins;
 use crate::frame::{Isometry, tool_orientation};
 use crate::kernel::{
@@ -26,8 +26,8 @@ use crate::kernel::{
 };
 use crate::load::{LoadFrame, PathLoad};
 use crate::path::{GivenSpin, LoadedTrack, Spin, Track};
-use crate::robot::{Branch, BranchPattern, JointCompliance};
-use crate::source::Arm;
+use crate::robot::{Branch, BranchPattern};
+use crate::source::{Arm, ChangedArm};
 use crate::watch::{Cancelled, Watch};
 
 /// Settings of the search.
@@ -249,7 +249,7 @@ impl Placeable<'_> {
 
     /// The cost of this placement and its uncertainty, independent of the ranking criterion.
     pub fn evaluated(&self, placement: &PartPlacement) -> PlacementEvaluation {
-        let off = one_off(&self.question.arm);
+        let off = changed_arms(&self.question.arm);
         let mut evaluators = self.evaluators(&off);
         let nothing = PlacementEvaluation {
             score: Score::NONE,
@@ -263,14 +263,14 @@ impl Placeable<'_> {
     }
 
     /// Arms changed by one standard uncertainty, where the ranking needs the uncertainty of the cost.
-    fn arms_off(&self) -> Vec<Vec<JointCompliance>> {
+    fn arms_off(&self) -> Vec<ChangedArm> {
         match self.objective.rank_by {
             RankBy::Nominal => Vec::new(),
-            RankBy::PlusTwoSigma | RankBy::WithinTolerance(_) => one_off(&self.question.arm),
+            RankBy::PlusTwoSigma | RankBy::WithinTolerance(_) => changed_arms(&self.question.arm),
         }
     }
 
-    fn evaluators<'s>(&'s self, off: &'s [Vec<JointCompliance>]) -> Evaluators<'s> {
+    fn evaluators<'s>(&'s self, off: &'s [ChangedArm]) -> Evaluators<'s> {
         let margins = PostureMargins {
             margin: self.objective.margin,
             wrist: self.objective.wrist,
@@ -281,14 +281,14 @@ impl Placeable<'_> {
         };
         let arm = self.question.arm;
         let home = self.question.home;
-        let evaluator = |compliance| PlacementEvaluator::new(Arm { compliance, ..arm }, home, margins);
+        let evaluator = |arm: Arm<'s>| PlacementEvaluator::new(arm, home, margins);
         Evaluators {
             screen: PlacementScreen::new(arm, margins)
                 .filter(|_| self.objective.selection == PostureSelection::ForPath),
-            nominal: evaluator(arm.compliance),
+            nominal: evaluator(arm),
             off: off
                 .iter()
-                .map(|compliance| evaluator(compliance.as_slice()))
+                .map(|changed| evaluator(changed.arm(arm.robot)))
                 .collect(),
         }
     }

@@ -6,11 +6,12 @@
 //!
 //! | limit | how it is met |
 //! |---|---|
-//! | joint range | a posture outside is not usable |
+//! | joint range | a posture outside, or nearer to a limit than the margin, is not usable |
 //! | singularities | a posture near a stretched arm, or with a wrist bend below the limit, is not usable |
 //! | joint speed at the feed | from point to point, and for the turn of the tool |
 //! | a jump | no joint turns by half a radian between neighbouring points |
-//! | turn of the tool | limited per metre of the path, in steps; then smoothed, at most half a step away |
+//! | whole turns | a joint that turns more than once stays within its range over a whole cut |
+//! | turn of the tool | limited per metre of the path, in steps; then smoothed, at most half a step away. Where a smoothed turn is nearer to a limit than the margin, the search is repeated with a greater margin |
 //!
 //! Where a joint reverses, its backlash leaves a mark on the part. With a price on reversals
 //! ([`PostureSearch::back_price`]) a second chain with fewer reversals is computed. The one with the lower sum of
@@ -31,8 +32,9 @@ use super::links::{Between, JointRate};
 use super::reversals::reversals;
 use super::smooth::without_steps;
 use super::spins::Spins;
+use super::winding::WindingJoints;
 use crate::frame::{Isometry, both_across};
-use crate::kernel::{BranchChoice, Column, ColumnLoad, Columns, PostureStatus, Question, SLOTS};
+use crate::kernel::{AT_LIMIT, BranchChoice, Column, ColumnLoad, Columns, PostureStatus, Question, SLOTS};
 use crate::map::along_postures;
 use crate::path::{LoadedStop, LoadedTrack, Pace, Track};
 use crate::robot::{Branch, BranchPattern};
@@ -79,6 +81,8 @@ pub struct PostureSearch {
     pub back_price: f64,
     /// Smallest bend of the wrist, rad.
     pub wrist: f64,
+    /// Smallest distance of every joint from its limits, rad (m).
+    pub margin: f64,
 }
 
 /// Postures along a path.
@@ -125,11 +129,50 @@ pub fn postures_along(
     let LoadedTrack { track, load } = path;
     assert!(load.covers(track.len()), "a load for each point of the track");
     assert!(search.spins.count > 0, "at least one spin");
+    let mut search = *search;
+    let margin = search.margin;
+    for last in [false, false, true] {
+        let found = searched(question, path, &search, watch)?;
+        let turned = found.turned(track);
+        let along = along_postures(question, &turned, load.clone(), found.choices(), watch)?;
+        let rooms = along
+            .answers
+            .evaluations()
+            .map(|(index, here)| (index, here.limit_margin));
+        let usable = |index: usize| {
+            found
+                .unreachable
+                .binary_search_by_key(&index, |(lost, _)| *lost)
+                .is_err()
+        };
+        let least = rooms
+            .filter(|(index, _)| usable(*index))
+            .map(|(_, room)| room)
+            .fold(f64::INFINITY, f64::min);
+        if last || least >= margin - AT_LIMIT {
+            return Ok(found);
+        }
+        // By smoothing a joint is this much nearer to a limit than in the lattice.
+        search.margin += 1.5 * (margin - least);
+    }
+    unreachable!("the last round returns")
+}
+
+/// One search with the margin of `search` for the lattice.
+fn searched(
+    question: &Question<'_>,
+    path: LoadedTrack<'_>,
+    search: &PostureSearch,
+    watch: Watch<'_>,
+) -> Result<PostureFound, Cancelled> {
+    let LoadedTrack { track, load } = path;
+    let joints = JointRate::all(question.arm.robot);
     let walk = Walk {
         question,
         path,
         search,
-        joints: JointRate::all(question.arm.robot),
+        winding: WindingJoints::of(question.arm.robot, |joint| joints[joint].wraps()),
+        joints,
     };
     let cost = match search.objective {
         Objective::Worst => Cost::Within(walk.chain(Cost::Worst, 0.0, watch)?.0.cost),
@@ -137,6 +180,13 @@ pub fn postures_along(
         Objective::Above(limit) => Cost::Above(limit),
     };
     let mut found = walk.best(cost, 0.0, watch)?;
+    if !found.breaks.is_empty() && search.objective == Objective::Worst {
+        // The chains within the largest deviation may all end with a joint at its limit.
+        let any = walk.best(Cost::Within(f64::INFINITY), 0.0, watch)?;
+        if any.breaks.len() < found.breaks.len() {
+            found = any;
+        }
+    }
     if search.back_price > 0.0 && track.path.length() > 0.0 {
         let price = search.back_price / track.path.length();
         let other = walk.best(cost, price * track.len() as f64, watch)?;
@@ -193,6 +243,7 @@ struct Walk<'a> {
     path: LoadedTrack<'a>,
     search: &'a PostureSearch,
     joints: Vec<JointRate>,
+    winding: WindingJoints,
 }
 
 /// Observations in addition to the chain.
@@ -225,6 +276,7 @@ impl Walk<'_> {
             kept_slots: maker().slots_are_branches(),
             price: if worst_alone { 0.0 } else { self.search.turn_price },
             back_price,
+            winds: !self.winding.is_empty(),
         };
         let points = self.path.track.len();
         let mut chain = Chain::new(turns, cost.together(), (!worst_alone).then_some(points));
@@ -257,6 +309,7 @@ impl Walk<'_> {
                     before: done.last().unwrap_or(&before),
                     here,
                     joints: &self.joints,
+                    winding: &self.winding,
                     time: self.time(index),
                     turn_time: self.turn_time(index),
                 };
@@ -406,6 +459,9 @@ pub(super) fn fill(
     let along = search.component.along(path.track, index, stop.normal);
     let push = ColumnLoad { cases: &cases, along };
     maker.fill(&poses, &push, column);
+    if search.margin > 0.0 {
+        column.keep_margin(maker.robot(), search.margin);
+    }
     if maker.slots_are_branches() && search.branches != BranchPattern::default() {
         for (slot, branch) in Branch::ALL.into_iter().enumerate() {
             if !search.branches.matches(branch) {

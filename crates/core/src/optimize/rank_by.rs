@@ -8,15 +8,14 @@
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | `J` | cost of a placement in its branch | m |
-//! | `c` | compliances of the joints | rad/(N m), m/N |
-//! | `l_k` | column k of the Cholesky factor of their covariance; for independent ones the standard uncertainty of joint k | as `c` |
+//! | `c` | compliances of drives and springs | rad/(N m), m/N |
+//! | `l_k` | their change by one standard uncertainty of an independent input ([`UncertainInput`]) | as `c` |
 //! | `u_F` | relative standard uncertainty of the load | 1 |
 //!
-//! The propagation is that of JCGM 100:2008, 5.1.3 note 2, with differences instead of derivatives. Compliances other
-//! than those of the joints, components of the force and the length of the tool are not included.
+//! Components of the force and the length of the tool are not included.
 
-use crate::robot::JointCompliance;
-use crate::source::Arm;
+use crate::load::InputUncertainty;
+use crate::source::{Arm, ChangedArm, UncertainInput};
 
 /// The criterion that placements are ranked by.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,38 +45,11 @@ impl RankBy {
 /// Smaller uncertainties are replaced by this, m.
 const SMALLEST: f64 = 1e-9;
 
-/// Compliances of the arm, each changed by one standard uncertainty along one direction of the covariance; none where
-/// all uncertainties are zero.
-pub(super) fn one_off(arm: &Arm<'_>) -> Vec<Vec<JointCompliance>> {
-    let joints = arm.compliance.len();
-    let drives = arm.robot.structure().covariance.as_ref();
-    let factor = drives.and_then(|all| all.view((0, 0), (joints, joints)).into_owned().cholesky());
-    let column = |k: usize| -> Vec<f64> {
-        match &factor {
-            Some(factor) => factor.l().column(k).iter().copied().collect(),
-            None => {
-                let own = |i: usize| {
-                    if i == k {
-                        arm.compliance[i].standard_uncertainty
-                    } else {
-                        0.0
-                    }
-                };
-                (0..joints).map(own).collect()
-            }
-        }
-    };
-    let off = |column: Vec<f64>| {
-        let each = arm.compliance.iter().zip(column);
-        each.map(|(joint, by)| JointCompliance {
-            value: joint.value + by,
-            ..*joint
-        })
-        .collect()
-    };
-    let columns = (0..joints).map(column);
-    columns
-        .filter(|column| column.iter().any(|by| *by != 0.0))
-        .map(off)
+/// The arm with its compliances changed by one standard uncertainty of each independent input.
+pub(super) fn changed_arms(arm: &Arm<'_>) -> Vec<ChangedArm> {
+    let inputs = UncertainInput::all(arm, &InputUncertainty::NONE).into_iter();
+    inputs
+        .filter(|input| matches!(input, UncertainInput::Compliances(_)))
+        .map(|input| input.changed(arm))
         .collect()
 }

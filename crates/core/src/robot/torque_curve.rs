@@ -59,6 +59,16 @@ impl TorqueCurve {
         (a1 - a0) / (t1 - t0)
     }
 
+    fn more_compliant(&self, by: f64) -> TorqueCurve {
+        let points = self
+            .points
+            .iter()
+            .map(|[torque, angle]| [*torque, angle + by * torque]);
+        TorqueCurve {
+            points: points.collect(),
+        }
+    }
+
     /// The piece that contains `torque`; the first or last beyond them.
     fn piece(&self, torque: f64) -> [[f64; 2]; 2] {
         let after = self.points.partition_point(|[t, _]| *t <= torque);
@@ -86,6 +96,15 @@ impl JointCurve {
     /// Slope (rad/(N m)) at the end of that turn.
     pub fn slope(&self, before: f64, change: f64) -> f64 {
         self.towards(change).slope(before + change)
+    }
+
+    /// The same with an additional compliance, rad/(N m).
+    #[must_use]
+    pub fn more_compliant(&self, by: f64) -> JointCurve {
+        JointCurve {
+            rising: self.rising.more_compliant(by),
+            falling: self.falling.as_ref().map(|falling| falling.more_compliant(by)),
+        }
     }
 
     fn towards(&self, change: f64) -> &TorqueCurve {
@@ -144,6 +163,19 @@ mod tests {
         };
         assert!((joint.turn(0.0, 50.0) - 1e-4).abs() < 1e-18);
         assert!((joint.turn(0.0, -50.0) + 1.5e-4).abs() < 1e-18);
+    }
+
+    #[test]
+    fn an_additional_compliance_adds_its_turn_to_both_sides() {
+        let joint = JointCurve {
+            rising: knee(),
+            falling: Some(knee()),
+        };
+        let more = joint.more_compliant(1e-7);
+        for (before, change) in [(0.0, 50.0), (150.0, -400.0)] {
+            let by = more.turn(before, change) - joint.turn(before, change);
+            assert!((by - 1e-7 * change).abs() < 1e-18);
+        }
     }
 
     #[test]

@@ -7,7 +7,8 @@
 //! controller. [`thermal`]: growth of the links since the calibration. [`repeatability`]: scatter of repeated poses.
 //! [`arm_state`]: one arm in one posture, and the effect of each source there; `predict.rs` adds them.
 //!
-//! `deviation`: the sum of all sources; `contributor`: what it is shared out to. `linear_system`: small systems of equations in reused memory.
+//! `deviation`: the sum of all sources; `contributor`: what it is shared out to; `uncertain_input`: an arm with one input
+//! changed by its standard uncertainty. `linear_system`: small systems of equations in reused memory.
 
 pub mod arm_state;
 pub mod backlash;
@@ -21,6 +22,7 @@ mod linear_system;
 pub mod repeatability;
 pub mod stiffness_model;
 pub mod thermal;
+mod uncertain_input;
 
 pub use arm_state::{ArmState, Links};
 pub use contributor::Contributor;
@@ -28,3 +30,5 @@ pub use deviation::Deviation;
 pub use equilibrium::Unstable;
 pub use stiffness_model::{Arm, Gravity, StiffnessModel};
 pub use thermal::ThermalGrowth;
+pub(crate) use uncertain_input::compliance_changes;
+pub use uncertain_input::{ChangedArm, UncertainInput};

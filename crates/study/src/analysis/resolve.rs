@@ -236,6 +236,7 @@ impl Resolver<'_> {
             tool_sources: tool.map_or_else(Vec::new, ToolTable::sources),
             uncertainty,
             tolerance,
+            least_gain: self.common.improvement.unwrap_or_default().least_gain(tolerance),
             choice,
             home,
             open,

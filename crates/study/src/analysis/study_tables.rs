@@ -1,6 +1,7 @@
 //! What a study gives to every analysis.
 
 use crate::analysis::path::cut::CutTable;
+use crate::input::improvement::ImprovementTable;
 use crate::input::stiffness::StiffnessTables;
 use crate::input::tables::{LoadTable, PlaneTable, PostureTable, ToolTable};
 
@@ -21,6 +22,8 @@ pub struct StudyTables<'a> {
     pub posture: Option<&'a PostureTable>,
     /// The tolerance.
     pub tolerance_um: f64,
+    /// The least improvement that counts.
+    pub improvement: Option<ImprovementTable>,
     /// Parts of the stiffness model.
     pub stiffness: StiffnessTables<'a>,
 }

@@ -10,6 +10,7 @@ use crate::analysis::path::cut::CutTable;
 use crate::analysis::study_tables::StudyTables;
 use crate::analysis::table::AnalysisTable;
 use crate::compliance_class::ComplianceClass;
+use crate::input::improvement::ImprovementTable;
 use crate::input::stiffness::StiffnessTables;
 use crate::input::tables::{GravityTable, LoadTable, PlaneTable, PostureTable, ThermalTable, ToolTable};
 
@@ -55,6 +56,8 @@ pub struct StudyFile {
     /// Largest permitted in-plane deviation.
     #[schemars(range(min = 0.0, max = 1e9))]
     pub tolerance_um: f64,
+    /// The least improvement for which a change of posture or placement is proposed.
+    pub improvement: Option<ImprovementTable>,
     /// Posture of the arm.
     pub posture: Option<PostureTable>,
     /// The analyses; one map of the plane if left out.
@@ -86,6 +89,7 @@ impl StudyFile {
             cut: self.cut.as_ref(),
             posture: self.posture.as_ref(),
             tolerance_um: self.tolerance_um,
+            improvement: self.improvement,
             stiffness: StiffnessTables {
                 gravity: self.gravity.as_ref(),
                 thermal: self.thermal.as_ref(),

@@ -1,9 +1,10 @@
 //! What a study file gives to any analysis, checked and in SI.
 //!
 //! [`tables`] the tables as written; [`problem_log`] reports problems at their keys; [`quantities`] lengths, planes and
-//! loads in SI; [`stiffness`] the stiffness model; [`posture_search`] the search for spin and branch; [`memory`] the
-//! estimate of what the answers take; [`setting`] all of it for the points of an analysis.
+//! loads in SI; [`stiffness`] the stiffness model; [`posture_search`] the search for spin and branch; [`improvement`]
+//! the least gain that counts; [`memory`] the estimate of what the answers take; [`setting`] all of it for the points of an analysis.
 
+pub mod improvement;
 pub mod memory;
 pub mod posture_search;
 pub mod problem_log;

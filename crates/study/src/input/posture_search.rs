@@ -28,6 +28,9 @@ pub struct SearchTable {
     /// Least angle by which the wrist is bent; 3 if left out.
     #[schemars(range(min = 0.0, max = 80.0))]
     pub least_wrist_deg: Option<f64>,
+    /// Least distance of every joint from its limits; 0 if left out.
+    #[schemars(range(min = 0.0, max = 90.0))]
+    pub margin_deg: Option<f64>,
     /// Penalty for the reversal of a joint: as much as this additional deviation over 1 mm of the path; 0 if left out.
     #[schemars(range(min = 0.0, max = 1e9))]
     pub reversal_um_mm: Option<f64>,
@@ -94,6 +97,7 @@ impl SearchTable {
             && self.objective.is_none()
             && self.turn_deg_per_mm.is_none()
             && self.least_wrist_deg.is_none()
+            && self.margin_deg.is_none()
             && self.reversal_um_mm.is_none()
     }
 
@@ -144,6 +148,7 @@ impl SearchTable {
             turn_price: TURN_PRICE * tolerance,
             back_price: self.reversal_um_mm.unwrap_or(0.0) * 1e-9,
             wrist: from_deg(self.least_wrist_deg.unwrap_or(3.0)),
+            margin: from_deg(self.margin_deg.unwrap_or(0.0)),
         })
     }
 }

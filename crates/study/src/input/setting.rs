@@ -4,7 +4,7 @@ use armill_core::frame::Isometry;
 use armill_core::kernel::BranchChoice;
 use armill_core::load::{InputUncertainty, LoadCases};
 use armill_core::nalgebra::{Matrix6, Point3};
-use armill_core::optimize::PostureSearch;
+use armill_core::optimize::{LeastGain, PostureSearch};
 use armill_core::robot::{BranchPattern, Robot};
 use armill_core::source::{Arm, ArmState, StiffnessModel};
 use armill_core::spatial::Wrench;
@@ -37,6 +37,8 @@ pub struct Setting {
     pub uncertainty: InputUncertainty,
     /// The tolerance, m.
     pub tolerance: f64,
+    /// The least gain for which a change is proposed.
+    pub least_gain: LeastGain,
     /// Which posture.
     pub choice: BranchChoice,
     /// Position of a rail and preferred positions of redundant joints, rad (m).

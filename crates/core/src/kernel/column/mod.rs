@@ -24,9 +24,9 @@ pub use postures::{Column, ColumnLoad, PostureStatus, SLOTS};
 use super::lanes::{Backend, Batch, POINTS, flag};
 use super::question::Question;
 use crate::frame::Isometry;
-use crate::robot::Joint;
 use crate::robot::forward::Frames;
 use crate::robot::inverse::Finder;
+use crate::robot::{Joint, Robot};
 use crate::source::{Arm, ArmState};
 use one_by_one::{ArmMargins, OneByOne};
 use whole_columns::{WholeColumns, WholeFill};
@@ -142,6 +142,11 @@ impl<'q> Columns<'q> {
     /// postures found, in an order that differs from pose to pose.
     pub fn slots_are_branches(&self) -> bool {
         self.margins.arm.robot.inverse().has_branches()
+    }
+
+    /// The robot of the arm.
+    pub(crate) fn robot(&self) -> &'q Robot {
+        self.margins.arm.robot
     }
 
     /// Fills `out` with the postures of these poses under `push`.

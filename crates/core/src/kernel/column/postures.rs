@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 
+use crate::robot::Robot;
 use crate::spatial::Wrench;
 
 /// Number of postures stored for a pose. Of arms without branch names, the first postures found are stored.
@@ -86,6 +87,19 @@ impl Column {
         for at in (slot..self.statuses.len()).step_by(SLOTS) {
             self.statuses[at] = PostureStatus::OutOfReach;
             self.deviations[at] = f64::INFINITY;
+        }
+    }
+
+    /// Excludes postures in which a joint of `robot` is nearer to a limit than `margin`, rad (m).
+    pub(crate) fn keep_margin(&mut self, robot: &Robot, margin: f64) {
+        let joint_count = robot.joints().len();
+        for slot in 0..self.statuses.len() {
+            let usable = self.statuses[slot] == PostureStatus::Usable;
+            let room = |joints: &[f64]| robot.limit_margin(joints).map_or(f64::INFINITY, |(_, room)| room);
+            if usable && room(self.joints_of(slot, joint_count)) < margin {
+                self.statuses[slot] = PostureStatus::OutsideLimits;
+                self.deviations[slot] = f64::INFINITY;
+            }
         }
     }
 

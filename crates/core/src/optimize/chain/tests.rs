@@ -45,6 +45,15 @@ impl Links for MadeLinks {
     fn moves_by_turn(&self, _: usize, _: usize, _: usize, _: usize) -> Heading {
         unreachable!("the tool keeps its turn wherever reversals have a price")
     }
+    fn starts(&self, _: usize) -> Winding {
+        Winding::default()
+    }
+    fn winds_on(&self, before: &Winding, _: usize, _: usize, _: usize) -> Option<Winding> {
+        Some(*before)
+    }
+    fn winds_by_turn(&self, before: &Winding, _: [usize; 2]) -> Option<Winding> {
+        Some(*before)
+    }
 }
 
 fn made(seed: u64, kept_slots: bool) -> Made {
@@ -55,6 +64,7 @@ fn made(seed: u64, kept_slots: bool) -> Made {
         kept_slots,
         price: 0.1 * random.next(),
         back_price: 0.0,
+        winds: true,
     };
     let columns = 2 + (random.next() * 4.0) as usize;
     let cost = |random: &mut Stream| {
@@ -313,6 +323,15 @@ fn the_tool_turns_in_the_shorter_direction_and_no_faster_than_allowed() {
         fn moves_by_turn(&self, _: usize, _: usize, _: usize, _: usize) -> Heading {
             Heading::default()
         }
+        fn starts(&self, _: usize) -> Winding {
+            Winding::default()
+        }
+        fn winds_on(&self, before: &Winding, _: usize, _: usize, _: usize) -> Option<Winding> {
+            Some(*before)
+        }
+        fn winds_by_turn(&self, before: &Winding, _: [usize; 2]) -> Option<Winding> {
+            Some(*before)
+        }
     }
     let lattice = |around, steps| {
         let turns = Turns {
@@ -321,6 +340,7 @@ fn the_tool_turns_in_the_shorter_direction_and_no_faster_than_allowed() {
             kept_slots: true,
             price: 0.0,
             back_price: 0.0,
+            winds: true,
         };
         let mut chain = Chain::new(turns, Together::Sum, Some(3));
         let dear_but = |turn: usize| {

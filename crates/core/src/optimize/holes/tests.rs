@@ -75,6 +75,7 @@ const SEARCH: PostureSearch = PostureSearch {
     turn_price: 0.0,
     back_price: 0.0,
     wrist: 0.05,
+    margin: 0.0,
 };
 
 fn found(holes: &[Hole], search: &PostureSearch) -> HolesFound {

@@ -7,7 +7,7 @@ use super::*;
 use crate::arms;
 use crate::kernel::BranchChoice;
 use crate::load::{LoadCases, LoadFrame, PathLoad};
-use crate::map::{AlongPath, along_postures};
+use crate::map::{AlongPath, along_postures, obstacles};
 use crate::path::{LoadedTrack, Placing, SampledPath, Shape, Spin};
 use crate::robot::{Limits, Robot};
 use crate::source::{Arm, StiffnessModel};
@@ -117,6 +117,7 @@ fn search(objective: Objective) -> PostureSearch {
         turn_price: 1e-9,
         back_price: 0.0,
         wrist: 0.05,
+        margin: 0.0,
     }
 }
 
@@ -407,4 +408,75 @@ fn any_number_of_threads_finds_the_same_and_it_stops_when_cancelled() {
         watch,
     );
     assert_eq!(stopped.unwrap_err(), Cancelled);
+}
+
+/// Four rounds of a circle, the tool turning with the feed.
+fn rounds() -> Track {
+    let rounds = (0..=240).map(|i| {
+        let angle = f64::from(i) * TAU / 60.0;
+        Point2::new(0.06 * angle.cos(), 0.06 * angle.sin())
+    });
+    let shape = Shape::Polyline(rounds.collect());
+    let mut track = track(shape.sampled(0.004), Point3::new(0.85, 0.0, 0.3));
+    track.placing.spin = Spin::AlongFeed(0.0);
+    track
+}
+
+#[test]
+fn a_joint_that_would_turn_with_the_feed_round_after_round_stays_within_its_limits() {
+    let track = rounds();
+    let requested = PostureSearch {
+        turn_rate: 40.0,
+        turn_price: 1e-5,
+        ..search(Objective::Mean)
+    };
+    let of = |half: f64| {
+        let mut joints = Cell::new().robot.joints().to_vec();
+        joints[5].limits = Some(Limits {
+            lower: -half,
+            upper: half,
+        });
+        let mut cell = Cell::with(joints);
+        // A spindle along the flange: only the last joint turns the tool.
+        cell.tool = Isometry::from_parts(Vector3::new(0.0, 0.0, 0.15).into(), UnitQuaternion::identity());
+        let found = cell.found(&track, &requested);
+        let along = cell.answered(&track, found.spins.clone(), found.choices());
+        let obstacles = obstacles(&cell.robot, &track.path, &along.answers, 0.0).count();
+        let last = |index: usize| along.answers.joints_at(index)[5];
+        let turned = (last(track.len() - 1) - last(0)).abs();
+        (found, obstacles, turned)
+    };
+    let (free, obstacles, turned) = of(10.0 * TAU);
+    assert!(obstacles == 0 && turned > 3.0 * TAU, "{obstacles} {turned}");
+    let (limited, obstacles, turned) = of(TAU);
+    assert!(obstacles == 0 && turned <= 2.0 * TAU, "{obstacles} {turned}");
+    assert!(limited.breaks.is_empty() && free.breaks.is_empty());
+}
+
+#[test]
+fn smoothed_spins_stay_within_the_joint_limits_and_their_margin() {
+    let track = square();
+    let cell = Cell::new();
+    for margin in [0.0, 0.1] {
+        let requested = PostureSearch {
+            margin,
+            spins: Spins {
+                step: PI / 9.0,
+                count: 18,
+                first: -PI,
+            },
+            ..search(Objective::Mean)
+        };
+        let found = cell.found(&track, &requested);
+        let along = cell.answered(&track, found.spins.clone(), found.choices());
+        let room = along
+            .answers
+            .evaluations()
+            .map(|(_, evaluation)| evaluation.limit_margin);
+        let least = room.fold(f64::INFINITY, f64::min);
+        assert!(
+            found.unreachable.is_empty() && least >= margin - 1e-9,
+            "{margin} {least}"
+        );
+    }
 }

@@ -1,16 +1,16 @@
 //! A path with the core: its load, the postures along it, and all that follows from them.
 //!
-//! `along_path` or `postures_along`, then `worst_points`, `jumps`, `radial_deviations`, `program_limits` of the core.
+//! `along_path` or `postures_along`, then `worst_points`, `radial_deviations`, `program_limits` of the core.
 
 use armill_core::frame::Isometry;
 use armill_core::kernel::{Answers, evaluate_posture};
 use armill_core::load::PathLoad;
 use armill_core::map::{
-    AlongPath, Jump, ProgramLimits, RadialDeviation, along_path, along_postures, jumps, program_limits,
+    AlongPath, ProgramLimits, RadialDeviation, along_path, along_postures, obstacles, program_limits,
     radial_deviations, worst_points,
 };
 use armill_core::nalgebra::{Point3, Translation3, UnitQuaternion};
-use armill_core::optimize::{Objective, PostureFound, PostureSearch, postures_along};
+use armill_core::optimize::{FollowedTrack, Gain, Objective, PostureFound, gain_along, postures_along};
 use armill_core::path::{ForceSummary, LoadedTrack, NoForces, Shape, Stock, Track};
 use armill_core::spatial::Wrench;
 use armill_core::units::to_mm;
@@ -29,8 +29,6 @@ pub struct PathResult {
     pub along: AlongPath,
     /// The worst points, worst first, each from another part of the path.
     pub worst: Vec<PointDetail>,
-    /// Where the arm jumps, as many as are reported and one more.
-    pub jumps: Vec<Jump>,
     /// On a circle that is a shape: its deviation under each load case.
     pub radial: Vec<RadialDeviation>,
     /// Statistics of its forces, if a cut or drill produces them.
@@ -46,8 +44,14 @@ pub struct PathResult {
 pub struct SearchResult {
     /// The result of the search.
     pub posture: PostureFound,
-    /// The path with the spin and the branch that it has without the search.
-    pub without_search: Answers,
+    /// Whether the path is followed with this result: only where it is a significant improvement.
+    pub applied: bool,
+    /// The path as it is not followed: without the search where the result is applied, with it where it is not.
+    pub other: Answers,
+    /// Number of points with an obstacle without and with the result.
+    pub obstacles: [usize; 2],
+    /// Gain of the objective by the result.
+    pub gain: Gain,
 }
 
 /// One point of a path, evaluated with shares and uncertainty on a plane across the tool.
@@ -63,9 +67,6 @@ pub struct PointDetail {
 
 /// Number of worst points that are reported.
 const WORST: usize = 5;
-
-/// Number of jumps that are reported.
-pub const MOST_JUMPS: usize = 10;
 
 /// The number of passes over a path: a stock is cut in a separate pass. A search also evaluates the
 /// path without it and passes over the lattice once or twice; if reversals have a penalty, once more, and evaluates
@@ -134,9 +135,6 @@ impl Runner<'_> {
                 .into_iter()
                 .map(|index| self.in_full(analysis, track, &along, index))
                 .collect(),
-            jumps: jumps(self.robot, &analysis.track.path, &along.answers)
-                .take(MOST_JUMPS + 1)
-                .collect(),
             radial: match analysis.shape() {
                 Some(Shape::Circle { centre, .. }) => {
                     radial_deviations(&analysis.track, &along.answers, *centre)
@@ -150,43 +148,53 @@ impl Runner<'_> {
         })
     }
 
-    /// The path under this load, with the spins of the search if one is requested.
+    /// The path under this load. A search that is requested changes its posture only where that is a significant
+    /// improvement: fewer obstacles, or the same number and a gain beyond its uncertainty.
     pub fn follow(&self, analysis: &PathAnalysis, load: PathLoad) -> Result<Followed, StudyError> {
         let question = self.question(&analysis.setting);
+        let track = &analysis.track;
+        let nominal = along_path(&question, track, load.clone(), self.watch)?;
         let Some(search) = &analysis.setting.search else {
-            let along = along_path(&question, &analysis.track, load, self.watch)?;
             return Ok(Followed {
                 turned: None,
-                along,
+                along: nominal,
                 searched: None,
             });
         };
-        let searched = self.search(analysis, &load, search)?;
-        let turned = searched.posture.turned(&analysis.track);
-        let choices = searched.posture.choices();
-        Ok(Followed {
-            along: along_postures(&question, &turned, load, choices, self.watch)?,
-            turned: Some(turned),
-            searched: Some(searched),
-        })
-    }
-
-    /// The best spins and branches along a path, and the path without them.
-    fn search(
-        &self,
-        analysis: &PathAnalysis,
-        load: &PathLoad,
-        search: &PostureSearch,
-    ) -> Result<SearchResult, StudyError> {
-        let question = self.question(&analysis.setting);
-        let without_search = along_path(&question, &analysis.track, load.clone(), self.watch)?;
-        let path = LoadedTrack {
-            track: &analysis.track,
-            load,
+        let path = LoadedTrack { track, load: &load };
+        let posture = postures_along(&question, path, search, self.watch)?;
+        let turned = posture.turned(track);
+        let choices = posture.choices();
+        let found = along_postures(&question, &turned, load.clone(), choices, self.watch)?;
+        let ways = [(track, &nominal), (&turned, &found)];
+        let followed = ways.map(|(track, along)| FollowedTrack {
+            path: LoadedTrack { track, load: &load },
+            choices: &along.choices,
+        });
+        let gain = gain_along(
+            &question,
+            followed,
+            (search.component, search.objective),
+            self.watch,
+        )?;
+        let number = |along: &AlongPath| obstacles(self.robot, &track.path, &along.answers, 0.0).count();
+        let numbers = [number(&nominal), number(&found)];
+        let significant = gain.is_significant(&analysis.setting.least_gain);
+        let applied = numbers[1] < numbers[0] || (numbers[1] == numbers[0] && significant);
+        let (along, other) = match applied {
+            true => (found, nominal.answers),
+            false => (nominal, found.answers),
         };
-        Ok(SearchResult {
-            without_search: without_search.answers,
-            posture: postures_along(&question, path, search, self.watch)?,
+        Ok(Followed {
+            turned: applied.then_some(turned),
+            along,
+            searched: Some(SearchResult {
+                posture,
+                applied,
+                other,
+                obstacles: numbers,
+                gain,
+            }),
         })
     }
 

@@ -1,4 +1,5 @@
-//! Warnings of a path: out of reach, outside joint limits, jumps of the arm, points without force.
+//! Warnings of a path: out of reach, outside joint limits, jumps and speeds of joints, points without
+//! force.
 
 use crate::analysis::path::answer::PathAnswer;
 
@@ -7,8 +8,8 @@ const MOST_STRETCHES: usize = 5;
 
 /// Warnings of a path that a user should know before relying on it.
 ///
-/// In this order: points out of reach with what may be the reason, points outside joint limits, jumps, points whose
-/// deviation is zero only because no force is known there.
+/// In this order: points out of reach with what may be the reason, points outside joint limits, jumps and speeds of
+/// joints, points whose deviation is zero only because no force is known there.
 pub fn warnings(path: &PathAnswer) -> Vec<String> {
     let name = &path.name;
     let mut warnings = Vec::new();
@@ -30,10 +31,15 @@ pub fn warnings(path: &PathAnswer) -> Vec<String> {
             path.followed_branch.as_ref().unwrap_or(&path.branch)
         ));
     }
-    if !path.jumps.is_empty() {
+    let stops = path.obstacles.iter();
+    let stops: Vec<&str> = stops
+        .filter(|obstacle| matches!(obstacle.kind, "jump" | "joint-speed"))
+        .map(|obstacle| obstacle.message.as_str())
+        .collect();
+    if !stops.is_empty() {
         warnings.push(format!(
-            "{name}: the arm cannot follow without a stop: {}.",
-            path.jumps.join("; ")
+            "{name}: the arm cannot follow at the feed without a stop: {}.",
+            stops.join("; ")
         ));
     }
     if let Some(search) = &path.search {

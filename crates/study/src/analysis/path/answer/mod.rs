@@ -7,13 +7,14 @@
 //! | axial | along the tool, from the part towards the spindle: the error of floors |
 //!
 //! `worst`: where it is worst; `feature`: circles, lines, planes, holes; `cut`, `measured`: the load; `limits`: the
-//! process limits; `program`: data of a program; `search`: the result of a search for spins of the tool and branches;
-//! `unloaded`: the effect of backlash and geometry.
+//! process limits; `program`: data of a program; `obstacles`: where the arm cannot follow it; `search`: the result of a search
+//! for spins of the tool and branches; `unloaded`: the effect of backlash and geometry.
 
 mod cut;
 mod feature;
 pub(crate) mod limits;
 pub mod measured;
+pub mod obstacles;
 mod program;
 pub mod search;
 mod unloaded;
@@ -23,6 +24,7 @@ pub use cut::{CutAnswer, RestAnswer, StockAnswer};
 pub use feature::FeatureAnswer;
 pub use limits::{LimitAnswer, LimitsAnswer};
 pub use measured::MeasuredAnswer;
+pub use obstacles::ObstacleAnswer;
 pub use program::{OperationAnswer, ProgramAnswer};
 pub use search::{SearchAnswer, StatisticsAnswer};
 pub use unloaded::UnloadedAnswer;
@@ -36,7 +38,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::analysis::path::PathAnalysis;
-use crate::analysis::path::run::{MOST_JUMPS, PathResult};
+use crate::analysis::path::run::PathResult;
 use crate::analysis::point::{PointAnswer, SettingAnswer};
 use crate::input::setting::Setting;
 use crate::number::without_rounding;
@@ -83,8 +85,8 @@ pub struct PathAnswer {
     pub worst: Option<PointAnswer>,
     /// The worst points, each from another part of the path.
     pub worst_points: Vec<WorstPoint>,
-    /// Jumps of a joint from one point to the next.
-    pub jumps: Vec<String>,
+    /// Where the arm cannot follow the path at its feed without a stop; empty if it can.
+    pub obstacles: Vec<ObstacleAnswer>,
     /// The common setting of all points.
     pub setting: SettingAnswer,
     /// Range of each joint (mm for prismatic joints) along the path; empty if no point is reached.
@@ -158,7 +160,7 @@ pub fn answer(robot: &Robot, name: &str, analysis: &PathAnalysis, found: &PathRe
         roundness_um: of_cases.chain(of_features).max_by(f64::total_cmp),
         circle_cases: circle_cases(found),
         worst: worst_points.first().map(|worst| worst.point.clone()),
-        jumps: jumps(robot, analysis, found),
+        obstacles: obstacles::found(robot, &analysis.track.path, answers, 0.0),
         setting: SettingAnswer::of(robot, setting),
         joint_range_deg: joint_ranges(robot, answers),
         cut: CutAnswer::of(analysis, found),
@@ -220,22 +222,6 @@ fn circle_cases(found: &PathResult) -> Vec<CircleCase> {
         roundness_um: to_um(radial.roundness.peak_to_valley),
     };
     found.radial.iter().enumerate().map(of_case).collect()
-}
-
-/// Joints that jump between points next to each other on the path, in sentences.
-fn jumps(robot: &Robot, analysis: &PathAnalysis, found: &PathResult) -> Vec<String> {
-    let joints = robot.joints();
-    let given = found.jumps.iter().take(MOST_JUMPS).map(|jump| {
-        format!(
-            "joint {} turns by {:.0} deg at once in line {}",
-            joints[jump.joint].name,
-            to_deg(jump.by),
-            analysis.track.path.points[jump.index].line
-        )
-    });
-    // One more was searched than is reported.
-    let more = (found.jumps.len() > MOST_JUMPS).then(|| "more jumps follow".to_owned());
-    given.chain(more).collect()
 }
 
 /// Range of each joint, deg (mm); empty if no point is reached.

@@ -26,6 +26,15 @@ pub struct SearchAnswer {
     pub turns: usize,
     /// Least and greatest chosen spin of the tool, relative to the one it has without the search.
     pub turn_range_deg: [f64; 2],
+    /// Whether the path is followed with this result: where it has fewer obstacles, or the same number and a gain that
+    /// exceeds `least_gain_um`.
+    pub applied: bool,
+    /// Decrease of the objective by this result.
+    pub gain_um: f64,
+    /// Standard uncertainty of the gain, from the inputs that both predictions share; null if not known.
+    pub gain_u_um: Option<f64>,
+    /// The gain that would be significant.
+    pub least_gain_um: f64,
     /// The path without the search.
     pub without: StatisticsAnswer,
     /// The path with the result of the search.
@@ -75,13 +84,24 @@ impl SearchAnswer {
         let spins = searched.posture.spins.iter().map(to_deg);
         let least = spins.clone().fold(f64::INFINITY, f64::min);
         let points = &analysis.track.path.points;
+        let followed = StatisticsAnswer::of(analysis, &found.along.answers);
+        let other = StatisticsAnswer::of(analysis, &searched.other);
+        let (without, with) = match searched.applied {
+            true => (other, followed),
+            false => (followed, other),
+        };
+        let gain = &searched.gain;
         Some(SearchAnswer {
             component: component_name(search.component),
             objective: objective_name(search.objective),
             turns: search.spins.count,
             turn_range_deg: [least, spins.fold(f64::NEG_INFINITY, f64::max)],
-            without: StatisticsAnswer::of(analysis, &searched.without_search),
-            with: StatisticsAnswer::of(analysis, &found.along.answers),
+            applied: searched.applied,
+            gain_um: to_um(gain.by()),
+            gain_u_um: gain.uncertainty.map(to_um),
+            least_gain_um: to_um(gain.required(&analysis.setting.least_gain)),
+            without,
+            with,
             unreachable_stretches: unreachable_stretches(points, &searched.posture.unreachable),
             breaks: searched
                 .posture
@@ -96,25 +116,61 @@ impl SearchAnswer {
     pub fn sentence(&self) -> String {
         let worst = |of: &StatisticsAnswer| match of.max_in_plane_um {
             Some(um) => format!("{} µm", micrometres(um)),
-            None => "nothing".to_owned(),
-        };
-        let turned = self.turn_range_deg.map(|deg| format!("{:.0}", decimals(deg, 0)));
-        let [from, to] = &turned;
-        let turn = if from == to {
-            format!("turned by {from} deg")
-        } else {
-            format!("turned by {from} to {to} deg")
+            None => "not known".to_owned(),
         };
         let share = |of: &StatisticsAnswer| format!("{:.1} %", 100.0 * of.fraction_within);
         let backs = |of: &StatisticsAnswer| of.reversals.iter().sum::<usize>();
+        if !self.applied {
+            return format!(
+                "spin and branch are kept; the best ones found would give {}; largest deviation {} instead of {}, {} reversals of joints instead of {}",
+                self.gain_in_words(),
+                worst(&self.with),
+                worst(&self.without),
+                backs(&self.with),
+                backs(&self.without)
+            );
+        }
         format!(
-            "{turn}, the tool deviates by at most {} instead of {}; {} of the points are within the tolerance, {} before; the joints reverse {} times, {} before",
+            "tool spin of {}: {}; largest deviation {} instead of {}; {} of the points are within the tolerance, {} before; {} reversals of joints, {} before",
+            self.turn_in_words(),
+            self.gain_in_words(),
             worst(&self.with),
             worst(&self.without),
             share(&self.with),
             share(&self.without),
             backs(&self.with),
             backs(&self.without)
+        )
+    }
+
+    /// The spin of the tool, such as `-27 to 123 deg`.
+    pub fn turn_in_words(&self) -> String {
+        let [from, to] = self.turn_range_deg.map(|deg| format!("{:.0}", decimals(deg, 0)));
+        match from == to {
+            true => format!("{from} deg"),
+            false => format!("{from} to {to} deg"),
+        }
+    }
+
+    /// The gain, its uncertainty, and what would be significant.
+    pub fn gain_in_words(&self) -> String {
+        let of = match self.objective {
+            "worst" => "the largest deviation",
+            "mean" => "the mean deviation",
+            _ => "the mean excess over the tolerance",
+        };
+        let by = micrometres(self.gain_um.abs());
+        let change = match self.gain_um < 0.0 {
+            true => format!("{by} µm more"),
+            false => format!("a reduction by {by} µm"),
+        };
+        let u = match self.gain_u_um {
+            Some(u) => format!("u = {} µm", micrometres(u)),
+            None => "u not known".to_owned(),
+        };
+        format!(
+            "{change} in {of} ({u}; significant from {} µm)",
+            micrometres(self.least_gain_um)
         )
     }
 }
