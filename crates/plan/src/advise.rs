@@ -119,7 +119,7 @@ pub fn advise(
     let drawn = alone(study.clone(), name);
     let nominal = statistics(&drawn, &run(&drawn, quiet)?);
     let placed = placing.search(journal, watch, given)?;
-    let moves = placed.is_better();
+    let moves = placed.answer.is_improvement;
     let there = match moves {
         true => placed.study(found)?,
         false => drawn,

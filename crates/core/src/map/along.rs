@@ -75,7 +75,7 @@ pub fn along_path(
         ..*question
     };
     assert!(load.covers(track.len()), "a load for each point of the track");
-    let choice = chosen(&requested, track, &load, watch)?;
+    let choice = one_branch(&requested, track, &load, watch)?;
     along_postures(question, track, load, vec![(0, choice)], watch)
 }
 
@@ -243,8 +243,8 @@ impl EquilibriumForces<'_> {
     }
 }
 
-/// The one branch for the whole path.
-fn chosen(
+/// The one branch for the whole path, as in [`along_path`]. The cases of `question` are as many as those of `load`.
+pub(crate) fn one_branch(
     question: &Question<'_>,
     track: &Track,
     load: &PathLoad,

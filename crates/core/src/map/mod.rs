@@ -26,6 +26,7 @@ mod varied;
 pub mod volume;
 mod worst;
 
+pub(crate) use along::one_branch;
 pub use along::{AlongPath, EquilibriumSummary, along_path, along_postures};
 pub use backlash_geometry::BacklashGeometry;
 pub use certainty::{COVERAGE, Certainty, probability_within};

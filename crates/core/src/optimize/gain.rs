@@ -14,6 +14,8 @@
 //! uncertainty of their difference is therefore often much smaller, and sometimes larger, than that of each. The scatter
 //! of repetitions is the same before and after and is not included.
 
+use nalgebra::Vector3;
+
 use super::posture::{Component, Objective};
 use crate::kernel::{Answers, BranchChoice, Question};
 use crate::map::along_postures;
@@ -41,6 +43,15 @@ pub struct LeastGain {
     pub amount: f64,
     /// Amount that it must exceed where its uncertainty is not known, m.
     pub amount_if_unknown: f64,
+}
+
+impl LeastGain {
+    /// Any gain at all.
+    pub const ANY: LeastGain = LeastGain {
+        coverage_factor: 0.0,
+        amount: 0.0,
+        amount_if_unknown: 0.0,
+    };
 }
 
 impl Gain {
@@ -161,15 +172,21 @@ pub fn gain_along(
     })
 }
 
+impl Component {
+    /// The largest of these deviations (m, base) at point `index` of `track`, in this component.
+    pub(super) fn largest(self, track: &Track, index: usize, deviations: &[Vector3<f64>]) -> f64 {
+        let [first, second] = self.along(track, index, track.stop(index).normal);
+        let size = |deviation: &Vector3<f64>| deviation.dot(&first).hypot(deviation.dot(&second));
+        deviations.iter().map(size).fold(0.0, f64::max)
+    }
+}
+
 impl Objective {
     /// Its value along `track` with these answers, m: over the points that are reached.
     pub fn along(self, component: Component, track: &Track, answers: &Answers) -> f64 {
         let (mut worst, mut sum, mut above, mut count) = (0.0f64, 0.0, 0.0, 0);
         for (index, _) in answers.evaluations() {
-            let [first, second] = component.along(track, index, track.stop(index).normal);
-            let size =
-                |deviation: &nalgebra::Vector3<f64>| deviation.dot(&first).hypot(deviation.dot(&second));
-            let largest = answers.deviations_at(index).iter().map(size).fold(0.0, f64::max);
+            let largest = component.largest(track, index, answers.deviations_at(index));
             worst = worst.max(largest);
             sum += largest;
             if let Objective::Above(tolerance) = self {

@@ -16,6 +16,7 @@
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 use rayon::prelude::*;
 
+use super::gain::Gain;
 use super::posture::{Component, Objective, WITHIN};
 use super::rank_by::{RankBy, changed_arms};
 use super::spins::Spins;
@@ -260,6 +261,48 @@ impl Placeable<'_> {
             score,
             uncertainty: self.uncertainty(&mut evaluators, placement, &score),
         })
+    }
+
+    /// The gain of the cost from one placement to another, each in the best of its open branches with nominal values.
+    pub fn gain(
+        &self,
+        before: (&PartPlacement, BranchPattern),
+        after: (&PartPlacement, BranchPattern),
+    ) -> Gain {
+        let off = changed_arms(&self.question.arm);
+        let mut evaluators = self.evaluators(&off);
+        let mut scores = [Score::NONE; 2];
+        let mut branches = [BranchPattern::default(); 2];
+        for (i, (placement, open)) in [before, after].into_iter().enumerate() {
+            scores[i] = self
+                .nominal(&mut evaluators.nominal, placement, open, None)
+                .unwrap_or(Score::NONE);
+            branches[i] = scores[i].branch.map_or(open, BranchPattern::from);
+        }
+        let [before, after] = [
+            (before.0, branches[0], scores[0]),
+            (after.0, branches[1], scores[1]),
+        ];
+        let mut gain = Gain {
+            before: before.2.cost,
+            after: after.2.cost,
+            uncertainty: None,
+        };
+        if off.is_empty() {
+            return gain;
+        }
+        let structure = &self.question.arm.model.structure;
+        let by_load = gain.by() * self.question.uncertainty.relative;
+        let by_model = structure.model_error * gain.before.hypot(gain.after);
+        let by_arms = evaluators.off.iter_mut().map(|evaluator| {
+            let mut change = |(placement, branch, score): (&PartPlacement, BranchPattern, Score)| {
+                let there = self.nominal(evaluator, placement, branch, None);
+                there.map_or(0.0, |there| there.cost - score.cost)
+            };
+            change(before) - change(after)
+        });
+        gain.uncertainty = Some(by_arms.fold(by_load.hypot(by_model), f64::hypot));
+        gain
     }
 
     /// Arms changed by one standard uncertainty, where the ranking needs the uncertainty of the cost.

@@ -30,6 +30,15 @@ pub struct PlacementAnswer {
     pub nominal: OutcomeAnswer,
     /// At the best placement.
     pub recommended: OutcomeAnswer,
+    /// Whether the best placement is recommended: it reaches more points, or the same number and its gain exceeds
+    /// `least_gain_um`.
+    pub is_improvement: bool,
+    /// Decrease of the objective from the nominal to the best placement.
+    pub gain_um: f64,
+    /// Standard uncertainty of the gain, from the inputs that both predictions share; null if not known.
+    pub gain_u_um: Option<f64>,
+    /// The gain that would be significant.
+    pub least_gain_um: f64,
     /// Its fixture, if fixtures are given.
     pub fixture: Option<String>,
     /// The place.
@@ -138,6 +147,9 @@ impl PlacementAnswer {
                 branch(&self.recommended),
             ),
         }];
+        if self.recommended.unreachable_points == 0 && self.nominal.unreachable_points == 0 {
+            lines.push(self.gain_in_words());
+        }
         if self.tool_turns_with_part {
             lines.push(
                 "The tool turns with the part; in a study use spin = \"along-feed\", otherwise column turn_deg of the table has its spin.".to_owned(),
@@ -188,6 +200,22 @@ impl PlacementAnswer {
         lines
     }
 
+    /// The gain, its uncertainty, and whether it counts.
+    fn gain_in_words(&self) -> String {
+        let u = match self.gain_u_um {
+            Some(u) => format!("u = {} µm", micrometres(u)),
+            None => "u not known".to_owned(),
+        };
+        let amount = format!("{} µm ({u})", micrometres(self.gain_um.max(0.0)));
+        let least = micrometres(self.least_gain_um);
+        match self.is_improvement {
+            true => format!("The gain is {amount}; it is significant from {least} µm."),
+            false => format!(
+                "The gain of {amount} is not significant (from {least} µm): keep the nominal placement."
+            ),
+        }
+    }
+
     /// The placement as text: `centre (700.0, 0.0, 1028.7) mm, tilt 90.0 deg`.
     pub fn place_in_words(&self) -> String {
         let place = &self.place;
@@ -212,9 +240,9 @@ impl PlacementAnswer {
         words
     }
 
-    /// Lines of a study file for this placement; none if not all points can be reached.
+    /// Lines of a study file for this placement; none if not all points can be reached, or it is no improvement.
     pub fn study_lines(&self) -> String {
-        if self.recommended.unreachable_points > 0 {
+        if self.recommended.unreachable_points > 0 || !self.is_improvement {
             return String::new();
         }
         let place = &self.place;

@@ -36,7 +36,7 @@ use armill_core::nalgebra::{Point3, UnitQuaternion, Vector3};
 use armill_core::optimize::{PlacementObjective, PostureSearch, PostureSelection, ToolTurn, on_part};
 use armill_core::path::{LoadedTrack, Spin};
 use armill_core::robot::BranchPattern;
-use armill_core::units::{from_deg, from_mm, to_deg, to_mm};
+use armill_core::units::{from_deg, from_mm, to_deg, to_mm, to_um};
 use armill_core::watch::Watch;
 use armill_core::workpiece::Plane;
 use armill_study::analysis::Subject;
@@ -271,6 +271,34 @@ impl<'a> PlacementSearch<'a> {
         let of = |best: &Best| &prepared.sites[best.site];
         let best = &found.best;
         let place = of(best).freedom.answer(&best.spot.at);
+        let nominal = outcome(&drawn, as_requested, &[]);
+        // The branch of the nominal placement, unless another one is a significant improvement.
+        let there = &of(best).freedom;
+        let placement = there.part_placement(&best.spot.at);
+        let all = prepared.searched(there, objective, prepared.effort).all;
+        let (least, open) = (&setting.least_gain, objective.branches);
+        let any = outcome(there, objective, &best.spot.at);
+        let kept = nominal.branch.as_deref().and_then(|words| words.parse().ok());
+        let kept = kept.and_then(|branches: BranchPattern| {
+            let kept = outcome(
+                there,
+                PlacementObjective {
+                    branches,
+                    ..objective
+                },
+                &best.spot.at,
+            );
+            let gain = all.gain((&placement, branches), (&placement, open));
+            let enough = kept.unreachable_points == any.unreachable_points && !gain.is_significant(least);
+            enough.then_some((branches, kept))
+        });
+        let (branches, recommended) = kept.unwrap_or((open, any));
+        let gain = all.gain(
+            (&drawn.part_placement(&[]), as_requested.branches),
+            (&placement, branches),
+        );
+        let (lost, before) = (recommended.unreachable_points, nominal.unreachable_points);
+        let is_improvement = lost < before || (lost == before && gain.is_significant(least));
         PlacementAnswer {
             format: 1,
             analysis: self.name.to_owned(),
@@ -278,8 +306,12 @@ impl<'a> PlacementSearch<'a> {
             objective: objective_name(objective.objective),
             margin_deg: decimals(to_deg(objective.margin), 4),
             rank_by: rank_by_name(objective.rank_by),
-            nominal: outcome(&drawn, as_requested, &[]),
-            recommended: outcome(&of(best).freedom, objective, &best.spot.at),
+            nominal,
+            recommended,
+            is_improvement,
+            gain_um: to_um(gain.by()),
+            gain_u_um: gain.uncertainty.map(to_um),
+            least_gain_um: to_um(gain.required(least)),
             fixture: of(best).name.map(str::to_owned),
             home_deg: place.rail_mm.and_then(|rail| self.home_with_rail(rail)),
             place,

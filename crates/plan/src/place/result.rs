@@ -25,12 +25,6 @@ pub struct PlacementResult {
 }
 
 impl PlacementResult {
-    /// Whether the path is better there than at the nominal placement.
-    pub fn is_better(&self) -> bool {
-        let (there, nominal) = (&self.answer.recommended, &self.answer.nominal);
-        (there.unreachable_points, there.cost_um) < (nominal.unreachable_points, nominal.cost_um)
-    }
-
     /// The first section of a report about the path there.
     pub fn opening(&self) -> Opening {
         Opening {
@@ -40,12 +34,17 @@ impl PlacementResult {
         }
     }
 
-    /// The study with only its path, placed there, with the spin of the tool of the search.
+    /// The study with only its path, placed there with the spin of the tool of the search where that is an improvement.
     ///
     /// # Errors
     /// Every problem of the file, which may have changed since it was read.
     pub fn study(&self, found: &FoundStudy) -> Result<Study, StudyError> {
-        let mut study = found.read_changed(|file| self.place_path(file))?;
+        let moves = self.answer.is_improvement;
+        let mut study = found.read_changed(|file| {
+            if moves {
+                self.place_path(file);
+            }
+        })?;
         study
             .analyses
             .retain(|analysis| analysis.name == self.answer.analysis);
@@ -56,7 +55,7 @@ impl PlacementResult {
                 Subject::Holes(holes) => &mut holes.path,
                 _ => continue,
             };
-            if let Some(part_from_tools) = &self.with_part {
+            if let Some(part_from_tools) = self.with_part.as_ref().filter(|_| moves) {
                 let track = &path.track;
                 let spins = part_from_tools.iter().enumerate().map(|(index, on_part)| {
                     let evaluated = track.base_from_part.rotation * on_part;

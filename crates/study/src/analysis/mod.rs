@@ -187,7 +187,13 @@ impl Subject {
                     track: &path.track,
                     load: &path.load,
                 };
-                let found = hole_postures(&question, loaded, &holes.search, runner.watch)?;
+                let found = hole_postures(
+                    &question,
+                    loaded,
+                    &holes.search,
+                    &holes.path.setting.least_gain,
+                    runner.watch,
+                )?;
                 AnalysisData::Holes(holes, Box::new(found))
             }
         })

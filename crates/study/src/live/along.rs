@@ -103,7 +103,13 @@ pub(super) fn at_hole(
         _ => {
             let runner = Runner::new(&study.robot.robot, watch)?;
             let question = runner.question(&holes.path.setting);
-            of_now = hole_postures(&question, LoadedTrack { track, load }, &holes.search, watch)?;
+            of_now = hole_postures(
+                &question,
+                LoadedTrack { track, load },
+                &holes.search,
+                &holes.path.setting.least_gain,
+                watch,
+            )?;
             &of_now
         }
     };

@@ -83,15 +83,23 @@ fn found(holes: &[Hole], search: &PostureSearch) -> HolesFound {
 }
 
 fn found_by(model: &StiffnessModel, holes: &[Hole], search: &PostureSearch) -> HolesFound {
+    found_beyond(&LeastGain::ANY, model, &track(holes), search)
+}
+
+fn found_beyond(
+    least: &LeastGain,
+    model: &StiffnessModel,
+    track: &Track,
+    search: &PostureSearch,
+) -> HolesFound {
     let (robot, tool) = (arms::mh12(), tool());
     let question = question(&robot, &tool, model);
+    let load = load();
     hole_postures(
         &question,
-        LoadedTrack {
-            track: &track(holes),
-            load: &load(),
-        },
+        LoadedTrack { track, load: &load },
         search,
+        least,
         Watch::NONE,
     )
     .unwrap()
@@ -186,6 +194,49 @@ fn by_every_turn_and_branch(model: &StiffnessModel) {
 }
 
 #[test]
+fn the_nominal_posture_is_kept_where_the_gain_is_not_significant() {
+    // Turned out of the plane of the arm, where axes 4 and 6 are aligned.
+    let track = Track {
+        spins: Some(vec![1.0; 4]),
+        ..track(&holes()[..4])
+    };
+    let in_plane = |found: &HolesFound, i: usize| found.answers.points[i].as_ref().unwrap().in_plane;
+    let beyond = |amount: f64| {
+        let least = LeastGain {
+            amount,
+            ..LeastGain::ANY
+        };
+        found_beyond(&least, StiffnessModel::DRIVES, &track, &SEARCH)
+    };
+    let (best, nominal) = (beyond(0.0), beyond(1.0));
+    // At the other holes the nominal posture is not usable.
+    let kept: Vec<usize> = (0..4).filter(|i| nominal.spins[*i] == 0.0).collect();
+    let name = |i: usize| nominal.answers.points[i].as_ref().unwrap().name;
+    assert!(
+        kept.len() > 1 && kept.iter().all(|i| name(*i) == name(kept[0])),
+        "{kept:?}"
+    );
+    for i in (0..4).filter(|i| !kept.contains(i)) {
+        assert_eq!(in_plane(&nominal, i), in_plane(&best, i));
+    }
+    // Between the smallest and the largest gain some change and some do not.
+    let gains: Vec<f64> = (0..4)
+        .map(|i| in_plane(&nominal, i) - in_plane(&best, i))
+        .collect();
+    let (least, most) = (
+        gains.iter().copied().fold(f64::INFINITY, f64::min),
+        gains.iter().copied().fold(0.0, f64::max),
+    );
+    assert!(least < most, "{gains:?}");
+    let amount = 0.5 * (least + most);
+    let some = beyond(amount);
+    for (i, gain) in kept.iter().zip(&gains) {
+        let expected = if *gain > amount { &best } else { &nominal };
+        assert_eq!(in_plane(&some, *i), in_plane(expected, *i), "{i}: {gain}");
+    }
+}
+
+#[test]
 fn the_order_of_the_holes_changes_nothing() {
     let forwards = holes();
     let backwards: Vec<Hole> = forwards.iter().rev().copied().collect();
@@ -264,6 +315,7 @@ fn a_cancelled_search_stops() {
             load: &load(),
         },
         &SEARCH,
+        &LeastGain::ANY,
         watch,
     );
     assert!(gave.is_err());
