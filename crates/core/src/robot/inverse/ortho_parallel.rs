@@ -47,10 +47,14 @@ pub struct OrthoParallel {
 impl OrthoParallel {
     /// The geometry of `chain`, or `None` if it is of another kind.
     pub fn recognise(chain: &Chain) -> Option<OrthoParallel> {
-        let lines = lines_at_zero(chain)?;
+        OrthoParallel::of(&lines_at_zero(chain)?, &chain.base_from_flange(&[0.0; 6]))
+    }
+
+    /// The geometry of the arm with these axes and this flange at zero, or `None` if it is of another kind.
+    pub(super) fn of(lines: &[Line; 6], at_zero: &Isometry) -> Option<OrthoParallel> {
         let wrist = lines[3].nearest_to(&lines[4])?;
-        (deviation_from_ideal(&lines, wrist).largest() < IDEAL)
-            .then(|| OrthoParallel::of_lines(chain, &lines, wrist))
+        (deviation_from_ideal(lines, wrist).largest() < IDEAL)
+            .then(|| OrthoParallel::of_lines(at_zero, lines, wrist))
             .flatten()
     }
 
@@ -68,15 +72,15 @@ impl OrthoParallel {
         lines[2].axis = lines[1].axis * sense_of(lines[2].axis.dot(&lines[1].axis));
         lines[4].axis = across(lines[4].axis, &lines[3].axis);
         lines[5].axis = across(lines[5].axis, &lines[4].axis);
-        let mut arm = OrthoParallel::of_lines(chain, &lines, wrist)?;
+        let at_zero = chain.base_from_flange(&[0.0; 6]);
+        let mut arm = OrthoParallel::of_lines(&at_zero, &lines, wrist)?;
         arm.links.slack = deviation.slack(arm.links.l2 + arm.links.l3).min(slack);
         Some(arm)
     }
 
-    fn of_lines(chain: &Chain, lines: &[Line; 6], wrist: Point3<f64>) -> Option<OrthoParallel> {
+    fn of_lines(base_from_flange: &Isometry, lines: &[Line; 6], wrist: Point3<f64>) -> Option<OrthoParallel> {
         let [z1, z2, z3, z4, z5, z6] = lines.map(|line| line.axis);
         let [_, o2, o3, ..] = lines.map(|line| line.point);
-        let base_from_flange = chain.base_from_flange(&[0.0; 6]);
         let arm = base_from_arm(lines, wrist);
         let [y, up] = [1, 2].map(|i| arm.rotation.matrix().column(i).into_owned());
         let base_from_arm = Isometry::from_parts(arm.translation, arm.rotation.into());
