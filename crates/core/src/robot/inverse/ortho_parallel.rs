@@ -127,17 +127,31 @@ impl OrthoParallel {
     ///
     /// Not checked: that there are six.
     pub fn name(&self, theta: &[f64]) -> (Branch, Option<Singularity>) {
-        let phi = |i: usize| self.sense[i] * theta[i];
-        let psi = self.upper_arm_at_zero + phi(1);
-        let forearm = self.forearm_at_zero + phi(1) + phi(2);
-        let (eps, bend) = (forearm - psi, self.bend_at_zero + phi(4));
-        let u = self.links.l2 * psi.sin() + self.links.l3 * forearm.sin();
+        let (bend, eps, u) = self.bends(theta);
         let branch = Branch {
             shoulder: Shoulder::at(u + self.a1),
             elbow: TwoLinks::elbow(eps, u),
             wrist: Wrist::bent(bend.sin()),
         };
         (branch, self.links.singularity(bend.sin(), eps.sin(), u + self.a1))
+    }
+
+    /// The bends of wrist and elbow (rad) at the chain positions `theta`, and the wrist centre's distance (m) to the
+    /// front of the shoulder.
+    fn bends(&self, theta: &[f64]) -> (f64, f64, f64) {
+        let phi = |i: usize| self.sense[i] * theta[i];
+        let psi = self.upper_arm_at_zero + phi(1);
+        let forearm = self.forearm_at_zero + phi(1) + phi(2);
+        let u = self.links.l2 * psi.sin() + self.links.l3 * forearm.sin();
+        (self.bend_at_zero + phi(4), forearm - psi, u)
+    }
+
+    /// How near to a singularity the chain positions `theta` are: the least of the sines of wrist and elbow, and the
+    /// wrist centre's distance from axis 1 over the length of the arm.
+    pub(super) fn nearness(&self, theta: &[f64; 6]) -> f64 {
+        let (bend, eps, u) = self.bends(theta);
+        let from_axis_1 = (u + self.a1) / (self.links.l2 + self.links.l3);
+        bend.sin().abs().min(eps.sin().abs()).min(from_axis_1.abs())
     }
 }
 

@@ -5,6 +5,7 @@
 
 use std::f64::consts::PI;
 
+use super::super::super::branch::Branch;
 use super::super::super::posture::{PostureName, Sides, Singularity};
 use super::super::super::unreachable::Unreachable;
 use super::super::descent::Goal;
@@ -26,6 +27,8 @@ const HALVINGS: u32 = 13;
 const SHORT: usize = 8;
 /// Misses (m) of the reach below this are left to the spherical wrist, whose reach includes rounding.
 const AT_REACH: f64 = 1e-6;
+/// Sines of a bend below this are left to it as well: it decides which joint is free, and which postures are one.
+const SINGULAR: f64 = 1e-3;
 
 /// A pose for an arm with one fixed joint.
 struct FixedJointTarget<'a> {
@@ -50,12 +53,12 @@ impl SixJoints {
         })
     }
 
-    /// Chain positions of an ortho-parallel arm, and which lanes reach, if no posture is near a singularity.
+    /// Chain positions of an ortho-parallel arm, and which lanes reach, if none is at a singularity.
     fn regular(&self, arm_from_flange: &Isometry) -> Option<([Eight; 6], [bool; 8])> {
         let arm = self.ortho_parallel.as_ref()?;
         let branches = arm.eight_branches(arm_from_flange, None);
-        let is_regular = |outcome: &Result<Option<Singularity>, Unreachable>| match *outcome {
-            Ok(singularity) => singularity.is_none(),
+        let is_regular = |branch: Branch| match branches.get(branch) {
+            Ok((theta, near)) => near.is_none() || arm.nearness(&theta) > SINGULAR,
             Err(
                 Unreachable::TooFar { by }
                 | Unreachable::TooNear { by }
@@ -63,11 +66,11 @@ impl SixJoints {
             ) => by > AT_REACH,
             Err(_) => false,
         };
-        branches
-            .outcomes
-            .iter()
+        let reached = branches.outcomes.map(|outcome| outcome.is_ok());
+        Branch::ALL
+            .into_iter()
             .all(is_regular)
-            .then(|| (branches.theta, branches.outcomes.map(|outcome| outcome.is_ok())))
+            .then_some((branches.theta, reached))
     }
 }
 
