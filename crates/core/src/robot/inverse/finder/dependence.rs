@@ -43,18 +43,21 @@ impl Work<f64> for FindDependence<'_> {
         let mut gram = Gram::default();
         let per_length = R::of(1.0 / self.length);
         for [axis, point] in self.axes {
+            let mut linear = [Eight::default(); 3];
             for i in 0..8 {
                 R::step();
-                let w = vector_of_eight::<R>(axis, i);
                 let away = vector_of_eight::<R>(self.flange, i) - vector_of_eight(point, i);
-                let v = w.cross(away).scaled(per_length);
-                add_square(&mut gram.linear, i, v);
-                add_square(&mut gram.angular, i, w);
-                add(&mut gram.mixed[0], i, v.scaled(w.x));
-                add(&mut gram.mixed[1], i, v.scaled(w.y));
-                add(&mut gram.mixed[2], i, v.scaled(w.z));
+                let v = vector_of_eight(axis, i).cross(away);
+                put_eight(&mut linear, i, v.scaled(per_length));
+            }
+            add_square::<R>(&mut gram.linear, &linear);
+            add_square::<R>(&mut gram.angular, axis);
+            for (mixed, w) in gram.mixed.iter_mut().zip(axis) {
+                add_scaled::<R>(mixed, &linear, w);
             }
         }
+        // A separate value: so short a loop is vectorised only where its results cannot overlap what it reads.
+        let mut found = Eight::default();
         for i in 0..8 {
             R::step();
             let (a, c) = (
@@ -77,22 +80,45 @@ impl Work<f64> for FindDependence<'_> {
             let products = Vector::new(m2.dot(m3), m3.dot(m1), m1.dot(m2));
             let through = s_inverse.squares.dot(squares) + R::of(2.0) * s_inverse.products.dot(products);
             let trace_of_inverse = a_inverse.trace() + s_inverse.trace() + through;
-            self.found.set(i, (a.trace() + c.trace()) * trace_of_inverse);
+            found.set(i, (a.trace() + c.trace()) * trace_of_inverse);
         }
+        *self.found = found;
     }
 }
 
-/// Adds a vector in one lane.
+/// Adds the vectors `v`, each `factor` times.
 #[inline(always)]
-fn add<R: Real<Float = f64>>(sum: &mut [Eight; 3], lane: usize, v: Vector<R>) {
-    put_eight(sum, lane, vector_of_eight(sum, lane) + v);
+fn add_scaled<R: Real<Float = f64>>(sum: &mut [Eight; 3], v: &[Eight; 3], factor: &Eight) {
+    for i in 0..8 {
+        R::step();
+        let added = vector_of_eight::<R>(v, i).mul_add(factor.at(i), vector_of_eight(sum, i));
+        put_eight(sum, i, added);
+    }
 }
 
-/// Adds the square `v v^T` in one lane.
+/// Adds the squares `v v^T`.
 #[inline(always)]
-fn add_square<R: Real<Float = f64>>([squares, products]: &mut [[Eight; 3]; 2], lane: usize, v: Vector<R>) {
-    add(squares, lane, Vector::new(v.x * v.x, v.y * v.y, v.z * v.z));
-    add(products, lane, Vector::new(v.y * v.z, v.z * v.x, v.x * v.y));
+fn add_square<R: Real<Float = f64>>([squares, products]: &mut [[Eight; 3]; 2], v: &[Eight; 3]) {
+    for i in 0..8 {
+        R::step();
+        let (v, s, p) = (
+            vector_of_eight::<R>(v, i),
+            vector_of_eight::<R>(squares, i),
+            vector_of_eight::<R>(products, i),
+        );
+        let added = Vector::new(
+            v.x.mul_add(v.x, s.x),
+            v.y.mul_add(v.y, s.y),
+            v.z.mul_add(v.z, s.z),
+        );
+        put_eight(squares, i, added);
+        let added = Vector::new(
+            v.y.mul_add(v.z, p.x),
+            v.z.mul_add(v.x, p.y),
+            v.x.mul_add(v.y, p.z),
+        );
+        put_eight(products, i, added);
+    }
 }
 
 /// A symmetric 3x3 matrix: `[xx yy zz]` and `[yz zx xy]`.
