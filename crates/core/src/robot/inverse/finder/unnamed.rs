@@ -315,3 +315,6 @@ impl Finder<'_> {
         None
     }
 }
+
+#[cfg(test)]
+mod tests;
