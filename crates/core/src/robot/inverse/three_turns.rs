@@ -15,13 +15,13 @@
 //! ```
 //!
 //! It is of fourth degree in `tan((theta3 - tau)/2)`, `tau` chosen so that no root is large. Where axes 1 and 2
-//! meet or are parallel, `B` is singular and `F` a square: its roots are double, and are found as extrema. Joint 1 then
-//! has two positions for each. The result is refined by Newton's iteration on all three joints.
+//! meet or are parallel, `B` is singular and `F` a square: of a combination of both rows, which has two roots. Joint 1
+//! then has two positions for each. Where they nearly meet, the roots of `F` are nearly double, and found as extrema. The result is refined by Newton's iteration on all three joints.
 //!
 //! Lengths m, angles rad; axes are given at chain zero. Source: D. L. Pieper, "The Kinematics of Manipulators under
 //! Computer Control", Stanford 1968; as circles: A. J. Elias, J. T. Wen 2025 (subproblem 5).
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
@@ -32,6 +32,8 @@ use super::roots::real_roots;
 const TOUCHING: f64 = 1e-8;
 /// Determinant of the scaled `B` below which joint 1 is not computed from it.
 const SINGULAR: f64 = 1e-2;
+/// Determinant of the scaled `B` that is zero but for rounding.
+const ROUNDED: f64 = 1e-12;
 /// The scaled circle of joint 1 below which the goal is on axis 1, and joint 1 is free.
 const ON_AXIS: f64 = 1e-9;
 /// Maximum number of steps of Newton's iteration.
@@ -175,6 +177,21 @@ impl ThreeTurns {
     }
 }
 
+/// Cosine and sine of every eighth of a turn.
+const EIGHTHS: [[f64; 2]; 8] = {
+    const R: f64 = FRAC_1_SQRT_2;
+    [
+        [1.0, 0.0],
+        [R, R],
+        [0.0, 1.0],
+        [-R, R],
+        [-1.0, 0.0],
+        [-R, -R],
+        [0.0, -1.0],
+        [R, -R],
+    ]
+};
+
 /// The two equations between joints 1 and 3, scaled: `b x = a u`.
 struct Circles {
     a: [Vector3<f64>; 2],
@@ -240,20 +257,28 @@ impl Circles {
         let [[b11, b12], [b21, b22]] = self.b.map(|row| row.map(|entry| entry / size));
         let [first, second] = self.a;
         let (p, q) = (first * b22 - second * b12, second * b11 - first * b21);
+        if self.determinant().abs() < ROUNDED {
+            // Both are multiples of the same row.
+            let row = if p.norm() > q.norm() { p } else { q };
+            let most = row.yz().norm();
+            // The root of what F may be off.
+            let beyond = row.x.abs() - most > touching.sqrt() * (row.x.abs() + most);
+            return if beyond {
+                Vec::new()
+            } else {
+                either_turn(row.yz().into(), -row.x).to_vec()
+            };
+        }
         let det_squared = (self.determinant() * size).powi(2);
-        let at = |row: &Vector3<f64>, (sin, cos): (f64, f64)| row.x + row.y * cos + row.z * sin;
-        let f = |angle: f64| {
-            let turn = angle.sin_cos();
-            at(&p, turn).powi(2) + at(&q, turn).powi(2) - det_squared
-        };
+        let at = |row: &Vector3<f64>, [cos, sin]: [f64; 2]| row.x + row.y * cos + row.z * sin;
+        let f = |turn: [f64; 2]| at(&p, turn).powi(2) + at(&q, turn).powi(2) - det_squared;
         // Opposite to tau, where the tangent has no value, F is as far from zero as at any of eight points.
-        let eighth = |k: u8| TAU / 8.0 * f64::from(k);
-        let far = (0..8)
-            .map(eighth)
-            .max_by(|x, y| f(*x).abs().total_cmp(&f(*y).abs()))
-            .unwrap_or(0.0);
-        let tau = far - TAU / 2.0;
-        let (sin, cos) = tau.sin_cos();
+        let [cos, sin] = EIGHTHS
+            .map(|turn| (f(turn).abs(), turn))
+            .into_iter()
+            .max_by(|(x, _), (y, _)| x.total_cmp(y))
+            .map_or([1.0, 0.0], |(_, [cos, sin])| [-cos, -sin]);
+        let tau = sin.atan2(cos);
         // Of each row the parabola in t = tan((theta3 - tau)/2) that it is after multiplying by 1 + t^2.
         let parabola = |row: &Vector3<f64>| {
             let (k1, k2) = (row.y * cos + row.z * sin, row.z * cos - row.y * sin);
