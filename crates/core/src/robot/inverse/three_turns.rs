@@ -38,6 +38,9 @@ const ROUNDED: f64 = 1e-12;
 const ON_AXIS: f64 = 1e-9;
 /// Maximum number of steps of Newton's iteration.
 const MOST_STEPS: usize = 24;
+/// Steps that do not halve the miss before a goal of an exact arm is given up as out of reach: towards a double root
+/// they quarter it.
+const PATIENCE: usize = 3;
 /// Miss (relative to the arm's length) within rounding, and that which is not a solution.
 const ROUNDING: f64 = 1e-15;
 const MISSED: f64 = 1e-10;
@@ -92,7 +95,8 @@ impl ThreeTurns {
         for theta3 in pair.third(touching) {
             for theta1 in pair.first(theta3, kept).into_iter().flatten() {
                 let mut theta = [theta1, self.second(goal, theta1, theta3), theta3];
-                let missed = self.follow(&mut theta, goal);
+                let patience = if slack > 0.0 { MOST_STEPS } else { PATIENCE };
+                let missed = self.follow(&mut theta, goal, patience);
                 let known = found.iter().any(|other| {
                     other.iter().zip(&theta).all(|(a, b)| {
                         let turns = (a - b) / TAU;
@@ -148,14 +152,15 @@ impl ThreeTurns {
         (end, columns)
     }
 
-    /// Newton's iteration, damped by the squared miss; gives the miss (m) that is left.
-    fn follow(&self, theta: &mut [f64; 3], goal: &Point3<f64>) -> f64 {
+    /// Newton's iteration, damped by the squared miss, until `patience` steps did not halve it; gives the miss (m) that
+    /// is left.
+    fn follow(&self, theta: &mut [f64; 3], goal: &Point3<f64>, patience: usize) -> f64 {
         let miss = |end: &Point3<f64>| (goal - end) / self.length;
         let (end, mut columns) = self.place(theta);
         let mut away = miss(&end);
-        let mut damping = 1e-2;
+        let (mut damping, mut idle) = (1e-2, 0);
         for _ in 0..MOST_STEPS {
-            if away.norm() < ROUNDING || damping > 1e6 {
+            if away.norm() < ROUNDING || damping > 1e6 || idle == patience {
                 break;
             }
             let j = columns / self.length;
@@ -166,6 +171,9 @@ impl ThreeTurns {
             let trial = [theta[0] + step.x, theta[1] + step.y, theta[2] + step.z];
             let (end, next) = self.place(&trial);
             let left = miss(&end);
+            if left.norm() > 0.5 * away.norm() {
+                idle += 1;
+            }
             if left.norm_squared() < away.norm_squared() {
                 (*theta, away, columns) = (trial, left, next);
                 damping *= 0.1;
