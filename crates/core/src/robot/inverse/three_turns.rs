@@ -16,7 +16,8 @@
 //!
 //! It is of fourth degree in `tan((theta3 - tau)/2)`, `tau` chosen so that no root is large. Where axes 1 and 2
 //! meet or are parallel, `B` is singular and `F` a square: of a combination of both rows, which has two roots. Joint 1
-//! then has two positions for each. Where they nearly meet, the roots of `F` are nearly double, and found as extrema. The result is refined by Newton's iteration on all three joints.
+//! then has two positions for each. Where they nearly meet, the roots of `F` are nearly double, and found as extrema.
+//! The result is refined by Newton's iteration on all three joints.
 //!
 //! Lengths m, angles rad; axes are given at chain zero. Source: D. L. Pieper, "The Kinematics of Manipulators under
 //! Computer Control", Stanford 1968; as circles: A. J. Elias, J. T. Wen 2025 (subproblem 5).
@@ -185,21 +186,6 @@ impl ThreeTurns {
     }
 }
 
-/// Cosine and sine of every eighth of a turn.
-const EIGHTHS: [[f64; 2]; 8] = {
-    const R: f64 = FRAC_1_SQRT_2;
-    [
-        [1.0, 0.0],
-        [R, R],
-        [0.0, 1.0],
-        [-R, R],
-        [-1.0, 0.0],
-        [-R, -R],
-        [0.0, -1.0],
-        [R, -R],
-    ]
-};
-
 /// The two equations between joints 1 and 3, scaled: `b x = a u`.
 struct Circles {
     a: [Vector3<f64>; 2],
@@ -281,9 +267,11 @@ impl Circles {
         let at = |row: &Vector3<f64>, [cos, sin]: [f64; 2]| row.x + row.y * cos + row.z * sin;
         let f = |turn: [f64; 2]| at(&p, turn).powi(2) + at(&q, turn).powi(2) - det_squared;
         // Opposite to tau, where the tangent has no value, F is as far from zero as at any of eight points.
-        let [cos, sin] = EIGHTHS
-            .map(|turn| (f(turn).abs(), turn))
+        let quarters = |[cos, sin]: [f64; 2]| [[cos, sin], [-sin, cos], [-cos, -sin], [sin, -cos]];
+        let [cos, sin] = [[1.0, 0.0], [FRAC_1_SQRT_2; 2]]
             .into_iter()
+            .flat_map(quarters)
+            .map(|turn| (f(turn).abs(), turn))
             .max_by(|(x, _), (y, _)| x.total_cmp(y))
             .map_or([1.0, 0.0], |(_, [cos, sin])| [-cos, -sin]);
         let tau = sin.atan2(cos);
@@ -462,6 +450,30 @@ mod tests {
             found.len() >= 2 && found.iter().all(|theta| (theta[0] - 0.7).abs() < 1e-12),
             "{found:?}"
         );
+    }
+
+    #[test]
+    fn axes_that_nearly_meet_have_the_positions_of_those_that_meet() {
+        for apart in [1e-14, 1e-13, 1e-12, 1e-11, 1e-9, 1e-7] {
+            let (y, z) = ([0.0, 1.0, 0.0], [0.0, 0.0, 1.0]);
+            let axes = [
+                line([0.0; 3], z),
+                line([apart, 0.0, 0.4], y),
+                line([0.1, 0.0, 1.0], y),
+            ];
+            let arm = ThreeTurns::new(axes, Point3::new(0.7, 0.05, 1.1));
+            for k in 1..=200 {
+                let theta = [0.7, 1.9, 3.1].map(|step| 3.0 * (f64::from(k) * step).sin());
+                let (goal, columns) = arm.place(&theta);
+                let folded = columns.determinant().abs() < 1e-3;
+                let same =
+                    |other: &[f64; 3]| (0..3).all(|i| (0.5 * (other[i] - theta[i])).sin().abs() < 1e-6);
+                assert!(
+                    folded || arm.bring_to(&goal, 0.0, 0.0).iter().any(same),
+                    "{apart} {theta:?}"
+                );
+            }
+        }
     }
 
     #[test]

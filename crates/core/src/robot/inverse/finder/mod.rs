@@ -1,9 +1,9 @@
 //! The postures of one robot at one pose after the other, with reused memory.
 //!
 //! Closed forms give the eight branches at once, verified in `eight`; a calibrated arm takes them as starts; those
-//! without names for their branches are in `unnamed`, their singularities in `dependence`, their order in `order`. Other
-//! chains are searched from starts spread over the ranges of their joints, or from the postures of the pose before, in
-//! `search`. All work in chain positions; `positions` converts them to joint positions.
+//! without names for their branches are in `unnamed`, their singularities in `dependence`, their order in `order`.
+//! Other chains are searched from starts spread over the ranges of their joints, or from the postures of the pose
+//! before, in `search`. All work in chain positions; `positions` converts them to joint positions.
 
 mod dependence;
 mod eight;
@@ -82,6 +82,8 @@ pub struct Finder<'r> {
     ordered: Vec<Distant>,
     /// Of each posture found: chain positions of the arm, kept for the pose that follows.
     before: Vec<Vec<f64>>,
+    /// Whether those of the postures sorted last are kept: a pose that is forgotten does not need them.
+    is_remembered: bool,
     home: Vec<f64>,
     /// The middle of each joint's range.
     middles: Vec<f64>,
@@ -135,6 +137,7 @@ impl<'r> Finder<'r> {
             spare: Vec::new(),
             ordered: Vec::new(),
             before: Vec::new(),
+            is_remembered: true,
             home: vec![0.0; robot.joints().len()],
             middles: robot.middles(),
             fixed: None,
@@ -145,6 +148,7 @@ impl<'r> Finder<'r> {
     /// Forgets the postures of the previous pose: the next search starts without them.
     pub fn forget(&mut self) {
         self.spare.append(&mut self.before);
+        self.is_remembered = true;
     }
 
     /// Every posture; of a searched chain those that are found. Those without names come nearest to `near` first, or to
@@ -175,6 +179,7 @@ impl<'r> Finder<'r> {
         pattern: BranchPattern,
         most: usize,
     ) -> Result<&[InverseSolution], Unreachable> {
+        self.remember();
         self.discard();
         self.settle_home(expected);
         let arm_from_flange = self.base_from_arm().inv_mul(&expected.base_from_flange);
@@ -242,6 +247,7 @@ impl<'r> Finder<'r> {
         tcp: &Point3<f64>,
         flange_from_tool: &Isometry,
     ) -> Posture {
+        self.remember();
         let found = &mut self.found[index];
         let (flange, screws) = match self.lanes.get(index) {
             Some(&lane) => {

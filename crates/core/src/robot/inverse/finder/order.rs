@@ -6,8 +6,14 @@ use super::{Finder, InverseSolution};
 pub(super) type Distant = (f64, Option<usize>, InverseSolution);
 
 impl Finder<'_> {
-    /// Sorts by distance from `near`, the previous posture, or home, and keeps `most` of them.
+    /// [`Finder::sort`], and keeps the chain positions for the pose that follows.
     pub(super) fn order(&mut self, near: Option<&[f64]>, most: usize) {
+        self.sort(near, most);
+        self.remember();
+    }
+
+    /// Sorts by distance from `near`, the previous posture, or home, and keeps `most` of them.
+    pub(super) fn sort(&mut self, near: Option<&[f64]>, most: usize) {
         let mut ordered = std::mem::take(&mut self.ordered);
         let mut found = std::mem::take(&mut self.found);
         let before = near.is_none().then(|| self.before.first()).flatten();
@@ -43,11 +49,14 @@ impl Finder<'_> {
         self.lanes.extend(ordered.iter().filter_map(|(_, lane, _)| *lane));
         found.extend(ordered.drain(..).map(|(.., found)| found));
         (self.found, self.ordered) = (found, ordered);
-        self.remember();
+        self.is_remembered = false;
     }
 
-    /// Keeps the chain positions of the postures found, for the pose that follows.
-    fn remember(&mut self) {
+    /// Keeps the chain positions of the postures sorted last, for the pose that follows, if that has not been done.
+    pub(super) fn remember(&mut self) {
+        if std::mem::replace(&mut self.is_remembered, true) {
+            return;
+        }
         self.spare.append(&mut self.before);
         for found in &self.found {
             let mut theta = self.spare.pop().unwrap_or_default();

@@ -1,7 +1,7 @@
 //! Postures of closed forms without named branches: spherical wrists, also with one redundant joint fixed.
 //!
-//! The postures of a closed form are converted and verified eight at once, in `eight`. Damped least squares refine those
-//! of a calibrated arm, and those that forward kinematics does not confirm.
+//! The postures of a closed form are converted and verified eight at once, in `eight`. Damped least squares refine
+//! those of a calibrated arm, and those that forward kinematics does not confirm.
 
 use std::f64::consts::PI;
 
@@ -210,8 +210,8 @@ impl Finder<'_> {
         false
     }
 
-    /// Between a position of the fixed joint without and one with a posture within the limits: finds the postures at the
-    /// first one with.
+    /// Between a position of the fixed joint without and one with a posture within the limits: finds the postures at
+    /// the first one with.
     fn find_first_inside(&mut self, target: &FixedJointTarget<'_>, [mut without, mut with]: [f64; 2]) {
         let mut are_those_with = true;
         for _ in 0..HALVINGS {
@@ -311,7 +311,7 @@ impl Finder<'_> {
         if self.found.is_empty() {
             return self.search(requested, arm_from_flange, most, SHORT);
         }
-        self.order(requested.near, most);
+        self.sort(requested.near, most);
         None
     }
 }
