@@ -1,15 +1,17 @@
 //! The postures of one robot at one pose after the other, with reused memory.
 //!
 //! Closed forms give the eight branches at once, verified in `eight`; a calibrated arm takes them as starts; those
-//! without names for their branches are in `unnamed`, their singularities in `dependence`, their order in `order`.
-//! Other chains are searched from starts spread over the ranges of their joints, or from the postures of the pose
-//! before, in `search`. All work in chain positions; `positions` converts them to joint positions.
+//! without names for their branches are in `unnamed` (`six_joints` of a redundant arm), their singularities in
+//! `dependence`, their order in `order`. Other chains are searched from starts spread over the ranges of their joints,
+//! or from the postures of the pose before, in `search`. All work in chain positions; `positions` converts them to
+//! joint positions.
 
 mod dependence;
 mod eight;
 mod order;
 mod positions;
 mod search;
+mod six_joints;
 mod unnamed;
 
 use std::f64::consts::TAU;
@@ -29,10 +31,9 @@ use super::kind::Inverse;
 use super::verify::{Requested, verify};
 use crate::frame::Isometry;
 use eight::EightPostures;
-use order::Distant;
 use positions::ChainPositions;
 pub(crate) use positions::WholeTurns;
-use unnamed::SixJoints;
+use six_joints::SixJoints;
 
 /// Maximum number of postures of one pose: a general arm of six revolute joints has up to 16.
 const MOST: usize = 16;
@@ -63,6 +64,9 @@ pub struct InverseSolution {
     /// The singularity that it is near, if any.
     pub singularity: Option<Singularity>,
 }
+
+/// A posture with its distance, and its lane if it has one.
+type Distant = (f64, Option<usize>, InverseSolution);
 
 /// Finds postures; one per thread.
 #[derive(Debug)]

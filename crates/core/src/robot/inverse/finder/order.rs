@@ -2,9 +2,6 @@
 
 use super::{Finder, InverseSolution};
 
-/// A posture with its distance, and its lane if it has one.
-pub(super) type Distant = (f64, Option<usize>, InverseSolution);
-
 impl Finder<'_> {
     /// [`Finder::sort`], and keeps the chain positions for the pose that follows.
     pub(super) fn order(&mut self, near: Option<&[f64]>, most: usize) {
