@@ -15,7 +15,10 @@ type Frame = [[Eight; 3]; 4];
 /// The axis of a joint of each posture, in base: its unit direction, then a point on it (m).
 type AxisOfEight = [[Eight; 3]; 2];
 
-/// Joint positions (rad, m) of eight postures of an arm with six joints, perhaps on a rail.
+/// Most joints of an arm whose postures are eight at most: one of seven is fixed.
+pub(super) const MOST_JOINTS: usize = 7;
+
+/// Joint positions (rad, m) of eight postures of an arm, perhaps on a rail.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct JointsOfEight<'a> {
     /// Those of the rail, the same for all.
@@ -49,16 +52,17 @@ impl JointsOfEight<'_> {
 #[derive(Clone, Debug)]
 pub(super) struct ForwardOfEight {
     rail: Vec<AxisOfEight>,
-    arm: [AxisOfEight; 6],
+    /// Those of an arm with fewer joints come first.
+    arm: [AxisOfEight; MOST_JOINTS],
     flange: Frame,
 }
 
 impl ForwardOfEight {
-    /// Working memory for an arm with six joints on this many joints of a rail.
+    /// Working memory for an arm on this many joints of a rail.
     pub fn with_rail(joints: usize) -> ForwardOfEight {
         ForwardOfEight {
             rail: vec![AxisOfEight::default(); joints],
-            arm: [AxisOfEight::default(); 6],
+            arm: [AxisOfEight::default(); MOST_JOINTS],
             flange: Frame::default(),
         }
     }
@@ -66,6 +70,11 @@ impl ForwardOfEight {
     /// The flanges: three axes and the origin.
     pub fn flange(&self) -> &[[Eight; 3]; 4] {
         &self.flange
+    }
+
+    /// The axes of the first `joints` joints of the arm.
+    pub fn axes_of_arm(&self, joints: usize) -> &[[[Eight; 3]; 2]] {
+        &self.arm[..joints]
     }
 
     /// The flange of posture `lane`, in base.

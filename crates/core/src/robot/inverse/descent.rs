@@ -36,7 +36,7 @@ const STUCK: f64 = 1e9;
 const MOST_PULLS: usize = 60;
 const SETTLED: f64 = 1e-6;
 /// Frobenius condition number of the Jacobian above which joints are nearly dependent.
-const DEPENDENT: f64 = 300.0;
+pub(super) const DEPENDENT: f64 = 300.0;
 
 /// A pose to reach, as rotation matrix and point.
 #[derive(Clone, Copy, Debug)]

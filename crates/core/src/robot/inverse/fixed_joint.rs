@@ -19,6 +19,7 @@ use nalgebra::{Point3, UnitQuaternion};
 use super::super::chain::Chain;
 use super::closed_form::CALIBRATED;
 use super::lines::{IDEAL, Line, lines_at_zero};
+use super::ortho_parallel::OrthoParallel;
 use super::spherical_wrist::SphericalWrist;
 use super::starts::spread;
 use crate::frame::Isometry;
@@ -92,6 +93,18 @@ impl FixedJoint {
 
     /// The six joints that remain with the fixed one at `angle` (rad).
     pub(super) fn at(&self, angle: f64) -> Option<SphericalWrist> {
+        let (six, at_zero) = self.lines_at(angle);
+        SphericalWrist::of(&six, &at_zero, self.within)
+    }
+
+    /// The six joints of [`FixedJoint::at`], where they are an ortho-parallel arm.
+    pub(super) fn ortho_parallel_at(&self, angle: f64) -> Option<OrthoParallel> {
+        let (six, at_zero) = self.lines_at(angle);
+        OrthoParallel::of(&six, &at_zero)
+    }
+
+    /// The axes that remain with the fixed joint at `angle` (rad), and the flange, at zero of the others.
+    fn lines_at(&self, angle: f64) -> ([Line; 6], Isometry) {
         let axis = self.lines[self.joint];
         let six: [Line; 6] = std::array::from_fn(|i| {
             if i < self.joint {
@@ -104,11 +117,11 @@ impl FixedJoint {
             axis.turned(angle, &Point3::origin()).coords.into(),
             UnitQuaternion::from_rotation_matrix(&axis.rotation(angle)),
         );
-        SphericalWrist::of(&six, &(turn * self.at_zero), self.within)
+        (six, turn * self.at_zero)
     }
 
-    /// All seven chain positions.
-    pub(super) fn with(&self, angle: f64, six: &[f64; 6]) -> [f64; 7] {
+    /// All seven chain positions, of one posture or in lanes.
+    pub(super) fn with<T: Copy>(&self, angle: T, six: &[T; 6]) -> [T; 7] {
         std::array::from_fn(|i| match i.cmp(&self.joint) {
             Ordering::Less => six[i],
             Ordering::Equal => angle,

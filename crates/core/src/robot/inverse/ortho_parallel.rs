@@ -47,10 +47,14 @@ pub struct OrthoParallel {
 impl OrthoParallel {
     /// The geometry of `chain`, or `None` if it is of another kind.
     pub fn recognise(chain: &Chain) -> Option<OrthoParallel> {
-        let lines = lines_at_zero(chain)?;
+        OrthoParallel::of(&lines_at_zero(chain)?, &chain.base_from_flange(&[0.0; 6]))
+    }
+
+    /// The geometry of the arm with these axes and this flange at zero, or `None` if it is of another kind.
+    pub(super) fn of(lines: &[Line; 6], at_zero: &Isometry) -> Option<OrthoParallel> {
         let wrist = lines[3].nearest_to(&lines[4])?;
-        (deviation_from_ideal(&lines, wrist).largest() < IDEAL)
-            .then(|| OrthoParallel::of_lines(chain, &lines, wrist))
+        (deviation_from_ideal(lines, wrist).largest() < IDEAL)
+            .then(|| OrthoParallel::of_lines(at_zero, lines, wrist))
             .flatten()
     }
 
@@ -68,15 +72,15 @@ impl OrthoParallel {
         lines[2].axis = lines[1].axis * sense_of(lines[2].axis.dot(&lines[1].axis));
         lines[4].axis = across(lines[4].axis, &lines[3].axis);
         lines[5].axis = across(lines[5].axis, &lines[4].axis);
-        let mut arm = OrthoParallel::of_lines(chain, &lines, wrist)?;
+        let at_zero = chain.base_from_flange(&[0.0; 6]);
+        let mut arm = OrthoParallel::of_lines(&at_zero, &lines, wrist)?;
         arm.links.slack = deviation.slack(arm.links.l2 + arm.links.l3).min(slack);
         Some(arm)
     }
 
-    fn of_lines(chain: &Chain, lines: &[Line; 6], wrist: Point3<f64>) -> Option<OrthoParallel> {
+    fn of_lines(base_from_flange: &Isometry, lines: &[Line; 6], wrist: Point3<f64>) -> Option<OrthoParallel> {
         let [z1, z2, z3, z4, z5, z6] = lines.map(|line| line.axis);
         let [_, o2, o3, ..] = lines.map(|line| line.point);
-        let base_from_flange = chain.base_from_flange(&[0.0; 6]);
         let arm = base_from_arm(lines, wrist);
         let [y, up] = [1, 2].map(|i| arm.rotation.matrix().column(i).into_owned());
         let base_from_arm = Isometry::from_parts(arm.translation, arm.rotation.into());
@@ -123,17 +127,31 @@ impl OrthoParallel {
     ///
     /// Not checked: that there are six.
     pub fn name(&self, theta: &[f64]) -> (Branch, Option<Singularity>) {
-        let phi = |i: usize| self.sense[i] * theta[i];
-        let psi = self.upper_arm_at_zero + phi(1);
-        let forearm = self.forearm_at_zero + phi(1) + phi(2);
-        let (eps, bend) = (forearm - psi, self.bend_at_zero + phi(4));
-        let u = self.links.l2 * psi.sin() + self.links.l3 * forearm.sin();
+        let (bend, eps, u) = self.bends(theta);
         let branch = Branch {
             shoulder: Shoulder::at(u + self.a1),
             elbow: TwoLinks::elbow(eps, u),
             wrist: Wrist::bent(bend.sin()),
         };
         (branch, self.links.singularity(bend.sin(), eps.sin(), u + self.a1))
+    }
+
+    /// The bends of wrist and elbow (rad) at the chain positions `theta`, and the wrist centre's distance (m) to the
+    /// front of the shoulder.
+    fn bends(&self, theta: &[f64]) -> (f64, f64, f64) {
+        let phi = |i: usize| self.sense[i] * theta[i];
+        let psi = self.upper_arm_at_zero + phi(1);
+        let forearm = self.forearm_at_zero + phi(1) + phi(2);
+        let u = self.links.l2 * psi.sin() + self.links.l3 * forearm.sin();
+        (self.bend_at_zero + phi(4), forearm - psi, u)
+    }
+
+    /// How near to a singularity the chain positions `theta` are: the least of the sines of wrist and elbow, and the
+    /// wrist centre's distance from axis 1 over the length of the arm.
+    pub(super) fn nearness(&self, theta: &[f64; 6]) -> f64 {
+        let (bend, eps, u) = self.bends(theta);
+        let from_axis_1 = (u + self.a1) / (self.links.l2 + self.links.l3);
+        bend.sin().abs().min(eps.sin().abs()).min(from_axis_1.abs())
     }
 }
 

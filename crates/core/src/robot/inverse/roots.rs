@@ -29,6 +29,9 @@ pub(super) fn real_roots(p: &[f64], touching: f64) -> Vec<f64> {
     if let [constant] = lower {
         return vec![-constant / highest];
     }
+    if let [c, b, a] = *p {
+        return quadratic_roots([c, b, a], touching);
+    }
     let derivative: Vec<f64> = (1..p.len()).map(|power| power as f64 * p[power]).collect();
     let extrema = real_roots(&derivative, touching);
     let walls: Vec<f64> = [-bound].into_iter().chain(extrema).chain([bound]).collect();
@@ -43,6 +46,22 @@ pub(super) fn real_roots(p: &[f64], touching: f64) -> Vec<f64> {
         }
     }
     roots
+}
+
+/// [`real_roots`] of degree two, without the difference of nearly equal numbers.
+fn quadratic_roots([c, b, a]: [f64; 3], touching: f64) -> Vec<f64> {
+    let quarter = 0.25 * b * b - a * c;
+    if quarter > 0.0 {
+        let sum = -(0.5 * b + quarter.sqrt().copysign(b));
+        let (one, other) = (sum / a, c / sum);
+        return vec![one.min(other), one.max(other)];
+    }
+    let extremum = -0.5 * b / a;
+    if touches(&[c, b, a], extremum, touching) {
+        vec![extremum]
+    } else {
+        Vec::new()
+    }
 }
 
 /// The root between two points of different sign.

@@ -15,13 +15,14 @@
 //! ```
 //!
 //! It is of fourth degree in `tan((theta3 - tau)/2)`, `tau` chosen so that no root is large. Where axes 1 and 2
-//! meet or are parallel, `B` is singular and `F` a square: its roots are double, and are found as extrema. Joint 1 then
-//! has two positions for each. The result is refined by Newton's iteration on all three joints.
+//! meet or are parallel, `B` is singular and `F` a square: of a combination of both rows, which has two roots. Joint 1
+//! then has two positions for each. Where they nearly meet, the roots of `F` are nearly double, and found as extrema.
+//! The result is refined by Newton's iteration on all three joints.
 //!
 //! Lengths m, angles rad; axes are given at chain zero. Source: D. L. Pieper, "The Kinematics of Manipulators under
 //! Computer Control", Stanford 1968; as circles: A. J. Elias, J. T. Wen 2025 (subproblem 5).
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
@@ -32,10 +33,15 @@ use super::roots::real_roots;
 const TOUCHING: f64 = 1e-8;
 /// Determinant of the scaled `B` below which joint 1 is not computed from it.
 const SINGULAR: f64 = 1e-2;
+/// Determinant of the scaled `B` that is zero but for rounding.
+const ROUNDED: f64 = 1e-12;
 /// The scaled circle of joint 1 below which the goal is on axis 1, and joint 1 is free.
 const ON_AXIS: f64 = 1e-9;
 /// Maximum number of steps of Newton's iteration.
 const MOST_STEPS: usize = 24;
+/// Steps that do not halve the miss before a goal of an exact arm is given up as out of reach: towards a double root
+/// they quarter it.
+const PATIENCE: usize = 3;
 /// Miss (relative to the arm's length) within rounding, and that which is not a solution.
 const ROUNDING: f64 = 1e-15;
 const MISSED: f64 = 1e-10;
@@ -90,7 +96,8 @@ impl ThreeTurns {
         for theta3 in pair.third(touching) {
             for theta1 in pair.first(theta3, kept).into_iter().flatten() {
                 let mut theta = [theta1, self.second(goal, theta1, theta3), theta3];
-                let missed = self.follow(&mut theta, goal);
+                let patience = if slack > 0.0 { MOST_STEPS } else { PATIENCE };
+                let missed = self.follow(&mut theta, goal, patience);
                 let known = found.iter().any(|other| {
                     other.iter().zip(&theta).all(|(a, b)| {
                         let turns = (a - b) / TAU;
@@ -146,14 +153,15 @@ impl ThreeTurns {
         (end, columns)
     }
 
-    /// Newton's iteration, damped by the squared miss; gives the miss (m) that is left.
-    fn follow(&self, theta: &mut [f64; 3], goal: &Point3<f64>) -> f64 {
+    /// Newton's iteration, damped by the squared miss, until `patience` steps did not halve it; gives the miss (m) that
+    /// is left.
+    fn follow(&self, theta: &mut [f64; 3], goal: &Point3<f64>, patience: usize) -> f64 {
         let miss = |end: &Point3<f64>| (goal - end) / self.length;
         let (end, mut columns) = self.place(theta);
         let mut away = miss(&end);
-        let mut damping = 1e-2;
+        let (mut damping, mut idle) = (1e-2, 0);
         for _ in 0..MOST_STEPS {
-            if away.norm() < ROUNDING || damping > 1e6 {
+            if away.norm() < ROUNDING || damping > 1e6 || idle == patience {
                 break;
             }
             let j = columns / self.length;
@@ -164,6 +172,9 @@ impl ThreeTurns {
             let trial = [theta[0] + step.x, theta[1] + step.y, theta[2] + step.z];
             let (end, next) = self.place(&trial);
             let left = miss(&end);
+            if left.norm() > 0.5 * away.norm() {
+                idle += 1;
+            }
             if left.norm_squared() < away.norm_squared() {
                 (*theta, away, columns) = (trial, left, next);
                 damping *= 0.1;
@@ -240,20 +251,30 @@ impl Circles {
         let [[b11, b12], [b21, b22]] = self.b.map(|row| row.map(|entry| entry / size));
         let [first, second] = self.a;
         let (p, q) = (first * b22 - second * b12, second * b11 - first * b21);
+        if self.determinant().abs() < ROUNDED {
+            // Both are multiples of the same row.
+            let row = if p.norm() > q.norm() { p } else { q };
+            let most = row.yz().norm();
+            // The root of what F may be off.
+            let beyond = row.x.abs() - most > touching.sqrt() * (row.x.abs() + most);
+            return if beyond {
+                Vec::new()
+            } else {
+                either_turn(row.yz().into(), -row.x).to_vec()
+            };
+        }
         let det_squared = (self.determinant() * size).powi(2);
-        let at = |row: &Vector3<f64>, (sin, cos): (f64, f64)| row.x + row.y * cos + row.z * sin;
-        let f = |angle: f64| {
-            let turn = angle.sin_cos();
-            at(&p, turn).powi(2) + at(&q, turn).powi(2) - det_squared
-        };
+        let at = |row: &Vector3<f64>, [cos, sin]: [f64; 2]| row.x + row.y * cos + row.z * sin;
+        let f = |turn: [f64; 2]| at(&p, turn).powi(2) + at(&q, turn).powi(2) - det_squared;
         // Opposite to tau, where the tangent has no value, F is as far from zero as at any of eight points.
-        let eighth = |k: u8| TAU / 8.0 * f64::from(k);
-        let far = (0..8)
-            .map(eighth)
-            .max_by(|x, y| f(*x).abs().total_cmp(&f(*y).abs()))
-            .unwrap_or(0.0);
-        let tau = far - TAU / 2.0;
-        let (sin, cos) = tau.sin_cos();
+        let quarters = |[cos, sin]: [f64; 2]| [[cos, sin], [-sin, cos], [-cos, -sin], [sin, -cos]];
+        let [cos, sin] = [[1.0, 0.0], [FRAC_1_SQRT_2; 2]]
+            .into_iter()
+            .flat_map(quarters)
+            .map(|turn| (f(turn).abs(), turn))
+            .max_by(|(x, _), (y, _)| x.total_cmp(y))
+            .map_or([1.0, 0.0], |(_, [cos, sin])| [-cos, -sin]);
+        let tau = sin.atan2(cos);
         // Of each row the parabola in t = tan((theta3 - tau)/2) that it is after multiplying by 1 + t^2.
         let parabola = |row: &Vector3<f64>| {
             let (k1, k2) = (row.y * cos + row.z * sin, row.z * cos - row.y * sin);
@@ -429,6 +450,30 @@ mod tests {
             found.len() >= 2 && found.iter().all(|theta| (theta[0] - 0.7).abs() < 1e-12),
             "{found:?}"
         );
+    }
+
+    #[test]
+    fn axes_that_nearly_meet_have_the_positions_of_those_that_meet() {
+        for apart in [1e-14, 1e-13, 1e-12, 1e-11, 1e-9, 1e-7] {
+            let (y, z) = ([0.0, 1.0, 0.0], [0.0, 0.0, 1.0]);
+            let axes = [
+                line([0.0; 3], z),
+                line([apart, 0.0, 0.4], y),
+                line([0.1, 0.0, 1.0], y),
+            ];
+            let arm = ThreeTurns::new(axes, Point3::new(0.7, 0.05, 1.1));
+            for k in 1..=200 {
+                let theta = [0.7, 1.9, 3.1].map(|step| 3.0 * (f64::from(k) * step).sin());
+                let (goal, columns) = arm.place(&theta);
+                let folded = columns.determinant().abs() < 1e-3;
+                let same =
+                    |other: &[f64; 3]| (0..3).all(|i| (0.5 * (other[i] - theta[i])).sin().abs() < 1e-6);
+                assert!(
+                    folded || arm.bring_to(&goal, 0.0, 0.0).iter().any(same),
+                    "{apart} {theta:?}"
+                );
+            }
+        }
     }
 
     #[test]

@@ -1,38 +1,32 @@
 //! Eight postures of a pose at once: joint positions and verification by forward kinematics.
 
-use super::super::super::forward_of_eight::{ForwardOfEight, JointsOfEight};
+use super::super::super::forward_of_eight::{ForwardOfEight, JointsOfEight, MOST_JOINTS};
 use super::super::super::model::Robot;
 use super::super::super::unreachable::Unreachable;
 use super::super::verify::{Miss, Requested};
-use super::positions::find_joints;
+use super::dependence::{FindDependence, is_dependent};
+use super::positions::{ChainPositions, find_joints};
 use crate::numbers::{Backend, Eight, Real, Work, vector_of_eight};
 
 /// Joint positions and forward kinematics of eight postures, and how far they are from the requested pose.
 #[derive(Clone, Debug)]
 pub(super) struct EightPostures {
-    /// Joint positions of the arm.
-    joints: [Eight; 6],
+    /// Joint positions of the arm; those of one with fewer joints come first.
+    joints: [Eight; MOST_JOINTS],
     forward: ForwardOfEight,
     misses: [Eight; 3],
-}
-
-/// What eight postures are made from.
-pub(super) struct ChainPositions<'a> {
-    /// Chain positions of each joint of the arm.
-    pub theta: &'a [Eight; 6],
-    /// Joint positions of its rail.
-    pub rail: &'a [f64],
-    /// Joint positions of the pose before.
-    pub near: Option<&'a [f64]>,
+    /// A length of the arm, m.
+    length: f64,
 }
 
 impl EightPostures {
-    /// Working memory for an arm on this many joints of a rail.
-    pub fn with_rail(joints: usize) -> EightPostures {
+    /// Working memory for an arm of this length (m) on this many joints of a rail.
+    pub fn new(joints: usize, length: f64) -> EightPostures {
         EightPostures {
-            joints: [Eight::default(); 6],
+            joints: [Eight::default(); MOST_JOINTS],
             forward: ForwardOfEight::with_rail(joints),
             misses: [Eight::default(); 3],
+            length,
         }
     }
 
@@ -46,9 +40,21 @@ impl EightPostures {
         });
     }
 
-    /// Joint positions of the arm in posture `lane`.
-    pub fn joints(&self, lane: usize) -> [f64; 6] {
-        self.joints.map(|joint| joint.0[lane])
+    /// Whether the `joints` revolute joints of the arm are nearly dependent in each posture.
+    pub fn dependent(&self, joints: usize) -> [bool; 8] {
+        let mut dependence = Eight::default();
+        Backend::fastest().run(FindDependence {
+            axes: self.forward.axes_of_arm(joints),
+            flange: &self.forward.flange()[3],
+            length: self.length,
+            found: &mut dependence,
+        });
+        dependence.0.map(is_dependent)
+    }
+
+    /// Joint positions of the arm, which has `joints` of them, in posture `lane`.
+    pub fn joints(&self, joints: usize, lane: usize) -> impl Iterator<Item = f64> + '_ {
+        self.joints[..joints].iter().map(move |joint| joint.0[lane])
     }
 
     /// Forward kinematics from the joint positions.
@@ -84,11 +90,9 @@ impl Work<f64> for FindPostures<'_> {
             requested,
             found,
         } = self;
-        find_joints::<R>(robot, from.rail, from.theta, from.near, &mut found.joints);
-        let joints = JointsOfEight {
-            rail: from.rail,
-            arm: &found.joints,
-        };
+        let arm = &mut found.joints[..from.theta.len()];
+        find_joints::<R>(robot, from, arm);
+        let joints = JointsOfEight { rail: from.rail, arm };
         found.forward.find::<R>(robot, joints);
         let [x, y, z, origin] = found.forward.flange();
         let [away, sine, cosine] = &mut found.misses;

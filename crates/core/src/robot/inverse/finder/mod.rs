@@ -1,13 +1,17 @@
 //! The postures of one robot at one pose after the other, with reused memory.
 //!
 //! Closed forms give the eight branches at once, verified in `eight`; a calibrated arm takes them as starts; those
-//! without names for their branches are in `unnamed`. Other chains are searched from starts spread over the ranges of
-//! their joints, or from the postures of the pose before, in `search`. All work in chain positions; `positions` converts
-//! them to joint positions.
+//! without names for their branches are in `unnamed` (`six_joints` of a redundant arm), their singularities in
+//! `dependence`, their order in `order`. Other chains are searched from starts spread over the ranges of their joints,
+//! or from the postures of the pose before, in `search`. All work in chain positions; `positions` converts them to
+//! joint positions.
 
+mod dependence;
 mod eight;
+mod order;
 mod positions;
 mod search;
+mod six_joints;
 mod unnamed;
 
 use std::f64::consts::TAU;
@@ -26,8 +30,10 @@ use super::descent::{Descent, Goal};
 use super::kind::Inverse;
 use super::verify::{Requested, verify};
 use crate::frame::Isometry;
-use eight::{ChainPositions, EightPostures};
+use eight::EightPostures;
+use positions::ChainPositions;
 pub(crate) use positions::WholeTurns;
+use six_joints::SixJoints;
 
 /// Maximum number of postures of one pose: a general arm of six revolute joints has up to 16.
 const MOST: usize = 16;
@@ -59,6 +65,9 @@ pub struct InverseSolution {
     pub singularity: Option<Singularity>,
 }
 
+/// A posture with its distance, and its lane if it has one.
+type Distant = (f64, Option<usize>, InverseSolution);
+
 /// Finds postures; one per thread.
 #[derive(Debug)]
 pub struct Finder<'r> {
@@ -69,15 +78,23 @@ pub struct Finder<'r> {
     descent: Option<Descent>,
     eight: EightPostures,
     found: Vec<InverseSolution>,
-    /// Whether the postures found are lanes of `eight`.
-    at_once: bool,
-    /// Memory for joint positions.
+    /// Of each posture found its lane of `eight`; empty where they are not lanes of it.
+    lanes: Vec<usize>,
+    /// Memory for joint and chain positions.
     spare: Vec<Vec<f64>>,
+    /// Memory for the order of postures.
+    ordered: Vec<Distant>,
     /// Of each posture found: chain positions of the arm, kept for the pose that follows.
     before: Vec<Vec<f64>>,
+    /// Whether those of the postures sorted last are kept: a pose that is forgotten does not need them.
+    is_remembered: bool,
     home: Vec<f64>,
+    /// The middle of each joint's range.
+    middles: Vec<f64>,
     /// The fixed joint, and its position.
     fixed: Option<(usize, f64)>,
+    /// The other six joints with the fixed one at home, and its chain position there.
+    at_home: Option<(f64, Option<SixJoints>)>,
 }
 
 /// The chain of the inverse: the robot's own, or that of the arm on its rail.
@@ -118,19 +135,24 @@ impl<'r> Finder<'r> {
             arm,
             frames: Frames::for_robot(robot),
             descent: None,
-            eight: EightPostures::with_rail(arm.first),
+            eight: EightPostures::new(arm.first, arm.chain.length()),
             found: Vec::with_capacity(8),
-            at_once: false,
+            lanes: Vec::with_capacity(8),
             spare: Vec::new(),
+            ordered: Vec::new(),
             before: Vec::new(),
+            is_remembered: true,
             home: vec![0.0; robot.joints().len()],
+            middles: robot.middles(),
             fixed: None,
+            at_home: None,
         }
     }
 
     /// Forgets the postures of the previous pose: the next search starts without them.
     pub fn forget(&mut self) {
-        self.before.clear();
+        self.spare.append(&mut self.before);
+        self.is_remembered = true;
     }
 
     /// Every posture; of a searched chain those that are found. Those without names come nearest to `near` first, or to
@@ -161,8 +183,8 @@ impl<'r> Finder<'r> {
         pattern: BranchPattern,
         most: usize,
     ) -> Result<&[InverseSolution], Unreachable> {
-        self.at_once = matches!(self.arm.inverse, Inverse::Closed(_));
-        self.spare.extend(self.found.drain(..).map(|found| found.joints));
+        self.remember();
+        self.discard();
         self.settle_home(expected);
         let arm_from_flange = self.base_from_arm().inv_mul(&expected.base_from_flange);
         let missed = match self.arm.inverse {
@@ -176,6 +198,12 @@ impl<'r> Finder<'r> {
             return Err(missed.unwrap_or(Unreachable::OtherBranch));
         }
         Ok(&self.found)
+    }
+
+    /// Removes the postures found.
+    fn discard(&mut self) {
+        self.spare.extend(self.found.drain(..).map(|found| found.joints));
+        self.lanes.clear();
     }
 
     /// Sets every joint of home.
@@ -223,10 +251,11 @@ impl<'r> Finder<'r> {
         tcp: &Point3<f64>,
         flange_from_tool: &Isometry,
     ) -> Posture {
+        self.remember();
         let found = &mut self.found[index];
-        let (flange, screws) = match found.name.branch().filter(|_| self.at_once) {
-            Some(branch) => {
-                let (forward, lane) = (self.eight.forward(), branch.index());
+        let (flange, screws) = match self.lanes.get(index) {
+            Some(&lane) => {
+                let forward = self.eight.forward();
                 let screws = forward.screws(self.robot.chain(), lane, tcp);
                 (forward.flange_of(lane), screws)
             }
@@ -260,6 +289,7 @@ impl<'r> Finder<'r> {
                 theta: &branches.theta,
                 rail: &self.home[..self.arm.first],
                 near: expected.near,
+                fixed: None,
             };
             self.eight
                 .find(self.robot, &from, &Requested::new(&expected.base_from_flange));
@@ -270,10 +300,8 @@ impl<'r> Finder<'r> {
             let reached = branches.outcomes[lane];
             match reached.and_then(|singularity| self.eight.verify(lane).map(|()| singularity)) {
                 Ok(singularity) => {
-                    let mut joints = self.spare.pop().unwrap_or_default();
-                    joints.clear();
-                    joints.extend_from_slice(&self.home[..self.arm.first]);
-                    joints.extend_from_slice(&self.eight.joints(lane));
+                    let joints = self.joints_of(lane, branches.theta.len());
+                    self.lanes.push(lane);
                     self.found.push(InverseSolution {
                         name: PostureName::Branch(branch),
                         joints,
@@ -284,6 +312,15 @@ impl<'r> Finder<'r> {
             }
         }
         missed
+    }
+
+    /// Joint positions of posture `lane`, of an arm with so many joints.
+    fn joints_of(&mut self, lane: usize, joints: usize) -> Vec<f64> {
+        let mut positions = self.spare.pop().unwrap_or_default();
+        positions.clear();
+        positions.extend_from_slice(&self.home[..self.arm.first]);
+        positions.extend(self.eight.joints(joints, lane));
+        positions
     }
 
     /// The branches of a calibrated arm, from those of the ideal one. The ideal arm also names them: near a straight
@@ -394,7 +431,7 @@ impl<'r> Finder<'r> {
         self.found.push(InverseSolution {
             name: match name {
                 PostureName::Branch(_) => name,
-                PostureName::Sides(_) => sides(self.robot, &joints),
+                PostureName::Sides(_) => PostureName::Sides(Sides::of(&joints, &self.middles)),
             },
             joints,
             singularity,
@@ -403,8 +440,9 @@ impl<'r> Finder<'r> {
     }
 
     /// Joint positions of the robot at chain positions of the arm, its rail at home.
-    fn joint_positions(&self, theta: &[f64], near: Option<&[f64]>) -> Vec<f64> {
-        let mut joints = self.home.clone();
+    fn joint_positions(&mut self, theta: &[f64], near: Option<&[f64]>) -> Vec<f64> {
+        let mut joints = self.spare.pop().unwrap_or_default();
+        joints.clone_from(&self.home);
         for (i, theta) in theta.iter().enumerate() {
             let joint = self.arm.first + i;
             if let Some((_, place)) = self.fixed.filter(|(fixed, _)| *fixed == joint) {
@@ -433,13 +471,13 @@ pub(crate) fn name(robot: &Robot, q: &[f64]) -> (PostureName, Option<Singularity
         }
         None => {
             let dependent = Descent::new(arm.chain).dependent(arm.chain, &theta);
-            (sides(robot, q), dependent.then_some(Singularity::Dependent))
+            let sides = Sides::of(q, &robot.middles());
+            (
+                PostureName::Sides(sides),
+                dependent.then_some(Singularity::Dependent),
+            )
         }
     }
-}
-
-fn sides(robot: &Robot, q: &[f64]) -> PostureName {
-    PostureName::Sides(Sides::of(q, &robot.middles()))
 }
 
 /// The smaller miss.

@@ -6,6 +6,18 @@ use super::super::super::forward_of_eight::JointsOfEight;
 use super::super::super::model::Robot;
 use crate::numbers::{Eight, Real};
 
+/// What eight postures are made from.
+pub(super) struct ChainPositions<'a> {
+    /// Chain positions of each joint of the arm.
+    pub theta: &'a [Eight],
+    /// Joint positions of its rail.
+    pub rail: &'a [f64],
+    /// Joint positions of the pose before.
+    pub near: Option<&'a [f64]>,
+    /// A joint that stays at this position.
+    pub fixed: Option<(usize, f64)>,
+}
+
 /// Where whole turns bring a revolute joint: as near as possible to the previous position within its limits, otherwise
 /// to the middle of its range. An ortho-parallel arm always takes the middle, as the lanes of the kernel do.
 #[derive(Clone, Copy)]
@@ -49,24 +61,26 @@ fn nearest_turn<R: Real>(angle: R, middle: f64) -> R {
     (-turns).mul_add(R::of(TAU), angle)
 }
 
-/// Joint positions of eight postures from the chain positions `theta` of the arm; `rail` are those of its rail.
+/// Joint positions of eight postures.
 #[inline(always)]
 pub(super) fn find_joints<R: Real<Float = f64>>(
     robot: &Robot,
-    rail: &[f64],
-    theta: &[Eight; 6],
-    near: Option<&[f64]>,
-    joints: &mut [Eight; 6],
+    from: &ChainPositions<'_>,
+    joints: &mut [Eight],
 ) {
-    for (i, theta) in theta.iter().enumerate() {
-        let index = rail.len() + i;
+    for (i, theta) in from.theta.iter().enumerate() {
+        let index = from.rail.len() + i;
+        if let Some((_, place)) = from.fixed.filter(|(fixed, _)| *fixed == index) {
+            joints[i] = Eight([place; 8]);
+            continue;
+        }
         let joint = &robot.joints()[index];
         let before = JointsOfEight {
-            rail,
+            rail: from.rail,
             arm: &joints[..i],
         };
         let coupled = before.coupled::<R>(joint);
-        let turns = WholeTurns::of(robot, index, near);
+        let turns = WholeTurns::of(robot, index, from.near);
         let (sign, zero) = (R::of(joint.sign.factor()), R::of(joint.zero_offset));
         let mut position = Eight::default();
         for i in 0..8 {

@@ -6,7 +6,7 @@ use super::super::super::unreachable::Unreachable;
 use super::super::descent::Goal;
 use super::super::kind::ENOUGH;
 use super::super::starts::spread;
-use super::{Finder, InverseSolution, InverseTarget, SAME, nearer};
+use super::{Finder, InverseTarget, SAME, nearer};
 use crate::frame::Isometry;
 
 /// Postures after which a search ends, to take the nearest of them: redundant and singular poses have infinitely many.
@@ -107,33 +107,5 @@ impl Finder<'_> {
             [middle - half, middle + half]
         };
         middles.into_iter().enumerate().map(range).collect()
-    }
-
-    /// Sorts by distance from `near`, the previous posture, or home, and keeps `most` of them.
-    pub(super) fn order(&mut self, near: Option<&[f64]>, most: usize) {
-        let before = near.is_none().then(|| self.before.first()).flatten();
-        let from = near.unwrap_or(&self.home);
-        let away = |found: &InverseSolution| -> f64 {
-            match before {
-                Some(theta) => {
-                    let away = (0..theta.len()).map(|i| self.between(i, theta[i], &found.joints).powi(2));
-                    away.sum()
-                }
-                None => found.joints.iter().zip(from).map(|(a, b)| (a - b).powi(2)).sum(),
-            }
-        };
-        let mut found: Vec<(f64, InverseSolution)> = self
-            .found
-            .iter()
-            .map(|found| (away(found), found.clone()))
-            .collect();
-        found.sort_by(|(a, _), (b, _)| a.total_cmp(b));
-        found.truncate(most);
-        self.found = found.into_iter().map(|(_, found)| found).collect();
-        self.before = self
-            .found
-            .iter()
-            .map(|found| self.chain_positions(&found.joints))
-            .collect();
     }
 }
