@@ -1359,6 +1359,11 @@ export interface components {
             least_wrist_deg?: number | null;
             /**
              * Format: double
+             * @description Least distance of every joint from its limits; 0 if left out.
+             */
+            margin_deg?: number | null;
+            /**
+             * Format: double
              * @description Penalty for the reversal of a joint: as much as this additional deviation over 1 mm of the path; 0 if left out.
              */
             reversal_um_mm?: number | null;
@@ -2369,8 +2374,8 @@ export interface components {
             worst: components["schemas"]["PointAnswer"] | null;
             /** @description The worst points, each from another part of the path. */
             worst_points: components["schemas"]["WorstPoint"][];
-            /** @description Jumps of a joint from one point to the next. */
-            jumps: string[];
+            /** @description Where the arm cannot follow the path at its feed without a stop; empty if it can. */
+            obstacles: components["schemas"]["ObstacleAnswer"][];
             /** @description The common setting of all points. */
             setting: components["schemas"]["SettingAnswer"];
             /** @description Range of each joint (mm for prismatic joints) along the path; empty if no point is reached. */
@@ -2510,6 +2515,42 @@ export interface components {
             cause: string;
             /** @description The point. */
             point: components["schemas"]["PointAnswer"];
+        };
+        /** @description An obstacle of one kind and joint, where it is largest. */
+        ObstacleAnswer: {
+            /** @description `unreachable`, `joint-limit`, `jump` or `joint-speed`. */
+            kind: string;
+            /** @description The joint; none where no posture exists. */
+            joint: string | null;
+            /**
+             * Format: uint
+             * @description Number of points with this obstacle.
+             */
+            points: number;
+            /**
+             * Format: uint32
+             * @description Line of the first of them.
+             */
+            first_line: number;
+            /**
+             * Format: uint32
+             * @description Line of the largest.
+             */
+            line: number;
+            /**
+             * Format: double
+             * @description Distance from the limit (negative outside), angle of the jump, or required speed at the largest, in `unit`.
+             */
+            value: number | null;
+            /**
+             * Format: double
+             * @description Smallest permitted distance from the limit, or largest speed, in `unit`.
+             */
+            limit: number | null;
+            /** @description deg, mm, deg/s or mm/s. */
+            unit: string | null;
+            /** @description As a sentence without its full stop. */
+            message: string;
         };
         /** @description The cut or drill along a path, and its forces. */
         CutAnswer: {
@@ -2782,6 +2823,26 @@ export interface components {
                 number,
                 number
             ];
+            /**
+             * @description Whether the path is followed with this result: where it has fewer obstacles, or the same number and a gain that
+             *     exceeds `least_gain_um`.
+             */
+            applied: boolean;
+            /**
+             * Format: double
+             * @description Decrease of the objective by this result.
+             */
+            gain_um: number;
+            /**
+             * Format: double
+             * @description Standard uncertainty of the gain, from the inputs that both predictions share; null if not known.
+             */
+            gain_u_um: number | null;
+            /**
+             * Format: double
+             * @description The gain that would be significant.
+             */
+            least_gain_um: number;
             /** @description The path without the search. */
             without: components["schemas"]["StatisticsAnswer"];
             /** @description The path with the result of the search. */
