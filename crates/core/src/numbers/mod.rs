@@ -2,13 +2,15 @@
 //! the eight branches of one pose in the inverse kinematics.
 //!
 //! In reading order: `real` (a number of one lane), `vector` (three of them), `angle` (arc tangent, sine and cosine),
-//! `block` (planes of numbers, one value per point), `eight` (one value per branch), `backend` (the instruction set,
+//! `block` (planes of numbers, one value per point), `eight` (one value per branch), `gram` (a
+//! damped normal matrix), `backend` (the instruction set,
 //! chosen at run time).
 
 mod angle;
 mod backend;
 mod block;
 mod eight;
+mod gram;
 mod real;
 mod vector;
 
@@ -19,6 +21,7 @@ pub(crate) use angle::{atan2, sin_cos};
 pub(crate) use backend::Work;
 pub(crate) use block::{BLOCK, Plane, Planes, fill, planes, put, vector};
 pub(crate) use eight::{Eight, put_eight, vector_of_eight};
+pub(crate) use gram::Gram;
 pub(crate) use real::lanes_of;
 #[cfg(test)]
 pub(crate) use real::{Alone, Fused, Plain};

@@ -22,8 +22,10 @@ use super::super::model::Robot;
 use super::super::posture::{Posture, PostureName, Sides, Singularity};
 use super::super::unreachable::Unreachable;
 use super::closed_form::ClosedForm;
-use super::descent::{Descent, Goal};
+use super::descent::Descent;
+use super::descents::Descents;
 use super::kind::Inverse;
+use super::starts::Starts;
 use super::verify::{Requested, verify};
 use crate::frame::Isometry;
 use eight::{ChainPositions, EightPostures};
@@ -65,8 +67,12 @@ pub struct Finder<'r> {
     robot: &'r Robot,
     arm: Arm<'r>,
     frames: Frames,
-    /// Set by the first search.
+    /// Set by the first descent.
     descent: Option<Descent>,
+    /// Set by the first search of a chain without redundant joints.
+    descents: Option<Descents>,
+    /// Set by the first search.
+    starts: Option<Starts>,
     eight: EightPostures,
     found: Vec<InverseSolution>,
     /// Whether the postures found are lanes of `eight`.
@@ -118,6 +124,8 @@ impl<'r> Finder<'r> {
             arm,
             frames: Frames::for_robot(robot),
             descent: None,
+            descents: None,
+            starts: None,
             eight: EightPostures::with_rail(arm.first),
             found: Vec::with_capacity(8),
             at_once: false,
@@ -298,7 +306,7 @@ impl<'r> Finder<'r> {
         let near = expected.near.map(|q| self.six_chain_positions(q));
         let any = BranchPattern::default();
         let branches = form.eight_branches(arm_from_flange, any, near.as_ref());
-        let goal = Goal::new(arm_from_flange);
+        let goal = Requested::new(arm_from_flange);
         let mut missed: Option<Unreachable> = None;
         // Requested branches first: usually they make the others unnecessary.
         let (requested, others): (Vec<Branch>, Vec<Branch>) = Branch::ALL

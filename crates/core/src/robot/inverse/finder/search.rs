@@ -3,9 +3,10 @@
 use std::f64::consts::PI;
 
 use super::super::super::unreachable::Unreachable;
-use super::super::descent::Goal;
+use super::super::descents::Descents;
 use super::super::kind::ENOUGH;
-use super::super::starts::spread;
+use super::super::starts::Starts;
+use super::super::verify::Requested;
 use super::{Finder, InverseSolution, InverseTarget, SAME, nearer};
 use crate::frame::Isometry;
 
@@ -27,22 +28,28 @@ impl Finder<'_> {
         most: usize,
         barren: usize,
     ) -> Option<Unreachable> {
-        let goal = Goal::new(arm_from_flange);
+        let goal = Requested::new(arm_from_flange);
         let home = self.chain_positions(&self.home);
         if self.follow(requested, &goal, &home, most) {
             return None;
         }
-        let ranges = self.ranges();
+        self.aim_at(&goal);
+        let starts = self
+            .starts
+            .take()
+            .unwrap_or_else(|| Starts::within(&self.ranges()));
+        let start = |k: usize, theta: &mut [f64]| starts.point(k + 1, theta);
         let mut theta = home.clone();
         let mut missed: Option<Unreachable> = None;
         let mut idle = 0;
-        for start in 1..=MOST_STARTS {
+        for k in 0..MOST_STARTS {
             if idle == barren || self.found.len() == PLENTY {
                 break;
             }
+            // So many starts follow, whatever they find.
+            let certain = (k + barren - idle).min(MOST_STARTS);
             idle += 1;
-            spread(start, &ranges, &mut theta);
-            match self.descend(&goal, &home, &mut theta) {
+            match self.descend(&goal, &home, [k, certain], start, &mut theta) {
                 Ok(()) if self.is_known(&theta, self.same()) => {}
                 Ok(()) => match self.keep_searched(requested, &theta) {
                     Ok(()) => idle = 0,
@@ -51,35 +58,63 @@ impl Finder<'_> {
                 Err(miss) => missed = Some(nearer(missed, miss)),
             }
         }
+        self.starts = Some(starts);
         self.order(requested.near, most);
         missed
     }
 
     /// Takes those postures of the previous pose that have a continuation here; false if none has.
-    fn follow(&mut self, requested: &InverseTarget<'_>, goal: &Goal, home: &[f64], most: usize) -> bool {
-        if self.before.len() > most {
+    fn follow(&mut self, requested: &InverseTarget<'_>, goal: &Requested, home: &[f64], most: usize) -> bool {
+        if self.before.is_empty() || self.before.len() > most {
             return false;
         }
-        let mut before = std::mem::take(&mut self.before);
-        before.retain_mut(|theta| {
-            let from = theta.clone();
-            let reached = self.descend(goal, home, theta).is_ok();
-            let away = theta.iter().zip(&from).map(|(a, b)| (a - b).abs());
-            reached
+        self.aim_at(goal);
+        let before = std::mem::take(&mut self.before);
+        let start = |k: usize, theta: &mut [f64]| theta.copy_from_slice(&before[k]);
+        for (k, from) in before.iter().enumerate() {
+            let mut theta = from.clone();
+            let reached = self
+                .descend(goal, home, [k, before.len()], start, &mut theta)
+                .is_ok();
+            let away = theta.iter().zip(from).map(|(a, b)| (a - b).abs());
+            if reached
                 && away.fold(0.0, f64::max) < JUMP
-                && !self.is_known(theta, self.same())
-                && self.keep_searched(requested, theta).is_ok()
-        });
-        self.before = before;
+                && !self.is_known(&theta, self.same())
+                && self.keep_searched(requested, &theta).is_ok()
+            {
+                self.before.push(theta);
+            }
+        }
         !self.before.is_empty()
     }
 
-    fn descend(&mut self, goal: &Goal, home: &[f64], theta: &mut [f64]) -> Result<(), Unreachable> {
-        let (descent, chain) = self.descent();
-        if theta.len() > ENOUGH {
-            descent.reach_near(chain, goal, home, theta)
-        } else {
-            descent.reach(chain, goal, theta)
+    /// Prepares the descents to another pose.
+    fn aim_at(&mut self, goal: &Requested) {
+        let chain = self.arm.chain;
+        if chain.links().len() <= ENOUGH {
+            self.descents
+                .get_or_insert_with(|| Descents::new(chain))
+                .aim_at(goal);
+        }
+    }
+
+    /// The descent from start `k`, where all before `certain` will be asked for; `start` fills the chain positions of
+    /// one.
+    fn descend(
+        &mut self,
+        goal: &Requested,
+        home: &[f64],
+        [k, certain]: [usize; 2],
+        start: impl Fn(usize, &mut [f64]),
+        theta: &mut [f64],
+    ) -> Result<(), Unreachable> {
+        let chain = self.arm.chain;
+        match &mut self.descents {
+            Some(descents) => descents.from(chain, k, certain, start, theta),
+            None => {
+                start(k, theta);
+                self.descent().0.reach_near(chain, goal, home, theta)
+            }
         }
     }
 

@@ -3,10 +3,10 @@
 use std::f64::consts::PI;
 
 use super::super::super::unreachable::Unreachable;
-use super::super::descent::Goal;
 use super::super::fixed_joint::FixedJoint;
 use super::super::lines::sense_of;
 use super::super::spherical_wrist::SphericalWrist;
+use super::super::verify::Requested;
 use super::{Finder, InverseTarget, SAME};
 use crate::frame::Isometry;
 
@@ -35,7 +35,7 @@ impl Finder<'_> {
     ) -> Option<Unreachable> {
         let near = requested.near.map(|q| self.chain_positions(q));
         let kept = near.and_then(|theta| theta.try_into().ok());
-        let goal = Goal::new(arm_from_flange);
+        let goal = Requested::new(arm_from_flange);
         for mut theta in form.chain_positions(arm_from_flange, kept.as_ref()) {
             let (descent, chain) = self.descent();
             if descent.reach(chain, &goal, &mut theta).is_ok() {
@@ -83,7 +83,7 @@ impl Finder<'_> {
         };
         let near = target.requested.near.map(|q| self.chain_positions(q));
         let kept = near.and_then(|theta| target.fixed.without(&theta));
-        let goal = Goal::new(target.arm_from_flange);
+        let goal = Requested::new(target.arm_from_flange);
         let six = form.chain_positions(target.arm_from_flange, kept.as_ref());
         let mut all: Vec<[f64; 7]> = six.iter().map(|six| target.fixed.with(angle, six)).collect();
         let (descent, chain) = self.descent();

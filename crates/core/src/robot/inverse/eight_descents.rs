@@ -1,0 +1,397 @@
+//! Eight descents to one pose at once, a lane each, by the rules of `descent`.
+//!
+//! A round is one step of every lane: the step, the frames at its end, whether the error is less there, and the Jacobian
+//! of the lanes where it is. A lane whose descent has ended takes the next start; its first round finds the error there.
+//! Lanes do not depend on each other, and differ from a descent by itself by rounding alone.
+
+use nalgebra::{Matrix3, Vector6};
+
+use super::super::chain::Chain;
+use super::super::frame_of_eight::{FrameOfEight, advance, base, displace};
+use super::super::unreachable::Unreachable;
+use super::descent::{
+    DONE, FIRST_DAMPING, LEAST_DAMPING, LESS, LONGEST_STEP, MORE, MOST_STEPS, PATIENCE, ROUNDING, SMALL_GAIN,
+    STUCK, outcome,
+};
+use super::kind::ENOUGH;
+use super::verify::Requested;
+use crate::frame::turn_between;
+use crate::numbers::{Backend, Eight, Gram, Real, Vector, Work, atan2, put_eight, vector_of_eight};
+
+/// Size of the error of a lane whose error is not known yet: any other is less.
+const UNKNOWN: f64 = 1e300;
+
+/// The descents under way to one pose.
+#[derive(Clone, Debug)]
+pub(super) struct EightDescents {
+    backend: Backend,
+    goal: Requested,
+    length: f64,
+    lanes: Box<Lanes>,
+    /// Number of the start of each lane; none where it is free.
+    starts: [Option<usize>; 8],
+}
+
+/// A descent that has ended.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Descended {
+    /// The best chain positions; of a chain with fewer joints, the first ones.
+    pub theta: [f64; ENOUGH],
+    /// Whether they reach the pose, or how far they are from it.
+    pub reached: Result<(), Unreachable>,
+}
+
+/// What each lane knows.
+#[derive(Clone, Debug, Default)]
+struct Lanes {
+    theta: [Eight; ENOUGH],
+    /// Linear part in units of `length`, then angular part.
+    error: [[Eight; 3]; 2],
+    /// Square of the error.
+    size: Eight,
+    /// Columns of the Jacobian: as those of the error.
+    columns: [[[Eight; 3]; 2]; ENOUGH],
+    damping: Eight,
+    /// Least damping relative to the trace, more where that was not positive definite.
+    least: Eight,
+    idle: Eight,
+    steps: Eight,
+    /// 1 where the descent has ended, otherwise 0.
+    ended: Eight,
+    trial: Trial,
+}
+
+/// Where the step of each lane leads.
+#[derive(Clone, Debug, Default)]
+struct Trial {
+    theta: [Eight; ENOUGH],
+    /// 1 where the step was found, otherwise 0.
+    solved: Eight,
+    /// Axes of the joints and points on them (m), in base.
+    axes: [[[Eight; 3]; 2]; ENOUGH],
+    flange: FrameOfEight,
+    error: [[Eight; 3]; 2],
+    /// 1 where the flange is half a turn away, the axis of which is not in its sines; otherwise 0.
+    half_turn: Eight,
+    /// 1 where the step is taken, otherwise 0.
+    better: Eight,
+}
+
+impl EightDescents {
+    /// For a chain of at most six joints.
+    pub fn new(chain: &Chain) -> EightDescents {
+        EightDescents {
+            backend: Backend::fastest(),
+            goal: Requested::default(),
+            length: chain.length(),
+            lanes: Box::default(),
+            starts: [None; 8],
+        }
+    }
+
+    /// Gives up the descents under way, and goes to another pose.
+    pub fn aim_at(&mut self, goal: &Requested) {
+        self.goal = *goal;
+        self.starts = [None; 8];
+    }
+
+    /// A lane without a descent.
+    pub fn free_lane(&self) -> Option<usize> {
+        self.starts.iter().position(Option::is_none)
+    }
+
+    /// Begins at the chain positions `theta`, in a free lane.
+    pub fn begin(&mut self, lane: usize, start: usize, theta: &[f64]) {
+        self.starts[lane] = Some(start);
+        let lanes = &mut *self.lanes;
+        for (all, theta) in lanes.theta.iter_mut().zip(theta) {
+            all.0[lane] = *theta;
+        }
+        // Without columns the first step leads nowhere: the error there is that of the start.
+        for all in lanes
+            .columns
+            .iter_mut()
+            .chain([&mut lanes.error])
+            .flatten()
+            .flatten()
+        {
+            all.0[lane] = 0.0;
+        }
+        lanes.size.0[lane] = UNKNOWN;
+        lanes.damping.0[lane] = FIRST_DAMPING / LESS;
+        lanes.least.0[lane] = ROUNDING;
+        lanes.idle.0[lane] = 0.0;
+        lanes.steps.0[lane] = -1.0;
+    }
+
+    /// One step of every lane; `ended` receives the descents that end with it, and the numbers of their starts.
+    pub fn step(&mut self, chain: &Chain, mut ended: impl FnMut(usize, Descended)) {
+        self.backend.run(Step {
+            chain,
+            goal: &self.goal,
+            length: self.length,
+            lanes: &mut self.lanes,
+        });
+        for lane in 0..8 {
+            if self.lanes.ended.0[lane] == 1.0
+                && let Some(start) = self.starts[lane].take()
+            {
+                ended(start, self.descended(lane));
+            }
+        }
+    }
+
+    fn descended(&self, lane: usize) -> Descended {
+        let mut rows = self.lanes.error.iter().flatten().map(|row| row.0[lane]);
+        let error = Vector6::from_fn(|_, _| rows.next().unwrap_or_default());
+        Descended {
+            theta: self.lanes.theta.map(|joint| joint.0[lane]),
+            reached: outcome(&error, self.length),
+        }
+    }
+}
+
+struct Step<'a> {
+    chain: &'a Chain,
+    goal: &'a Requested,
+    length: f64,
+    lanes: &'a mut Lanes,
+}
+
+impl Work<f64> for Step<'_> {
+    #[inline(always)]
+    fn run<R: Real<Float = f64>>(self) {
+        let Step {
+            chain,
+            goal,
+            length,
+            lanes,
+        } = self;
+        let per_length = 1.0 / length;
+        lanes.try_step::<R>();
+        lanes.trial.find_frames::<R>(chain);
+        lanes.trial.find_error::<R>(goal, per_length);
+        lanes.decide::<R>();
+        lanes.linearise::<R>(chain, per_length);
+    }
+}
+
+#[inline(always)]
+fn twist<R: Real<Float = f64>>([linear, angular]: &[[Eight; 3]; 2], lane: usize) -> [Vector<R>; 2] {
+    [vector_of_eight(linear, lane), vector_of_eight(angular, lane)]
+}
+
+impl Lanes {
+    /// Fills the chain positions of the trial.
+    #[inline(always)]
+    fn try_step<R: Real<Float = f64>>(&mut self) {
+        let (zero, one) = (R::of(0.0), R::of(1.0));
+        let [c1, c2, c3, c4, c5, c6] = &self.columns;
+        for i in 0..8 {
+            R::step();
+            let columns = [
+                twist::<R>(c1, i),
+                twist(c2, i),
+                twist(c3, i),
+                twist(c4, i),
+                twist(c5, i),
+                twist(c6, i),
+            ];
+            let [c1, c2, c3, c4, c5, c6] = columns;
+            let gram = Gram::new(zero)
+                .with(c1)
+                .with(c2)
+                .with(c3)
+                .with(c4)
+                .with(c5)
+                .with(c6);
+            let least = self.least.at::<R>(i) * gram.trace();
+            let lambda = (self.damping.at::<R>(i) * self.size.at(i)).max(least);
+            let [linear, angular] = twist(&self.error, i);
+            let ([x, y], pivot) = gram.damped(lambda).solve(linear, angular);
+            let steps = [
+                along(c1, x, y),
+                along(c2, x, y),
+                along(c3, x, y),
+                along(c4, x, y),
+                along(c5, x, y),
+                along(c6, x, y),
+            ];
+            let largest = (steps[0].abs().max(steps[1].abs()).max(steps[2].abs()))
+                .max(steps[3].abs().max(steps[4].abs()).max(steps[5].abs()));
+            let shorter = (R::of(LONGEST_STEP) / largest).min(one);
+            let mut joint = 0;
+            while joint < ENOUGH {
+                let theta = shorter.mul_add(steps[joint], self.theta[joint].at(i));
+                self.trial.theta[joint].set(i, theta);
+                joint += 1;
+            }
+            self.trial.solved.set(i, R::either(pivot > zero, one, zero));
+        }
+    }
+
+    /// Takes the steps that lessen the error, and finds which descents have ended.
+    #[inline(always)]
+    fn decide<R: Real<Float = f64>>(&mut self) {
+        let (zero, one) = (R::of(0.0), R::of(1.0));
+        let trial = &mut self.trial;
+        for i in 0..8 {
+            R::step();
+            let [away, turned] = twist::<R>(&trial.error, i);
+            let [away_before, turned_before] = twist::<R>(&self.error, i);
+            let (size_before, damping, idle) = (
+                self.size.at::<R>(i),
+                self.damping.at::<R>(i),
+                self.idle.at::<R>(i),
+            );
+            let (least, steps) = (self.least.at::<R>(i), self.steps.at::<R>(i));
+            let size = away.dot(away) + turned.dot(turned);
+            let solved = trial.solved.at::<R>(i) > zero;
+            let better = (size < size_before) & solved;
+            let small_gain = size > R::of(SMALL_GAIN) * size_before;
+            let idle = R::either(better, R::either(small_gain, idle + one, zero), idle);
+            let more = damping.max(R::of(LEAST_DAMPING)) * R::of(MORE);
+            let damping = R::either(better, damping * R::of(LESS), R::either(solved, more, damping));
+            // A matrix that even much damping does not make positive definite is no matrix of numbers.
+            let steps = R::either(solved | (least > one), steps + one, steps);
+            let size = R::either(better, size, size_before);
+            let ended = (size < R::of(DONE * DONE))
+                | (damping > R::of(STUCK))
+                | (idle > R::of(PATIENCE as f64))
+                | (steps >= R::of(MOST_STEPS as f64));
+            put_eight(&mut self.error[0], i, choose(better, away, away_before));
+            put_eight(&mut self.error[1], i, choose(better, turned, turned_before));
+            self.size.set(i, size);
+            self.damping.set(i, damping);
+            self.idle.set(i, idle);
+            self.least
+                .set(i, R::either(solved, R::of(ROUNDING), least * R::of(10.0)));
+            self.steps.set(i, steps);
+            self.ended.set(i, R::either(ended, one, zero));
+            trial.better.set(i, R::either(better, one, zero));
+        }
+        for (theta, trial_theta) in self.theta.iter_mut().zip(&trial.theta) {
+            for i in 0..8 {
+                R::step();
+                let better = trial.better.at::<R>(i) > zero;
+                theta.set(i, R::either(better, trial_theta.at(i), theta.at(i)));
+            }
+        }
+    }
+
+    /// Fills the columns of the Jacobian of the lanes that took their step.
+    #[inline(always)]
+    fn linearise<R: Real<Float = f64>>(&mut self, chain: &Chain, per_length: f64) {
+        let (zero, per_length) = (R::of(0.0), R::of(per_length));
+        let Trial {
+            axes, flange, better, ..
+        } = &self.trial;
+        for (joint, (column, axis)) in self.columns.iter_mut().zip(axes).enumerate() {
+            if joint == chain.links().len() {
+                break;
+            }
+            let [linear, angular] = column;
+            if chain.slides(joint) {
+                for i in 0..8 {
+                    R::step();
+                    let better = better.at::<R>(i) > zero;
+                    let v = vector_of_eight::<R>(&axis[0], i).scaled(per_length);
+                    let before = vector_of_eight::<R>(linear, i);
+                    put_eight(linear, i, choose(better, v, before));
+                }
+                continue;
+            }
+            for i in 0..8 {
+                R::step();
+                let better = better.at::<R>(i) > zero;
+                let w = vector_of_eight::<R>(&axis[0], i);
+                let lever = vector_of_eight::<R>(&flange[3], i) - vector_of_eight(&axis[1], i);
+                let v = w.cross(lever).scaled(per_length);
+                let (v_before, w_before) =
+                    (vector_of_eight::<R>(linear, i), vector_of_eight::<R>(angular, i));
+                put_eight(linear, i, choose(better, v, v_before));
+                put_eight(angular, i, choose(better, w, w_before));
+            }
+        }
+    }
+}
+
+impl Trial {
+    /// Fills the axes of the joints and the flange.
+    #[inline(always)]
+    fn find_frames<R: Real<Float = f64>>(&mut self, chain: &Chain) {
+        // Apart from what is stored: see `forward_of_eight`.
+        let mut frame = base();
+        for ((link, theta), found) in chain.links().iter().zip(&self.theta).zip(&mut self.axes) {
+            advance::<R>(&link.before, &mut frame);
+            let axis = displace::<R>(&link.motion, theta, &mut frame);
+            *found = [frame[axis.index()], frame[3]];
+        }
+        advance::<R>(chain.last_joint_from_flange(), &mut frame);
+        self.flange = frame;
+    }
+
+    /// Fills the error.
+    #[inline(always)]
+    fn find_error<R: Real<Float = f64>>(&mut self, goal: &Requested, per_length: f64) {
+        let (zero, one, half) = (R::of(0.0), R::of(1.0), R::of(0.5));
+        let per_length = R::of(per_length);
+        let [to_x, to_y, to_z, to] = goal.in_lanes::<R>();
+        let [x, y, z, origin] = &self.flange;
+        let [linear, angular] = &mut self.error;
+        for i in 0..8 {
+            R::step();
+            let (x, y, z) = (
+                vector_of_eight::<R>(x, i),
+                vector_of_eight::<R>(y, i),
+                vector_of_eight::<R>(z, i),
+            );
+            let away = (to - vector_of_eight(origin, i)).scaled(per_length);
+            // As `turn_between`.
+            let sine = (x.cross(to_x) + y.cross(to_y) + z.cross(to_z)).scaled(half);
+            let cosine = half * (x.dot(to_x) + y.dot(to_y) + z.dot(to_z) - one);
+            let length = sine.dot(sine).sqrt();
+            let small = length < R::of(1e-9);
+            let factor = R::either(small, one, atan2(length, cosine) / R::either(small, one, length));
+            let undecided = (length < R::of(1e-6)) & (cosine < zero);
+            put_eight(linear, i, away);
+            put_eight(angular, i, sine.scaled(factor));
+            self.half_turn.set(i, R::either(undecided, one, zero));
+        }
+        if self.half_turn.0.contains(&1.0) {
+            self.find_half_turns(goal);
+        }
+    }
+
+    /// Fills the angular error of the lanes that are half a turn away.
+    #[cold]
+    fn find_half_turns(&mut self, goal: &Requested) {
+        let [x, y, z, _] = &self.flange;
+        for lane in (0..8).filter(|lane| self.half_turn.0[*lane] == 1.0) {
+            let row = |axis: &[Eight; 3], row: usize| axis[row].0[lane];
+            let axes = Matrix3::from_fn(|r, c| row([x, y, z][c], r));
+            let turned = turn_between(&axes, &goal.axes);
+            for (row, turned) in self.error[1].iter_mut().zip(turned.iter()) {
+                row.0[lane] = *turned;
+            }
+        }
+    }
+}
+
+/// The step of a joint: its column times the solution.
+#[inline(always)]
+fn along<R: Real>([v, w]: [Vector<R>; 2], x: Vector<R>, y: Vector<R>) -> R {
+    v.dot(x) + w.dot(y)
+}
+
+#[inline(always)]
+fn choose<R: Real>(condition: bool, yes: Vector<R>, no: Vector<R>) -> Vector<R> {
+    Vector::new(
+        R::either(condition, yes.x, no.x),
+        R::either(condition, yes.y, no.y),
+        R::either(condition, yes.z, no.z),
+    )
+}
+
+#[cfg(test)]
+mod tests;
