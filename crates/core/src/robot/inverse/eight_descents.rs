@@ -282,36 +282,32 @@ impl Lanes {
     /// Fills the columns of the Jacobian of the lanes that took their step.
     #[inline(always)]
     fn linearise<R: Real<Float = f64>>(&mut self, chain: &Chain, per_length: f64) {
-        let (zero, per_length) = (R::of(0.0), R::of(per_length));
-        let Trial {
-            axes, flange, better, ..
-        } = &self.trial;
-        for (joint, (column, axis)) in self.columns.iter_mut().zip(axes).enumerate() {
-            if joint == chain.links().len() {
-                break;
-            }
-            let [linear, angular] = column;
+        let per_length = R::of(per_length);
+        // Copies, and columns apart from what they replace: see `forward_of_eight`.
+        let (flange, better) = (self.trial.flange[3], self.trial.better);
+        let joints = self.columns.iter_mut().zip(&self.trial.axes);
+        for (joint, (column, axis)) in joints.enumerate().take(chain.links().len()) {
+            let ([direction, origin], [v_before, w_before]) = (*axis, *column);
+            let (mut linear, mut angular) = (v_before, w_before);
             if chain.slides(joint) {
                 for i in 0..8 {
                     R::step();
-                    let better = better.at::<R>(i) > zero;
-                    let v = vector_of_eight::<R>(&axis[0], i).scaled(per_length);
-                    let before = vector_of_eight::<R>(linear, i);
-                    put_eight(linear, i, choose(better, v, before));
+                    let better = better.at::<R>(i) > R::of(0.0);
+                    let v = vector_of_eight(&direction, i).scaled(per_length);
+                    put_eight(&mut linear, i, choose(better, v, vector_of_eight(&v_before, i)));
                 }
-                continue;
+            } else {
+                for i in 0..8 {
+                    R::step();
+                    let better = better.at::<R>(i) > R::of(0.0);
+                    let w = vector_of_eight::<R>(&direction, i);
+                    let lever = vector_of_eight(&flange, i) - vector_of_eight(&origin, i);
+                    let v = w.cross(lever).scaled(per_length);
+                    put_eight(&mut linear, i, choose(better, v, vector_of_eight(&v_before, i)));
+                    put_eight(&mut angular, i, choose(better, w, vector_of_eight(&w_before, i)));
+                }
             }
-            for i in 0..8 {
-                R::step();
-                let better = better.at::<R>(i) > zero;
-                let w = vector_of_eight::<R>(&axis[0], i);
-                let lever = vector_of_eight::<R>(&flange[3], i) - vector_of_eight(&axis[1], i);
-                let v = w.cross(lever).scaled(per_length);
-                let (v_before, w_before) =
-                    (vector_of_eight::<R>(linear, i), vector_of_eight::<R>(angular, i));
-                put_eight(linear, i, choose(better, v, v_before));
-                put_eight(angular, i, choose(better, w, w_before));
-            }
+            *column = [linear, angular];
         }
     }
 }
