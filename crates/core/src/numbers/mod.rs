@@ -9,8 +9,8 @@
 mod angle;
 mod backend;
 mod block;
-mod eight;
 mod gram;
+mod lanes;
 mod real;
 mod vector;
 
@@ -20,8 +20,8 @@ pub use real::{Float, Real};
 pub(crate) use angle::{atan2, sin_cos};
 pub(crate) use backend::Work;
 pub(crate) use block::{BLOCK, Plane, Planes, fill, planes, put, vector};
-pub(crate) use eight::{Eight, put_eight, vector_of_eight};
 pub(crate) use gram::Gram;
+pub(crate) use lanes::{Eight, Lanes, put_in_lane, vector_in_lane};
 pub(crate) use real::lanes_of;
 #[cfg(test)]
 pub(crate) use real::{Alone, Fused, Plain};

@@ -3,11 +3,11 @@
 use nalgebra::{IsometryMatrix3, Matrix3, Point3, Rotation3, Vector3};
 
 use super::chain::Chain;
-use super::frame_of_eight::{FrameOfEight, advance, base, displace};
+use super::frame_in_lanes::{FrameInLanes, advance, base, displace};
 use super::jacobian::screw_at;
 use super::joint::Joint;
 use super::model::Robot;
-use crate::numbers::{Eight, Real};
+use crate::numbers::{Eight, Lanes, Real};
 use crate::spatial::Twist;
 
 /// The axis of a joint of each posture, in base: its unit direction, then a point on it (m).
@@ -28,7 +28,7 @@ impl JointsOfEight<'_> {
     pub fn at(&self, index: usize) -> Eight {
         match index.checked_sub(self.rail.len()) {
             Some(index) => self.arm[index],
-            None => Eight([self.rail[index]; 8]),
+            None => Lanes([self.rail[index]; 8]),
         }
     }
 
@@ -48,7 +48,7 @@ impl JointsOfEight<'_> {
 pub(super) struct ForwardOfEight {
     rail: Vec<AxisOfEight>,
     arm: [AxisOfEight; 6],
-    flange: FrameOfEight,
+    flange: FrameInLanes<8>,
 }
 
 impl ForwardOfEight {
@@ -57,7 +57,7 @@ impl ForwardOfEight {
         ForwardOfEight {
             rail: vec![AxisOfEight::default(); joints],
             arm: [AxisOfEight::default(); 6],
-            flange: FrameOfEight::default(),
+            flange: FrameInLanes::<8>::default(),
         }
     }
 
@@ -92,11 +92,11 @@ impl ForwardOfEight {
         let axes = self.rail.iter_mut().chain(&mut self.arm);
         for (index, (link, found)) in chain.links().iter().zip(axes).enumerate() {
             let theta = theta_of::<R>(robot, index, joints);
-            advance::<R>(&link.before, &mut frame);
-            let axis = displace::<R>(&link.motion, &theta, &mut frame);
+            advance::<R, _>(&link.before, &mut frame);
+            let axis = displace::<R, _>(&link.motion, &theta, &mut frame);
             *found = [frame[axis.index()], frame[3]];
         }
-        advance::<R>(chain.last_joint_from_flange(), &mut frame);
+        advance::<R, _>(chain.last_joint_from_flange(), &mut frame);
         self.flange = frame;
     }
 }

@@ -2,13 +2,13 @@
 
 use super::super::chain::Chain;
 use super::super::unreachable::Unreachable;
-use super::eight_descents::{Descended, EightDescents};
+use super::descents_in_lanes::{Descended, DescentsInLanes};
 use super::verify::Requested;
 
 /// Descents to one pose.
 #[derive(Clone, Debug)]
 pub(super) struct Descents {
-    eight: EightDescents,
+    eight: DescentsInLanes,
     /// Of each start that has begun, its descent if that has ended.
     ended: Vec<Option<Descended>>,
 }
@@ -17,7 +17,7 @@ impl Descents {
     /// For a chain of at most six joints.
     pub fn new(chain: &Chain) -> Descents {
         Descents {
-            eight: EightDescents::new(chain),
+            eight: DescentsInLanes::new(chain),
             ended: Vec::new(),
         }
     }

@@ -5,15 +5,15 @@
 //! arms, a redundant [`fixed_joint`], a search for any other chain, and rails. A [`Finder`] solves one pose after the
 //! other; [`postures`] gives all properties of the postures of one. Each posture is verified by forward kinematics.
 //!
-//! `finder` runs them, `verify` checks their solutions, `starts`, `descent` and its lanes (`eight_descents`,
+//! `finder` runs them, `verify` checks their solutions, `starts`, `descent` and its lanes (`descents_in_lanes`,
 //! `descents`) are the search. The closed forms share
 //! `lines` (axes in space), `roots`, `two_links` and `three_turns`.
 
 pub mod closed_form;
 mod descent;
 mod descents;
+mod descents_in_lanes;
 mod eight_branches;
-mod eight_descents;
 mod finder;
 pub mod fixed_joint;
 pub mod kind;

@@ -1,4 +1,4 @@
-//! Eight descents to one pose at once, a lane each, by the rules of `descent`.
+//! Each descents to one pose at once, a lane each, by the rules of `descent`.
 //!
 //! A round is one step of every lane: the step, the frames at its end, whether the error is less there, and the Jacobian
 //! of the lanes where it is. A lane whose descent has ended takes the next start; its first round finds the error there.
@@ -7,7 +7,7 @@
 use nalgebra::{Matrix3, Vector6};
 
 use super::super::chain::Chain;
-use super::super::frame_of_eight::{FrameOfEight, advance, base, displace};
+use super::super::frame_in_lanes::{FrameInLanes, advance, base, displace};
 use super::super::unreachable::Unreachable;
 use super::descent::{
     DONE, FIRST_DAMPING, LEAST_DAMPING, LESS, LONGEST_STEP, MORE, MOST_STEPS, PATIENCE, ROUNDING, SMALL_GAIN,
@@ -16,20 +16,24 @@ use super::descent::{
 use super::kind::ENOUGH;
 use super::verify::Requested;
 use crate::frame::turn_between;
-use crate::numbers::{Backend, Eight, Gram, Real, Vector, Work, atan2, put_eight, vector_of_eight};
+use crate::numbers::{Backend, Gram, Lanes, Real, Vector, Work, atan2, put_in_lane, vector_in_lane};
 
+/// Lanes at once.
+const WIDTH: usize = 16;
+/// A number of each descent.
+type Each = Lanes<WIDTH>;
 /// Size of the error of a lane whose error is not known yet: any other is less.
 const UNKNOWN: f64 = 1e300;
 
 /// The descents under way to one pose.
 #[derive(Clone, Debug)]
-pub(super) struct EightDescents {
+pub(super) struct DescentsInLanes {
     backend: Backend,
     goal: Requested,
     length: f64,
-    lanes: Box<Lanes>,
+    lanes: Box<UnderWay>,
     /// Number of the start of each lane; none where it is free.
-    starts: [Option<usize>; 8],
+    starts: [Option<usize>; WIDTH],
 }
 
 /// A descent that has ended.
@@ -43,56 +47,56 @@ pub(super) struct Descended {
 
 /// What each lane knows.
 #[derive(Clone, Debug, Default)]
-struct Lanes {
-    theta: [Eight; ENOUGH],
+struct UnderWay {
+    theta: [Each; ENOUGH],
     /// Linear part in units of `length`, then angular part.
-    error: [[Eight; 3]; 2],
+    error: [[Each; 3]; 2],
     /// Square of the error.
-    size: Eight,
+    size: Each,
     /// Columns of the Jacobian: as those of the error.
-    columns: [[[Eight; 3]; 2]; ENOUGH],
-    damping: Eight,
+    columns: [[[Each; 3]; 2]; ENOUGH],
+    damping: Each,
     /// Least damping relative to the trace, more where that was not positive definite.
-    least: Eight,
-    idle: Eight,
-    steps: Eight,
+    least: Each,
+    idle: Each,
+    steps: Each,
     /// 1 where the descent has ended, otherwise 0.
-    ended: Eight,
+    ended: Each,
     trial: Trial,
 }
 
 /// Where the step of each lane leads.
 #[derive(Clone, Debug, Default)]
 struct Trial {
-    theta: [Eight; ENOUGH],
+    theta: [Each; ENOUGH],
     /// 1 where the step was found, otherwise 0.
-    solved: Eight,
+    solved: Each,
     /// Axes of the joints and points on them (m), in base.
-    axes: [[[Eight; 3]; 2]; ENOUGH],
-    flange: FrameOfEight,
-    error: [[Eight; 3]; 2],
+    axes: [[[Each; 3]; 2]; ENOUGH],
+    flange: FrameInLanes<WIDTH>,
+    error: [[Each; 3]; 2],
     /// 1 where the flange is half a turn away, the axis of which is not in its sines; otherwise 0.
-    half_turn: Eight,
+    half_turn: Each,
     /// 1 where the step is taken, otherwise 0.
-    better: Eight,
+    better: Each,
 }
 
-impl EightDescents {
+impl DescentsInLanes {
     /// For a chain of at most six joints.
-    pub fn new(chain: &Chain) -> EightDescents {
-        EightDescents {
+    pub fn new(chain: &Chain) -> DescentsInLanes {
+        DescentsInLanes {
             backend: Backend::fastest(),
             goal: Requested::default(),
             length: chain.length(),
             lanes: Box::default(),
-            starts: [None; 8],
+            starts: [None; WIDTH],
         }
     }
 
     /// Gives up the descents under way, and goes to another pose.
     pub fn aim_at(&mut self, goal: &Requested) {
         self.goal = *goal;
-        self.starts = [None; 8];
+        self.starts = [None; WIDTH];
     }
 
     /// A lane without a descent.
@@ -132,7 +136,7 @@ impl EightDescents {
             length: self.length,
             lanes: &mut self.lanes,
         });
-        for lane in 0..8 {
+        for lane in 0..WIDTH {
             if self.lanes.ended.0[lane] == 1.0
                 && let Some(start) = self.starts[lane].take()
             {
@@ -155,7 +159,7 @@ struct Step<'a> {
     chain: &'a Chain,
     goal: &'a Requested,
     length: f64,
-    lanes: &'a mut Lanes,
+    lanes: &'a mut UnderWay,
 }
 
 impl Work<f64> for Step<'_> {
@@ -177,17 +181,17 @@ impl Work<f64> for Step<'_> {
 }
 
 #[inline(always)]
-fn twist<R: Real<Float = f64>>([linear, angular]: &[[Eight; 3]; 2], lane: usize) -> [Vector<R>; 2] {
-    [vector_of_eight(linear, lane), vector_of_eight(angular, lane)]
+fn twist<R: Real<Float = f64>>([linear, angular]: &[[Each; 3]; 2], lane: usize) -> [Vector<R>; 2] {
+    [vector_in_lane(linear, lane), vector_in_lane(angular, lane)]
 }
 
-impl Lanes {
+impl UnderWay {
     /// Fills the chain positions of the trial.
     #[inline(always)]
     fn try_step<R: Real<Float = f64>>(&mut self) {
         let (zero, one) = (R::of(0.0), R::of(1.0));
         let [c1, c2, c3, c4, c5, c6] = &self.columns;
-        for i in 0..8 {
+        for i in 0..WIDTH {
             R::step();
             let columns = [
                 twist::<R>(c1, i),
@@ -235,7 +239,7 @@ impl Lanes {
     fn decide<R: Real<Float = f64>>(&mut self) {
         let (zero, one) = (R::of(0.0), R::of(1.0));
         let trial = &mut self.trial;
-        for i in 0..8 {
+        for i in 0..WIDTH {
             R::step();
             let [away, turned] = twist::<R>(&trial.error, i);
             let [away_before, turned_before] = twist::<R>(&self.error, i);
@@ -259,8 +263,8 @@ impl Lanes {
                 | (damping > R::of(STUCK))
                 | (idle > R::of(PATIENCE as f64))
                 | (steps >= R::of(MOST_STEPS as f64));
-            put_eight(&mut self.error[0], i, choose(better, away, away_before));
-            put_eight(&mut self.error[1], i, choose(better, turned, turned_before));
+            put_in_lane(&mut self.error[0], i, choose(better, away, away_before));
+            put_in_lane(&mut self.error[1], i, choose(better, turned, turned_before));
             self.size.set(i, size);
             self.damping.set(i, damping);
             self.idle.set(i, idle);
@@ -271,7 +275,7 @@ impl Lanes {
             trial.better.set(i, R::either(better, one, zero));
         }
         for (theta, trial_theta) in self.theta.iter_mut().zip(&trial.theta) {
-            for i in 0..8 {
+            for i in 0..WIDTH {
                 R::step();
                 let better = trial.better.at::<R>(i) > zero;
                 theta.set(i, R::either(better, trial_theta.at(i), theta.at(i)));
@@ -290,21 +294,21 @@ impl Lanes {
             let ([direction, origin], [v_before, w_before]) = (*axis, *column);
             let (mut linear, mut angular) = (v_before, w_before);
             if chain.slides(joint) {
-                for i in 0..8 {
+                for i in 0..WIDTH {
                     R::step();
                     let better = better.at::<R>(i) > R::of(0.0);
-                    let v = vector_of_eight(&direction, i).scaled(per_length);
-                    put_eight(&mut linear, i, choose(better, v, vector_of_eight(&v_before, i)));
+                    let v = vector_in_lane(&direction, i).scaled(per_length);
+                    put_in_lane(&mut linear, i, choose(better, v, vector_in_lane(&v_before, i)));
                 }
             } else {
-                for i in 0..8 {
+                for i in 0..WIDTH {
                     R::step();
                     let better = better.at::<R>(i) > R::of(0.0);
-                    let w = vector_of_eight::<R>(&direction, i);
-                    let lever = vector_of_eight(&flange, i) - vector_of_eight(&origin, i);
+                    let w = vector_in_lane::<R, _>(&direction, i);
+                    let lever = vector_in_lane(&flange, i) - vector_in_lane(&origin, i);
                     let v = w.cross(lever).scaled(per_length);
-                    put_eight(&mut linear, i, choose(better, v, vector_of_eight(&v_before, i)));
-                    put_eight(&mut angular, i, choose(better, w, vector_of_eight(&w_before, i)));
+                    put_in_lane(&mut linear, i, choose(better, v, vector_in_lane(&v_before, i)));
+                    put_in_lane(&mut angular, i, choose(better, w, vector_in_lane(&w_before, i)));
                 }
             }
             *column = [linear, angular];
@@ -319,11 +323,11 @@ impl Trial {
         // Apart from what is stored: see `forward_of_eight`.
         let mut frame = base();
         for ((link, theta), found) in chain.links().iter().zip(&self.theta).zip(&mut self.axes) {
-            advance::<R>(&link.before, &mut frame);
-            let axis = displace::<R>(&link.motion, theta, &mut frame);
+            advance::<R, _>(&link.before, &mut frame);
+            let axis = displace::<R, _>(&link.motion, theta, &mut frame);
             *found = [frame[axis.index()], frame[3]];
         }
-        advance::<R>(chain.last_joint_from_flange(), &mut frame);
+        advance::<R, _>(chain.last_joint_from_flange(), &mut frame);
         self.flange = frame;
     }
 
@@ -335,14 +339,14 @@ impl Trial {
         let [to_x, to_y, to_z, to] = goal.in_lanes::<R>();
         let [x, y, z, origin] = &self.flange;
         let [linear, angular] = &mut self.error;
-        for i in 0..8 {
+        for i in 0..WIDTH {
             R::step();
             let (x, y, z) = (
-                vector_of_eight::<R>(x, i),
-                vector_of_eight::<R>(y, i),
-                vector_of_eight::<R>(z, i),
+                vector_in_lane::<R, _>(x, i),
+                vector_in_lane::<R, _>(y, i),
+                vector_in_lane::<R, _>(z, i),
             );
-            let away = (to - vector_of_eight(origin, i)).scaled(per_length);
+            let away = (to - vector_in_lane(origin, i)).scaled(per_length);
             // As `turn_between`.
             let sine = (x.cross(to_x) + y.cross(to_y) + z.cross(to_z)).scaled(half);
             let cosine = half * (x.dot(to_x) + y.dot(to_y) + z.dot(to_z) - one);
@@ -350,8 +354,8 @@ impl Trial {
             let small = length < R::of(1e-9);
             let factor = R::either(small, one, atan2(length, cosine) / R::either(small, one, length));
             let undecided = (length < R::of(1e-6)) & (cosine < zero);
-            put_eight(linear, i, away);
-            put_eight(angular, i, sine.scaled(factor));
+            put_in_lane(linear, i, away);
+            put_in_lane(angular, i, sine.scaled(factor));
             self.half_turn.set(i, R::either(undecided, one, zero));
         }
         if self.half_turn.0.contains(&1.0) {
@@ -363,8 +367,8 @@ impl Trial {
     #[cold]
     fn find_half_turns(&mut self, goal: &Requested) {
         let [x, y, z, _] = &self.flange;
-        for lane in (0..8).filter(|lane| self.half_turn.0[*lane] == 1.0) {
-            let row = |axis: &[Eight; 3], row: usize| axis[row].0[lane];
+        for lane in (0..WIDTH).filter(|lane| self.half_turn.0[*lane] == 1.0) {
+            let row = |axis: &[Each; 3], row: usize| axis[row].0[lane];
             let axes = Matrix3::from_fn(|r, c| row([x, y, z][c], r));
             let turned = turn_between(&axes, &goal.axes);
             for (row, turned) in self.error[1].iter_mut().zip(turned.iter()) {
