@@ -2,7 +2,7 @@
 
 use super::super::chain::Chain;
 use super::super::unreachable::Unreachable;
-use super::descents_in_lanes::{Descended, DescentsInLanes};
+use super::descents_in_lanes::{Descended, DescentsInLanes, Reached};
 use super::verify::Requested;
 
 /// Descents to one pose.
@@ -28,22 +28,25 @@ impl Descents {
         self.ended.clear();
     }
 
-    /// The descent from start `index`, where all starts before `certain` will be asked for: its end, into `theta`. `start`
-    /// fills the chain positions of a start.
+    /// Ends descents to the posture at these chain positions as soon as they lead there.
+    pub fn know(&mut self, theta: &[f64]) {
+        self.eight.know(theta);
+    }
+
+    /// The descent from start `index` of `count`: its end, into `theta`. `start` fills the chain positions of a start.
     ///
     /// # Errors
     /// The error that remains where it does not reach the pose.
     pub fn from(
         &mut self,
         chain: &Chain,
-        index: usize,
-        certain: usize,
+        [index, count]: [usize; 2],
         start: impl Fn(usize, &mut [f64]),
         theta: &mut [f64],
-    ) -> Result<(), Unreachable> {
-        let certain = certain.max(index + 1);
+    ) -> Result<Reached, Unreachable> {
         loop {
-            while self.ended.len() < certain
+            // A lane without a descent would be computed as well.
+            while self.ended.len() < count
                 && let Some(lane) = self.eight.free_lane()
             {
                 start(self.ended.len(), theta);

@@ -4,6 +4,8 @@
 //! of the lanes where it is. A lane whose descent has ended takes the next start; its first round finds the error there.
 //! Lanes do not depend on each other, and differ from a descent by itself by rounding alone.
 
+use std::f64::consts::TAU;
+
 use nalgebra::{Matrix3, Vector6};
 
 use super::super::chain::Chain;
@@ -19,7 +21,10 @@ use crate::frame::turn_between;
 use crate::numbers::{Backend, Gram, Lanes, Real, Vector, Work, atan2, put_in_lane, vector_in_lane};
 
 /// Lanes at once.
-const WIDTH: usize = 16;
+const WIDTH: usize = 8;
+/// A step below this (rad, m) may end at a known posture, and does if less than this share of its length is left.
+const NEAR: f64 = 0.3;
+const CONTRACTED: f64 = 0.1;
 /// A number of each descent.
 type Each = Lanes<WIDTH>;
 /// Size of the error of a lane whose error is not known yet: any other is less.
@@ -34,6 +39,9 @@ pub(super) struct DescentsInLanes {
     lanes: Box<UnderWay>,
     /// Number of the start of each lane; none where it is free.
     starts: [Option<usize>; WIDTH],
+    slides: [bool; ENOUGH],
+    /// Chain positions of the known postures.
+    known: Vec<[f64; ENOUGH]>,
 }
 
 /// A descent that has ended.
@@ -42,7 +50,16 @@ pub(super) struct Descended {
     /// The best chain positions; of a chain with fewer joints, the first ones.
     pub theta: [f64; ENOUGH],
     /// Whether they reach the pose, or how far they are from it.
-    pub reached: Result<(), Unreachable>,
+    pub reached: Result<Reached, Unreachable>,
+}
+
+/// Where a descent leads.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Reached {
+    /// To the pose.
+    Pose,
+    /// To a posture that is known: it ended before.
+    Known,
 }
 
 /// What each lane knows.
@@ -60,6 +77,8 @@ struct UnderWay {
     least: Each,
     idle: Each,
     steps: Each,
+    /// Largest change of a joint (rad, m) by the last step; that of a step not taken is infinite.
+    step: Each,
     /// 1 where the descent has ended, otherwise 0.
     ended: Each,
     trial: Trial,
@@ -90,6 +109,8 @@ impl DescentsInLanes {
             length: chain.length(),
             lanes: Box::default(),
             starts: [None; WIDTH],
+            slides: std::array::from_fn(|joint| joint < chain.links().len() && chain.slides(joint)),
+            known: Vec::new(),
         }
     }
 
@@ -97,6 +118,14 @@ impl DescentsInLanes {
     pub fn aim_at(&mut self, goal: &Requested) {
         self.goal = *goal;
         self.starts = [None; WIDTH];
+        self.known.clear();
+    }
+
+    /// Ends descents to the posture at these chain positions as soon as they lead there.
+    pub fn know(&mut self, theta: &[f64]) {
+        let mut known = [0.0; ENOUGH];
+        known[..theta.len()].copy_from_slice(theta);
+        self.known.push(known);
     }
 
     /// A lane without a descent.
@@ -111,14 +140,8 @@ impl DescentsInLanes {
         for (all, theta) in lanes.theta.iter_mut().zip(theta) {
             all.0[lane] = *theta;
         }
-        // Without columns the first step leads nowhere: the error there is that of the start.
-        for all in lanes
-            .columns
-            .iter_mut()
-            .chain([&mut lanes.error])
-            .flatten()
-            .flatten()
-        {
+        // Without an error the first step leads nowhere: the error there is that of the start.
+        for all in lanes.error.iter_mut().flatten() {
             all.0[lane] = 0.0;
         }
         lanes.size.0[lane] = UNKNOWN;
@@ -137,20 +160,43 @@ impl DescentsInLanes {
             lanes: &mut self.lanes,
         });
         for lane in 0..WIDTH {
-            if self.lanes.ended.0[lane] == 1.0
-                && let Some(start) = self.starts[lane].take()
-            {
-                ended(start, self.descended(lane));
+            let Some(start) = self.starts[lane] else { continue };
+            let is_known = self.lanes.step.0[lane] < NEAR && self.leads_to_known(lane);
+            if is_known || self.lanes.ended.0[lane] == 1.0 {
+                self.starts[lane] = None;
+                ended(start, self.descended(lane, is_known));
             }
         }
     }
 
-    fn descended(&self, lane: usize) -> Descended {
+    /// Whether the last step went to a known posture, and missed it by far less than its length: those that follow miss
+    /// it by still less.
+    fn leads_to_known(&self, lane: usize) -> bool {
+        let within = CONTRACTED * self.lanes.step.0[lane];
+        let theta = &self.lanes.theta;
+        let is_near = |(joint, known): (usize, &f64)| {
+            let away = theta[joint].0[lane] - known;
+            let turns = if self.slides[joint] {
+                0.0
+            } else {
+                (away * (1.0 / TAU)).round()
+            };
+            (away - TAU * turns).abs() < within
+        };
+        let mut known = self.known.iter();
+        known.any(|known| known.iter().enumerate().all(is_near))
+    }
+
+    fn descended(&self, lane: usize, known: bool) -> Descended {
         let mut rows = self.lanes.error.iter().flatten().map(|row| row.0[lane]);
         let error = Vector6::from_fn(|_, _| rows.next().unwrap_or_default());
         Descended {
             theta: self.lanes.theta.map(|joint| joint.0[lane]),
-            reached: outcome(&error, self.length),
+            reached: if known {
+                Ok(Reached::Known)
+            } else {
+                outcome(&error, self.length).map(|()| Reached::Pose)
+            },
         }
     }
 }
@@ -230,6 +276,7 @@ impl UnderWay {
                 self.trial.theta[joint].set(i, theta);
                 joint += 1;
             }
+            self.step.set(i, largest);
             self.trial.solved.set(i, R::either(pivot > zero, one, zero));
         }
     }
@@ -272,6 +319,8 @@ impl UnderWay {
                 .set(i, R::either(solved, R::of(ROUNDING), least * R::of(10.0)));
             self.steps.set(i, steps);
             self.ended.set(i, R::either(ended, one, zero));
+            let step = R::either(better, self.step.at(i), R::of(f64::INFINITY));
+            self.step.set(i, step);
             trial.better.set(i, R::either(better, one, zero));
         }
         for (theta, trial_theta) in self.theta.iter_mut().zip(&trial.theta) {

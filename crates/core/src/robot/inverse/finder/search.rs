@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use super::super::super::unreachable::Unreachable;
 use super::super::descents::Descents;
+use super::super::descents_in_lanes::Reached;
 use super::super::kind::ENOUGH;
 use super::super::starts::Starts;
 use super::super::verify::Requested;
@@ -46,12 +47,10 @@ impl Finder<'_> {
             if idle == barren || self.found.len() == PLENTY {
                 break;
             }
-            // So many starts follow, whatever they find.
-            let certain = (k + barren - idle).min(MOST_STARTS);
             idle += 1;
-            match self.descend(&goal, &home, [k, certain], start, &mut theta) {
-                Ok(()) if self.is_known(&theta, self.same()) => {}
-                Ok(()) => match self.keep_searched(requested, &theta) {
+            match self.descend(&goal, &home, [k, MOST_STARTS], start, &mut theta) {
+                Ok(reached) if self.is_found(reached, &theta) => {}
+                Ok(_) => match self.keep_new(requested, &theta) {
                     Ok(()) => idle = 0,
                     Err(miss) => missed = Some(nearer(missed, miss)),
                 },
@@ -73,14 +72,11 @@ impl Finder<'_> {
         let start = |k: usize, theta: &mut [f64]| theta.copy_from_slice(&before[k]);
         for (k, from) in before.iter().enumerate() {
             let mut theta = from.clone();
-            let reached = self
-                .descend(goal, home, [k, before.len()], start, &mut theta)
-                .is_ok();
+            let reached = self.descend(goal, home, [k, before.len()], start, &mut theta);
             let away = theta.iter().zip(from).map(|(a, b)| (a - b).abs());
-            if reached
+            if reached.is_ok_and(|reached| !self.is_found(reached, &theta))
                 && away.fold(0.0, f64::max) < JUMP
-                && !self.is_known(&theta, self.same())
-                && self.keep_searched(requested, &theta).is_ok()
+                && self.keep_new(requested, &theta).is_ok()
             {
                 self.before.push(theta);
             }
@@ -98,24 +94,37 @@ impl Finder<'_> {
         }
     }
 
-    /// The descent from start `k`, where all before `certain` will be asked for; `start` fills the chain positions of
-    /// one.
+    /// The descent from start `k` of `count`; `start` fills the chain positions of one.
     fn descend(
         &mut self,
         goal: &Requested,
         home: &[f64],
-        [k, certain]: [usize; 2],
+        [k, count]: [usize; 2],
         start: impl Fn(usize, &mut [f64]),
         theta: &mut [f64],
-    ) -> Result<(), Unreachable> {
+    ) -> Result<Reached, Unreachable> {
         let chain = self.arm.chain;
         match &mut self.descents {
-            Some(descents) => descents.from(chain, k, certain, start, theta),
+            Some(descents) => descents.from(chain, [k, count], start, theta),
             None => {
                 start(k, theta);
-                self.descent().0.reach_near(chain, goal, home, theta)
+                let reached = self.descent().0.reach_near(chain, goal, home, theta);
+                reached.map(|()| Reached::Pose)
             }
         }
+    }
+
+    fn is_found(&self, reached: Reached, theta: &[f64]) -> bool {
+        reached == Reached::Known || self.is_known(theta, self.same())
+    }
+
+    /// Stores a posture, to which further descents end early.
+    fn keep_new(&mut self, requested: &InverseTarget<'_>, theta: &[f64]) -> Result<(), Unreachable> {
+        self.keep_searched(requested, theta)?;
+        if let Some(descents) = &mut self.descents {
+            descents.know(theta);
+        }
+        Ok(())
     }
 
     fn same(&self) -> f64 {
