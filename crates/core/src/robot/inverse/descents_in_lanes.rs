@@ -18,12 +18,14 @@ use super::descent::{
 use super::kind::ENOUGH;
 use super::verify::Requested;
 use crate::frame::turn_between;
-use crate::numbers::{Backend, Gram, Lanes, Real, Vector, Work, atan2, put_in_lane, vector_in_lane};
+use crate::numbers::{Backend, Eight, Gram, Lanes, Real, Vector, Work, atan2, put_in_lane, vector_in_lane};
 
 /// Lanes at once.
 const WIDTH: usize = 8;
-/// A step below this (rad, m) may end at a known posture, and does if less than this share of its length is left.
-const NEAR: f64 = 0.3;
+/// A step (rad, m) and the error at its end (l, rad) below these may lead to a known posture; it does if less than this
+/// share of its length is left.
+const SHORT: f64 = 0.3;
+const NEAR: f64 = 0.1;
 const CONTRACTED: f64 = 0.1;
 /// A number of each descent.
 type Each = Lanes<WIDTH>;
@@ -39,9 +41,15 @@ pub(super) struct DescentsInLanes {
     lanes: Box<UnderWay>,
     /// Number of the start of each lane; none where it is free.
     starts: [Option<usize>; WIDTH],
-    slides: [bool; ENOUGH],
-    /// Chain positions of the known postures.
-    known: Vec<[f64; ENOUGH]>,
+    known: KnownPostures,
+}
+
+/// Postures that no descent is needed for.
+#[derive(Clone, Debug, Default)]
+struct KnownPostures {
+    count: usize,
+    /// Chain positions of eight each; no number where there is none.
+    theta: Vec<[Eight; ENOUGH]>,
 }
 
 /// A descent that has ended.
@@ -77,8 +85,10 @@ struct UnderWay {
     least: Each,
     idle: Each,
     steps: Each,
-    /// Largest change of a joint (rad, m) by the last step; that of a step not taken is infinite.
+    /// Largest change of a joint (rad, m) by the last step.
     step: Each,
+    /// 1 where the last step leads to a known posture, otherwise 0.
+    known: Each,
     /// 1 where the descent has ended, otherwise 0.
     ended: Each,
     trial: Trial,
@@ -109,8 +119,7 @@ impl DescentsInLanes {
             length: chain.length(),
             lanes: Box::default(),
             starts: [None; WIDTH],
-            slides: std::array::from_fn(|joint| joint < chain.links().len() && chain.slides(joint)),
-            known: Vec::new(),
+            known: KnownPostures::default(),
         }
     }
 
@@ -118,14 +127,22 @@ impl DescentsInLanes {
     pub fn aim_at(&mut self, goal: &Requested) {
         self.goal = *goal;
         self.starts = [None; WIDTH];
-        self.known.clear();
+        self.known.count = 0;
+        self.known.theta.clear();
     }
 
     /// Ends descents to the posture at these chain positions as soon as they lead there.
     pub fn know(&mut self, theta: &[f64]) {
-        let mut known = [0.0; ENOUGH];
-        known[..theta.len()].copy_from_slice(theta);
-        self.known.push(known);
+        let lane = self.known.count % 8;
+        if lane == 0 {
+            self.known.theta.push([Lanes([f64::NAN; 8]); ENOUGH]);
+        }
+        self.known.count += 1;
+        if let Some(last) = self.known.theta.last_mut() {
+            for (joint, all) in last.iter_mut().enumerate() {
+                all.0[lane] = theta.get(joint).copied().unwrap_or_default();
+            }
+        }
     }
 
     /// A lane without a descent.
@@ -156,35 +173,18 @@ impl DescentsInLanes {
         self.backend.run(Step {
             chain,
             goal: &self.goal,
+            known: &self.known.theta,
             length: self.length,
             lanes: &mut self.lanes,
         });
         for lane in 0..WIDTH {
             let Some(start) = self.starts[lane] else { continue };
-            let is_known = self.lanes.step.0[lane] < NEAR && self.leads_to_known(lane);
+            let is_known = self.lanes.known.0[lane] == 1.0;
             if is_known || self.lanes.ended.0[lane] == 1.0 {
                 self.starts[lane] = None;
                 ended(start, self.descended(lane, is_known));
             }
         }
-    }
-
-    /// Whether the last step went to a known posture, and missed it by far less than its length: those that follow miss
-    /// it by still less.
-    fn leads_to_known(&self, lane: usize) -> bool {
-        let within = CONTRACTED * self.lanes.step.0[lane];
-        let theta = &self.lanes.theta;
-        let is_near = |(joint, known): (usize, &f64)| {
-            let away = theta[joint].0[lane] - known;
-            let turns = if self.slides[joint] {
-                0.0
-            } else {
-                (away * (1.0 / TAU)).round()
-            };
-            (away - TAU * turns).abs() < within
-        };
-        let mut known = self.known.iter();
-        known.any(|known| known.iter().enumerate().all(is_near))
     }
 
     fn descended(&self, lane: usize, known: bool) -> Descended {
@@ -204,6 +204,7 @@ impl DescentsInLanes {
 struct Step<'a> {
     chain: &'a Chain,
     goal: &'a Requested,
+    known: &'a [[Eight; ENOUGH]],
     length: f64,
     lanes: &'a mut UnderWay,
 }
@@ -214,6 +215,7 @@ impl Work<f64> for Step<'_> {
         let Step {
             chain,
             goal,
+            known,
             length,
             lanes,
         } = self;
@@ -222,6 +224,7 @@ impl Work<f64> for Step<'_> {
         lanes.trial.find_frames::<R>(chain);
         lanes.trial.find_error::<R>(goal, per_length);
         lanes.decide::<R>();
+        lanes.find_known::<R>(chain, known);
         lanes.linearise::<R>(chain, per_length);
     }
 }
@@ -319,8 +322,9 @@ impl UnderWay {
                 .set(i, R::either(solved, R::of(ROUNDING), least * R::of(10.0)));
             self.steps.set(i, steps);
             self.ended.set(i, R::either(ended, one, zero));
-            let step = R::either(better, self.step.at(i), R::of(f64::INFINITY));
-            self.step.set(i, step);
+            // Those that may; `find_known` asks them.
+            let near = better & (self.step.at::<R>(i) < R::of(SHORT)) & (size < R::of(NEAR * NEAR));
+            self.known.set(i, R::either(near, one, zero));
             trial.better.set(i, R::either(better, one, zero));
         }
         for (theta, trial_theta) in self.theta.iter_mut().zip(&trial.theta) {
@@ -329,6 +333,35 @@ impl UnderWay {
                 let better = trial.better.at::<R>(i) > zero;
                 theta.set(i, R::either(better, trial_theta.at(i), theta.at(i)));
             }
+        }
+    }
+
+    /// Finds where the last step went to a known posture, and missed it by far less than its length: those that follow
+    /// would miss it by still less.
+    #[inline(always)]
+    fn find_known<R: Real<Float = f64>>(&mut self, chain: &Chain, known: &[[Eight; ENOUGH]]) {
+        let turns = R::of(1.0 / TAU);
+        for lane in 0..WIDTH {
+            if self.known.0[lane] == 0.0 {
+                continue;
+            }
+            let within = R::of(CONTRACTED) * self.step.at(lane);
+            let mut is_any = false;
+            for eight in known {
+                let mut is = Lanes([1.0; 8]);
+                for (joint, known) in eight.iter().enumerate().take(chain.links().len()) {
+                    let theta = self.theta[joint].at::<R>(lane);
+                    let turn = R::of(if chain.slides(joint) { 0.0 } else { TAU });
+                    for i in 0..8 {
+                        R::step();
+                        let away = theta - known.at(i);
+                        let away = (-(away * turns).round()).mul_add(turn, away);
+                        is.set(i, R::either(away.abs() < within, is.at(i), R::of(0.0)));
+                    }
+                }
+                is_any |= is.0.contains(&1.0);
+            }
+            self.known.set(lane, R::of(f64::from(u8::from(is_any))));
         }
     }
 

@@ -28,7 +28,8 @@ impl Starts {
     /// Point `k` of the sequence, into `point`.
     pub fn point(&self, k: usize, point: &mut [f64]) {
         for (x, [lower, size, step]) in point.iter_mut().zip(&self.sides) {
-            *x = lower + (0.5 + k as f64 * step).fract() * size;
+            let steps = 0.5 + k as f64 * step;
+            *x = lower + (steps - steps as u32 as f64) * size;
         }
     }
 }
