@@ -1,5 +1,7 @@
 //! A frame of a few postures at once, one lane each, moved along a chain.
 
+use nalgebra::Vector3;
+
 use super::chain::{Axis, Fixed, Motion};
 use crate::numbers::{Lanes, Real, Vector, put_in_lane, sin_cos, vector_in_lane};
 
@@ -19,12 +21,7 @@ pub(super) fn advance<R: Real<Float = f64>, const N: usize>(
     frame: &mut FrameInLanes<N>,
 ) {
     let (translation, rotation) = displacement.parts();
-    let along = Vector::<R>::of(&translation);
-    for i in 0..N {
-        R::step();
-        let [x, y, z, origin] = load::<R, N>(frame, i);
-        put_in_lane(&mut frame[3], i, combined([x, y, z], along) + origin);
-    }
+    translate::<R, N>(&translation, frame);
     let Some(rotation) = rotation else { return };
     let columns: [Vector<R>; 3] = [
         Vector::of(&rotation.column(0).into_owned()),
@@ -37,6 +34,32 @@ pub(super) fn advance<R: Real<Float = f64>, const N: usize>(
         put_in_lane(&mut frame[0], i, combined([x, y, z], columns[0]));
         put_in_lane(&mut frame[1], i, combined([x, y, z], columns[1]));
         put_in_lane(&mut frame[2], i, combined([x, y, z], columns[2]));
+    }
+}
+
+/// Moves the frame by a constant translation (m) along its axes; most are along one of them.
+#[inline(always)]
+pub(super) fn translate<R: Real<Float = f64>, const N: usize>(
+    by: &Vector3<f64>,
+    frame: &mut FrameInLanes<N>,
+) {
+    for axis in 0..3 {
+        if by[(axis + 1) % 3] == 0.0 && by[(axis + 2) % 3] == 0.0 {
+            let (direction, length) = (frame[axis], R::of(by[axis]));
+            for i in 0..N {
+                R::step();
+                let along = vector_in_lane::<R, N>(&direction, i).scaled(length);
+                let origin = vector_in_lane(&frame[3], i);
+                put_in_lane(&mut frame[3], i, along + origin);
+            }
+            return;
+        }
+    }
+    let along = Vector::<R>::of(by);
+    for i in 0..N {
+        R::step();
+        let [x, y, z, origin] = load::<R, N>(frame, i);
+        put_in_lane(&mut frame[3], i, combined([x, y, z], along) + origin);
     }
 }
 

@@ -23,8 +23,8 @@ impl Descents {
     }
 
     /// Forgets all descents, and goes to another pose.
-    pub fn aim_at(&mut self, goal: &Requested) {
-        self.eight.aim_at(goal);
+    pub fn aim_at(&mut self, chain: &Chain, goal: &Requested) {
+        self.eight.aim_at(chain, goal);
         self.ended.clear();
     }
 

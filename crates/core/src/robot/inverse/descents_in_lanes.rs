@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 use nalgebra::{Matrix3, Vector6};
 
 use super::super::chain::Chain;
-use super::super::frame_in_lanes::{FrameInLanes, advance, base, displace};
+use super::super::frame_in_lanes::{FrameInLanes, advance, base, displace, translate};
 use super::super::unreachable::Unreachable;
 use super::descent::{
     DONE, FIRST_DAMPING, LEAST_DAMPING, LESS, LONGEST_STEP, MORE, MOST_STEPS, PATIENCE, ROUNDING, SMALL_GAIN,
@@ -36,6 +36,7 @@ const UNKNOWN: f64 = 1e300;
 #[derive(Clone, Debug)]
 pub(super) struct DescentsInLanes {
     backend: Backend,
+    /// Origin of the flange, with the axes of the last joint.
     goal: Requested,
     length: f64,
     lanes: Box<UnderWay>,
@@ -124,8 +125,11 @@ impl DescentsInLanes {
     }
 
     /// Gives up the descents under way, and goes to another pose.
-    pub fn aim_at(&mut self, goal: &Requested) {
+    pub fn aim_at(&mut self, chain: &Chain, goal: &Requested) {
         self.goal = *goal;
+        if let (_, Some(rotation)) = chain.last_joint_from_flange().parts() {
+            self.goal.axes *= rotation.transpose();
+        }
         self.starts = [None; WIDTH];
         self.known.count = 0;
         self.known.theta.clear();
@@ -399,7 +403,7 @@ impl UnderWay {
 }
 
 impl Trial {
-    /// Fills the axes of the joints and the flange.
+    /// Fills the axes of the joints and the flange, which has the axes of the last joint.
     #[inline(always)]
     fn find_frames<R: Real<Float = f64>>(&mut self, chain: &Chain) {
         // Apart from what is stored: see `forward_of_eight`.
@@ -409,7 +413,7 @@ impl Trial {
             let axis = displace::<R, _>(&link.motion, theta, &mut frame);
             *found = [frame[axis.index()], frame[3]];
         }
-        advance::<R, _>(chain.last_joint_from_flange(), &mut frame);
+        translate::<R, _>(&chain.last_joint_from_flange().parts().0, &mut frame);
         self.flange = frame;
     }
 

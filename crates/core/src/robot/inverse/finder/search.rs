@@ -90,7 +90,7 @@ impl Finder<'_> {
         if chain.links().len() <= ENOUGH {
             self.descents
                 .get_or_insert_with(|| Descents::new(chain))
-                .aim_at(goal);
+                .aim_at(chain, goal);
         }
     }
 
