@@ -199,3 +199,45 @@ impl<R: Real> Gram<R> {
         ([x, y], factors.least.min(of_linear.least))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Matrix6, Vector6};
+
+    use super::*;
+    use crate::arms::Stream;
+
+    #[test]
+    fn the_solution_is_that_of_the_whole_matrix() {
+        let mut stream = Stream(61);
+        for columns in [3, 6, 8] {
+            for _ in 0..200 {
+                let (mut gram, mut whole) = (Gram::new(0.0), Matrix6::zeros());
+                for _ in 0..columns {
+                    let (v, w) = (stream.vector(1.0), stream.vector(1.0));
+                    gram = gram.with([Vector::of(&v), Vector::of(&w)]);
+                    let column = Vector6::new(v.x, v.y, v.z, w.x, w.y, w.z);
+                    whole += column * column.transpose();
+                }
+                assert!((gram.trace() - whole.trace()).abs() < 1e-14);
+                let (e, f) = (stream.vector(1.0), stream.vector(1.0));
+                let ([x, y], pivot) = gram.damped(1e-3).solve(Vector::of(&e), Vector::of(&f));
+                let solution = Vector6::new(x.x, x.y, x.z, y.x, y.y, y.z);
+                let right = (whole + Matrix6::identity() * 1e-3) * solution;
+                // The matrix is up to some units, the solution up to a thousand.
+                assert!((right - Vector6::new(e.x, e.y, e.z, f.x, f.y, f.z)).norm() < 1e-11);
+                assert!(pivot > 0.0);
+            }
+        }
+    }
+
+    #[test]
+    fn a_matrix_that_is_not_positive_definite_has_no_positive_pivot() {
+        let e = Vector::new(1.0, 0.0, 0.0);
+        let indefinite: Gram<f64> = Gram::new(0.0).with([e, e]).damped(-0.5);
+        assert!(indefinite.solve(e, e).1 <= 0.0);
+        let nothing: Gram<f64> = Gram::new(0.0);
+        let pivot = nothing.solve(e, e).1;
+        assert!(pivot.is_nan() || pivot <= 0.0);
+    }
+}

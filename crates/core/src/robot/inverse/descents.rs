@@ -1,4 +1,4 @@
-//! Descents from many starts to one pose, eight at once, in the order of the starts.
+//! Descents from many starts to one pose, some at once, in the order of the starts.
 
 use super::super::chain::Chain;
 use super::super::unreachable::Unreachable;
@@ -8,7 +8,7 @@ use super::verify::Requested;
 /// Descents to one pose.
 #[derive(Clone, Debug)]
 pub(super) struct Descents {
-    eight: DescentsInLanes,
+    lanes: DescentsInLanes,
     /// Of each start that has begun, its descent if that has ended.
     ended: Vec<Option<Descended>>,
 }
@@ -17,20 +17,20 @@ impl Descents {
     /// For a chain of at most six joints.
     pub fn new(chain: &Chain) -> Descents {
         Descents {
-            eight: DescentsInLanes::new(chain),
+            lanes: DescentsInLanes::new(chain),
             ended: Vec::new(),
         }
     }
 
     /// Forgets all descents, and goes to another pose.
     pub fn aim_at(&mut self, chain: &Chain, goal: &Requested) {
-        self.eight.aim_at(chain, goal);
+        self.lanes.aim_at(chain, goal);
         self.ended.clear();
     }
 
     /// Ends descents to the posture at these chain positions as soon as they lead there.
     pub fn know(&mut self, theta: &[f64]) {
-        self.eight.know(theta);
+        self.lanes.know(theta);
     }
 
     /// The descent from start `index` of `count`: its end, into `theta`. `start` fills the chain positions of a start.
@@ -47,10 +47,10 @@ impl Descents {
         loop {
             // A lane without a descent would be computed as well.
             while self.ended.len() < count
-                && let Some(lane) = self.eight.free_lane()
+                && let Some(lane) = self.lanes.free_lane()
             {
                 start(self.ended.len(), theta);
-                self.eight.begin(lane, self.ended.len(), theta);
+                self.lanes.begin(lane, self.ended.len(), theta);
                 self.ended.push(None);
             }
             if let Some(descended) = self.ended[index] {
@@ -58,7 +58,7 @@ impl Descents {
                 return descended.reached;
             }
             let ended = &mut self.ended;
-            self.eight
+            self.lanes
                 .step(chain, |start, descended| ended[start] = Some(descended));
         }
     }

@@ -1,9 +1,10 @@
 //! Descents: convergence, fixed joints, and redundant joints.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, Vector3};
 
 use super::*;
 use crate::arms::{self, Stream};
+use crate::frame::Isometry;
 use crate::robot::Robot;
 
 fn goal(robot: &Robot, theta: &[f64]) -> Requested {

@@ -136,7 +136,7 @@ impl Finder<'_> {
     }
 
     /// Ranges of the chain positions of the arm; one turn for joints without limits.
-    fn ranges(&self) -> Vec<[f64; 2]> {
+    pub(super) fn ranges(&self) -> Vec<[f64; 2]> {
         let middles = self.chain_positions(&self.robot.middles());
         let range = |(i, middle): (usize, f64)| {
             let joint = self.arm.first + i;
