@@ -230,24 +230,39 @@ impl UnderWay {
     /// would miss it by still less.
     #[inline(always)]
     fn find_known<R: Real<Float = f64>>(&mut self, chain: &Chain, known: &[[Eight; ENOUGH]]) {
-        let turns = R::of(1.0 / TAU);
+        let mut turns = [R::of(TAU); ENOUGH];
+        for (joint, turn) in turns.iter_mut().enumerate().take(chain.links().len()) {
+            *turn = R::of(if chain.slides(joint) { 0.0 } else { TAU });
+        }
         for lane in 0..WIDTH {
             if self.known.0[lane] == 0.0 {
                 continue;
             }
             let within = R::of(CONTRACTED) * self.step.at(lane);
+            let [t1, t2, t3, t4, t5, t6] = &self.theta;
+            let theta: [R; ENOUGH] = [
+                t1.at(lane),
+                t2.at(lane),
+                t3.at(lane),
+                t4.at(lane),
+                t5.at(lane),
+                t6.at(lane),
+            ];
             let mut is_any = false;
             for eight in known {
-                let mut is = Lanes([1.0; 8]);
-                for (joint, known) in eight.iter().enumerate().take(chain.links().len()) {
-                    let theta = self.theta[joint].at::<R>(lane);
-                    let turn = R::of(if chain.slides(joint) { 0.0 } else { TAU });
-                    for i in 0..8 {
-                        R::step();
-                        let away = theta - known.at(i);
-                        let away = (-(away * turns).round()).mul_add(turn, away);
-                        is.set(i, R::either(away.abs() < within, is.at(i), R::of(0.0)));
+                let mut is = Eight::default();
+                for i in 0..8 {
+                    R::step();
+                    let mut all = true;
+                    let mut joint = 0;
+                    while joint < ENOUGH {
+                        let away = theta[joint] - eight[joint].at(i);
+                        let whole = (away * R::of(1.0 / TAU)).round();
+                        let away = (-whole).mul_add(turns[joint], away);
+                        all &= away.abs() < within;
+                        joint += 1;
                     }
+                    is.set(i, R::either(all, R::of(1.0), R::of(0.0)));
                 }
                 is_any |= is.0.contains(&1.0);
             }

@@ -20,6 +20,13 @@ const SAME_REDUNDANT: f64 = 1e-2;
 /// A posture that moved farther than this (rad, m) from the pose before is not its continuation.
 const JUMP: f64 = 0.5;
 
+/// What the descents of a search go to.
+struct Aim<'a> {
+    goal: &'a Requested,
+    /// Chain positions to which redundant joints are pulled.
+    home: &'a [f64],
+}
+
 impl Finder<'_> {
     /// Postures by descents, until `barren` starts in a row have found nothing new.
     pub(super) fn search(
@@ -31,7 +38,11 @@ impl Finder<'_> {
     ) -> Option<Unreachable> {
         let goal = Requested::new(arm_from_flange);
         let home = self.chain_positions(&self.home);
-        if self.follow(requested, &goal, &home, most) {
+        let aim = Aim {
+            goal: &goal,
+            home: &home,
+        };
+        if self.follow(requested, &aim, most) {
             return None;
         }
         self.aim_at(&goal);
@@ -48,7 +59,7 @@ impl Finder<'_> {
                 break;
             }
             idle += 1;
-            match self.descend(&goal, &home, [k, MOST_STARTS], start, &mut theta) {
+            match self.descend(&aim, [k, MOST_STARTS], start, &mut theta) {
                 Ok(reached) if self.is_found(reached, &theta) => {}
                 Ok(_) => match self.keep_new(requested, &theta) {
                     Ok(()) => idle = 0,
@@ -63,16 +74,16 @@ impl Finder<'_> {
     }
 
     /// Takes those postures of the previous pose that have a continuation here; false if none has.
-    fn follow(&mut self, requested: &InverseTarget<'_>, goal: &Requested, home: &[f64], most: usize) -> bool {
+    fn follow(&mut self, requested: &InverseTarget<'_>, aim: &Aim<'_>, most: usize) -> bool {
         if self.before.is_empty() || self.before.len() > most {
             return false;
         }
-        self.aim_at(goal);
+        self.aim_at(aim.goal);
         let before = std::mem::take(&mut self.before);
         let start = |k: usize, theta: &mut [f64]| theta.copy_from_slice(&before[k]);
         for (k, from) in before.iter().enumerate() {
             let mut theta = from.clone();
-            let reached = self.descend(goal, home, [k, before.len()], start, &mut theta);
+            let reached = self.descend(aim, [k, before.len()], start, &mut theta);
             let away = theta.iter().zip(from).map(|(a, b)| (a - b).abs());
             if reached.is_ok_and(|reached| !self.is_found(reached, &theta))
                 && away.fold(0.0, f64::max) < JUMP
@@ -97,8 +108,7 @@ impl Finder<'_> {
     /// The descent from start `k` of `count`; `start` fills the chain positions of one.
     fn descend(
         &mut self,
-        goal: &Requested,
-        home: &[f64],
+        aim: &Aim<'_>,
         [k, count]: [usize; 2],
         start: impl Fn(usize, &mut [f64]),
         theta: &mut [f64],
@@ -108,7 +118,7 @@ impl Finder<'_> {
             Some(descents) => descents.from(chain, [k, count], start, theta),
             None => {
                 start(k, theta);
-                let reached = self.descent().0.reach_near(chain, goal, home, theta);
+                let reached = self.descent().0.reach_near(chain, aim.goal, aim.home, theta);
                 reached.map(|()| Reached::Pose)
             }
         }
