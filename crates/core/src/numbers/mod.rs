@@ -1,10 +1,9 @@
-//! The numbers that lanes compute with, and the instructions that do it. Lanes are points of a block in the kernel, and
-//! the eight branches of one pose in the inverse kinematics.
+//! The numbers that lanes compute with, and the instructions that do it. Lanes are points of a block in the kernel; in
+//! the inverse kinematics they are the eight branches of one pose, or descents to it.
 //!
 //! In reading order: `real` (a number of one lane), `vector` (three of them), `angle` (arc tangent, sine and cosine),
-//! `block` (planes of numbers, one value per point), `eight` (one value per branch), `gram` (a
-//! damped normal matrix), `backend` (the instruction set,
-//! chosen at run time).
+//! `gram` (a damped normal matrix), `block` (planes of numbers, one value per point), `lanes` (a few numbers at once),
+//! `backend` (the instruction set, chosen at run time).
 
 mod angle;
 mod backend;

@@ -6,8 +6,8 @@
 //! other; [`postures`] gives all properties of the postures of one. Each posture is verified by forward kinematics.
 //!
 //! `finder` runs them, `verify` checks their solutions, `starts` and `descent` are the search, in lanes in
-//! `step_in_lanes`, `descents_in_lanes` and `descents`. The closed forms share
-//! `lines` (axes in space), `roots`, `two_links` and `three_turns`.
+//! `step_in_lanes`, `descents_in_lanes` and `descents`. The closed forms share `lines` (axes in space), `roots`,
+//! `two_links` and `three_turns`.
 
 pub mod closed_form;
 mod descent;
