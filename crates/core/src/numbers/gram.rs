@@ -169,8 +169,8 @@ impl<R: Real> Gram<R> {
         self.linear.trace() + self.angular.trace()
     }
 
-    /// The two parts of the solution for the right side (`linear`, `angular`), and the least pivot: above zero where the
-    /// matrix is positive definite.
+    /// The two parts of the solution for the right side (`linear`, `angular`), and the least pivot: above zero where
+    /// the matrix is positive definite.
     #[inline(always)]
     pub fn solve(self, linear: Vector<R>, angular: Vector<R>) -> ([Vector<R>; 2], R) {
         let [b1, b2, b3] = self.mixed;

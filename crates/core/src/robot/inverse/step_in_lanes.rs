@@ -1,8 +1,8 @@
 //! A step of a few descents at once, a lane each: the rules of `descent` without branches.
 //!
-//! In the order of a step: where it leads, the frames there, their error, whether that is less, whether the posture ahead
-//! is known, and the Jacobian of the lanes that took it. The first step of a descent leads nowhere and finds the error of
-//! its start.
+//! In the order of a step: where it leads, the frames there, their error, whether that is less, whether the posture
+//! ahead is known, and the Jacobian of the lanes that took it. The first step of a descent leads nowhere and finds the
+//! error of its start.
 
 use std::f64::consts::TAU;
 

@@ -4,8 +4,8 @@
 //! e = (away / l, turned)         J = columns (v_k / l, w_k)         dtheta = J^T (J J^T + lambda I)^-1 e
 //! ```
 //!
-//! `l` a length of the arm (m), `lambda = 1e-2 e^2` and rounding, as in `robot::inverse::descent`. Points where the step
-//! does not become small are undecided.
+//! `l` a length of the arm (m), `lambda = 1e-2 e^2` and rounding, as in `robot::inverse::descent`. Points where the
+//! step does not become small are undecided.
 
 use super::found::state;
 use crate::kernel::lanes::whole::{ChainConstants, Displacement, FindFrames, FramePlanes};

@@ -1,4 +1,4 @@
-//! The search: descents from many starts, or from the postures of the pose before; in lanes, except for redundant joints.
+//! The search: descents from many starts, or from the postures of the pose before. In lanes, unless joints are redundant.
 
 use std::f64::consts::PI;
 
