@@ -1,4 +1,5 @@
-//! The search: descents from many starts, or from the postures of the pose before. In lanes, unless joints are redundant.
+//! The search: descents from many starts, or from the postures of the pose before. In lanes, unless joints
+//! are redundant.
 
 use std::f64::consts::PI;
 
