@@ -2,15 +2,13 @@
 
 use nalgebra::{IsometryMatrix3, Matrix3, Point3, Rotation3, Vector3};
 
-use super::chain::{Axis, Chain, Fixed, Motion};
+use super::chain::Chain;
+use super::frame_in_lanes::{FrameInLanes, advance, base, displace};
 use super::jacobian::screw_at;
 use super::joint::Joint;
 use super::model::Robot;
-use crate::numbers::{Eight, Real, Vector, put_eight, sin_cos, vector_of_eight};
+use crate::numbers::{Eight, Lanes, Real};
 use crate::spatial::Twist;
-
-/// A frame of each posture, in base: its axes, then its origin (m).
-type Frame = [[Eight; 3]; 4];
 
 /// The axis of a joint of each posture, in base: its unit direction, then a point on it (m).
 type AxisOfEight = [[Eight; 3]; 2];
@@ -33,7 +31,7 @@ impl JointsOfEight<'_> {
     pub fn at(&self, index: usize) -> Eight {
         match index.checked_sub(self.rail.len()) {
             Some(index) => self.arm[index],
-            None => Eight([self.rail[index]; 8]),
+            None => Lanes([self.rail[index]; 8]),
         }
     }
 
@@ -54,7 +52,7 @@ pub(super) struct ForwardOfEight {
     rail: Vec<AxisOfEight>,
     /// Those of an arm with fewer joints come first.
     arm: [AxisOfEight; MOST_JOINTS],
-    flange: Frame,
+    flange: FrameInLanes<8>,
 }
 
 impl ForwardOfEight {
@@ -63,7 +61,7 @@ impl ForwardOfEight {
         ForwardOfEight {
             rail: vec![AxisOfEight::default(); joints],
             arm: [AxisOfEight::default(); MOST_JOINTS],
-            flange: Frame::default(),
+            flange: FrameInLanes::<8>::default(),
         }
     }
 
@@ -103,24 +101,11 @@ impl ForwardOfEight {
         let axes = self.rail.iter_mut().chain(&mut self.arm);
         for (index, (link, found)) in chain.links().iter().zip(axes).enumerate() {
             let theta = theta_of::<R>(robot, index, joints);
-            advance::<R>(&link.before, &mut frame);
-            let axis = match link.motion {
-                Motion::Along(axis, _) => {
-                    slide::<R>(axis, &theta, &mut frame);
-                    axis
-                }
-                Motion::About(axis, _) => {
-                    match axis {
-                        Axis::X => turn::<R, 1, 2>(&theta, &mut frame),
-                        Axis::Y => turn::<R, 2, 0>(&theta, &mut frame),
-                        Axis::Z => turn::<R, 0, 1>(&theta, &mut frame),
-                    }
-                    axis
-                }
-            };
+            advance::<R, _>(&link.before, &mut frame);
+            let axis = displace::<R, _>(&link.motion, &theta, &mut frame);
             *found = [frame[axis.index()], frame[3]];
         }
-        advance::<R>(chain.last_joint_from_flange(), &mut frame);
+        advance::<R, _>(chain.last_joint_from_flange(), &mut frame);
         self.flange = frame;
     }
 }
@@ -142,75 +127,4 @@ fn theta_of<R: Real<Float = f64>>(robot: &Robot, index: usize, joints: JointsOfE
         theta.set(i, sign.mul_add(q.at::<R>(i) + coupled.at(i), zero));
     }
     theta
-}
-
-/// The base.
-fn base() -> Frame {
-    let (zero, one) = (Eight::default(), Eight([1.0; 8]));
-    [[one, zero, zero], [zero, one, zero], [zero, zero, one], [zero; 3]]
-}
-
-/// Moves the frame by a constant displacement.
-#[inline(always)]
-fn advance<R: Real<Float = f64>>(displacement: &Fixed, frame: &mut Frame) {
-    let (translation, rotation) = displacement.parts();
-    let along = Vector::<R>::of(&translation);
-    for i in 0..8 {
-        R::step();
-        let [x, y, z, origin] = load::<R>(frame, i);
-        put_eight(&mut frame[3], i, combined([x, y, z], along) + origin);
-    }
-    let Some(rotation) = rotation else { return };
-    let columns: [Vector<R>; 3] = [
-        Vector::of(&rotation.column(0).into_owned()),
-        Vector::of(&rotation.column(1).into_owned()),
-        Vector::of(&rotation.column(2).into_owned()),
-    ];
-    for i in 0..8 {
-        R::step();
-        let [x, y, z, _] = load::<R>(frame, i);
-        put_eight(&mut frame[0], i, combined([x, y, z], columns[0]));
-        put_eight(&mut frame[1], i, combined([x, y, z], columns[1]));
-        put_eight(&mut frame[2], i, combined([x, y, z], columns[2]));
-    }
-}
-
-/// A vector with these components along the axes.
-#[inline(always)]
-fn combined<R: Real>([x, y, z]: [Vector<R>; 3], along: Vector<R>) -> Vector<R> {
-    z.mul_add(along.z, y.mul_add(along.y, x.scaled(along.x)))
-}
-
-#[inline(always)]
-fn load<R: Real<Float = f64>>(frame: &Frame, i: usize) -> [Vector<R>; 4] {
-    let [x, y, z, origin] = frame;
-    [
-        vector_of_eight(x, i),
-        vector_of_eight(y, i),
-        vector_of_eight(z, i),
-        vector_of_eight(origin, i),
-    ]
-}
-
-/// Moves the frame along its own axis.
-#[inline(always)]
-fn slide<R: Real<Float = f64>>(axis: Axis, by: &Eight, frame: &mut Frame) {
-    let direction = frame[axis.index()];
-    for i in 0..8 {
-        R::step();
-        let moved = vector_of_eight::<R>(&direction, i).mul_add(by.at(i), vector_of_eight(&frame[3], i));
-        put_eight(&mut frame[3], i, moved);
-    }
-}
-
-/// Turns the axes `A` and `B` into each other.
-#[inline(always)]
-fn turn<R: Real<Float = f64>, const A: usize, const B: usize>(angle: &Eight, frame: &mut Frame) {
-    for i in 0..8 {
-        R::step();
-        let (sin, cos) = sin_cos(angle.at::<R>(i));
-        let (first, second) = (vector_of_eight(&frame[A], i), vector_of_eight(&frame[B], i));
-        put_eight(&mut frame[A], i, second.mul_add(sin, first.scaled(cos)));
-        put_eight(&mut frame[B], i, first.mul_add(-sin, second.scaled(cos)));
-    }
 }

@@ -3,10 +3,10 @@
 //! In reading order: [`chain`] (elementary motions and their inner form), [`joint`] (limits, signs, zeros, compliance),
 //! [`structure_error`] (why a structure is not valid), [`spring`], [`compensator`], [`torque_curve`], [`backlash`],
 //! [`structure`] (the parts other than drives), [`model`] (the robot as one value), [`forward`] (joint positions to
-//! frames), [`jacobian`] (screws at the tool), `forward_of_eight` (both for eight postures at once), [`deflected_arm`]
-//! (frames and screws of the deflected arm), [`branch`] and [`posture`] (the postures of a pose),
-//! [`unreachable`](mod@unreachable) (why there may be none), [`inverse`] (tool pose to every posture), [`mod@reach`]
-//! (reach of the wrist centre), [`convention`] (which sign or zero disagrees with the pendant).
+//! frames), [`jacobian`] (screws at the tool), `forward_of_eight` (both for eight postures at once, along the chain by
+//! `frame_in_lanes`), [`deflected_arm`] (frames and screws of the deflected arm), [`branch`] and [`posture`] (the
+//! postures of a pose), [`unreachable`](mod@unreachable) (why there may be none), [`inverse`] (tool pose to every
+//! posture), [`mod@reach`] (reach of the wrist centre), [`convention`] (which sign or zero disagrees with the pendant).
 
 pub mod backlash;
 pub mod branch;
@@ -16,6 +16,7 @@ pub mod convention;
 pub mod deflected_arm;
 pub mod forward;
 mod forward_of_eight;
+mod frame_in_lanes;
 pub mod inverse;
 pub mod jacobian;
 pub mod joint;

@@ -218,6 +218,43 @@ pub fn free(name: &str, rows: &[DhRow; 6]) -> Robot {
     of_rows(name, rows, &[180.0; 6])
 }
 
+/// MH12 with its axis 5 30 mm off axis 4: no closed form.
+pub fn open_wrist() -> Robot {
+    let mh12 = super::mh12();
+    let mut motions = Vec::new();
+    for motion in mh12.chain().motions() {
+        if motion.amount() == Var(4) {
+            motions.push(Along(Z, Constant(0.03)));
+        }
+        motions.push(*motion);
+    }
+    compliant(Robot::new("made-up/open-wrist", motions, mh12.joints().to_vec()).unwrap())
+}
+
+/// [`oblique`] without its last joint.
+pub fn five_joints() -> Robot {
+    let oblique = oblique();
+    let mut motions = oblique.chain().motions().to_vec();
+    motions.retain(|motion| motion.amount() != Var(5));
+    compliant(Robot::new("made-up/five-joints", motions, oblique.joints()[..5].to_vec()).unwrap())
+}
+
+/// [`oblique`] with a joint 3 that slides.
+pub fn sliding() -> Robot {
+    let oblique = oblique();
+    let slides = |motion: &Motion| match *motion {
+        About(_, Var(2)) => Along(X, Var(2)),
+        other => other,
+    };
+    let motions = oblique.chain().motions().iter().map(slides).collect();
+    let mut joints = oblique.joints().to_vec();
+    joints[2].limits = Some(Limits {
+        lower: -0.3,
+        upper: 0.5,
+    });
+    compliant(Robot::new("made-up/sliding", motions, joints).unwrap())
+}
+
 fn compliant(robot: Robot) -> Robot {
     let values = (0..robot.joints().len()).map(|i| armill_core::robot::JointCompliance {
         value: 1e-6 * (1.0 + i as f64),

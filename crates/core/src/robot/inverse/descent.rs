@@ -13,46 +13,40 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
+use nalgebra::{Matrix6, Vector6};
 
 use super::super::chain::{Chain, Motion};
 use super::super::forward::{Frames, chain_forward_into};
 use super::super::jacobian::chain_screws_into;
 use super::super::unreachable::Unreachable;
-use crate::frame::{Isometry, turn_between};
+use super::verify::Requested;
+use crate::frame::turn_between;
 use crate::spatial::Twist;
 
 /// Error (l, rad) below which a pose is reached: a hundred times below the tolerance of the check that follows.
-const DONE: f64 = 1e-12;
+pub(super) const DONE: f64 = 1e-12;
 /// Maximum number of steps of one descent: a Newton iteration that halves its error ends long before.
-const MOST_STEPS: usize = 60;
+pub(super) const MOST_STEPS: usize = 60;
 /// Longest step of a joint, rad (l): beyond it the linear model is not valid.
-const LONGEST_STEP: f64 = 0.7;
-/// Steps that gain less than a twentieth before a descent is given up.
-const PATIENCE: usize = 5;
+pub(super) const LONGEST_STEP: f64 = 0.7;
+/// Steps in a row after each of which more than this share of the squared error is left, before a descent is given up.
+pub(super) const PATIENCE: usize = 5;
+pub(super) const SMALL_GAIN: f64 = 0.9;
+/// Damping of the first step; after a step that helps times `LESS`, after one that does not times `MORE` and at least
+/// `MORE` times the least.
+pub(super) const FIRST_DAMPING: f64 = 1e-2;
+pub(super) const LESS: f64 = 0.2;
+pub(super) const MORE: f64 = 10.0;
+pub(super) const LEAST_DAMPING: f64 = 1e-3;
+/// Least damping relative to the trace: what the factors of a singular matrix need, or ten times that, and so on.
+pub(super) const ROUNDING: f64 = 1e-15;
 /// Damping beyond which no step helps.
-const STUCK: f64 = 1e9;
+pub(super) const STUCK: f64 = 1e9;
 /// Maximum number of pulls of a redundant chain, and the step (rad, l) below which it has converged.
 const MOST_PULLS: usize = 60;
 const SETTLED: f64 = 1e-6;
 /// Frobenius condition number of the Jacobian above which joints are nearly dependent.
 pub(super) const DEPENDENT: f64 = 300.0;
-
-/// A pose to reach, as rotation matrix and point.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Goal {
-    rotation: Matrix3<f64>,
-    point: Vector3<f64>,
-}
-
-impl Goal {
-    pub fn new(base_from_flange: &Isometry) -> Goal {
-        Goal {
-            rotation: base_from_flange.rotation.to_rotation_matrix().into_inner(),
-            point: base_from_flange.translation.vector,
-        }
-    }
-}
 
 /// Working memory for descents of one chain.
 #[derive(Clone, Debug)]
@@ -83,13 +77,13 @@ impl Descent {
     ///
     /// # Errors
     /// [`Unreachable::NotFound`] with the remaining error; `theta` then is the best that was found.
-    pub fn reach(&mut self, chain: &Chain, goal: &Goal, theta: &mut [f64]) -> Result<(), Unreachable> {
+    pub fn reach(&mut self, chain: &Chain, goal: &Requested, theta: &mut [f64]) -> Result<(), Unreachable> {
         let mut error = self.error(chain, goal, theta);
         let mut size = error.norm_squared();
         if size < DONE * DONE {
             return Ok(());
         }
-        let (mut damping, mut idle) = (1e-2, 0);
+        let (mut damping, mut idle) = (FIRST_DAMPING, 0);
         self.linearise(chain);
         for _ in 0..MOST_STEPS {
             if size < DONE * DONE || damping > STUCK || idle > PATIENCE {
@@ -100,22 +94,20 @@ impl Descent {
             let trial_error = self.error_of_trial(chain, goal);
             let trial_size = trial_error.norm_squared();
             if trial_size < size {
-                idle = if trial_size > 0.9 * size { idle + 1 } else { 0 };
+                idle = if trial_size > SMALL_GAIN * size {
+                    idle + 1
+                } else {
+                    0
+                };
                 theta.copy_from_slice(&self.trial);
                 (error, size) = (trial_error, trial_size);
-                damping *= 0.2;
+                damping *= LESS;
                 self.linearise(chain);
             } else {
-                damping = damping.max(1e-3) * 10.0;
+                damping = damping.max(LEAST_DAMPING) * MORE;
             }
         }
-        let (by, turned) = (error.xyz().norm() * self.length, error.fixed_rows::<3>(3).norm());
-        // Rounding of a long chain may stop short of DONE; the check that follows decides.
-        if by < 1e-9 && turned < 1e-9 {
-            Ok(())
-        } else {
-            Err(Unreachable::NotFound { by, turned })
-        }
+        outcome(&error, self.length)
     }
 
     /// [`Descent::reach`] with joint `still` fixed.
@@ -125,7 +117,7 @@ impl Descent {
     pub fn reach_with_fixed(
         &mut self,
         chain: &Chain,
-        goal: &Goal,
+        goal: &Requested,
         still: usize,
         theta: &mut [f64],
     ) -> Result<(), Unreachable> {
@@ -142,7 +134,7 @@ impl Descent {
     pub fn reach_near(
         &mut self,
         chain: &Chain,
-        goal: &Goal,
+        goal: &Requested,
         home: &[f64],
         theta: &mut [f64],
     ) -> Result<(), Unreachable> {
@@ -187,21 +179,21 @@ impl Descent {
         inverse.is_none_or(|inverse| inverse.trace() * gram.trace() > DEPENDENT * DEPENDENT)
     }
 
-    fn error(&mut self, chain: &Chain, goal: &Goal, theta: &[f64]) -> Vector6<f64> {
+    fn error(&mut self, chain: &Chain, goal: &Requested, theta: &[f64]) -> Vector6<f64> {
         chain_forward_into(chain, |i| theta[i], &mut self.frames);
         self.difference(goal)
     }
 
-    fn error_of_trial(&mut self, chain: &Chain, goal: &Goal) -> Vector6<f64> {
+    fn error_of_trial(&mut self, chain: &Chain, goal: &Requested) -> Vector6<f64> {
         chain_forward_into(chain, |i| self.trial[i], &mut self.frames);
         self.difference(goal)
     }
 
     /// Error of the flange relative to the goal, in units of `length` and rad.
-    fn difference(&self, goal: &Goal) -> Vector6<f64> {
+    fn difference(&self, goal: &Requested) -> Vector6<f64> {
         let flange = &self.frames.base_from_flange;
-        let away = (goal.point - flange.translation.vector) / self.length;
-        let turned = turn_between(flange.rotation.matrix(), &goal.rotation);
+        let away = (goal.origin - flange.translation.vector) / self.length;
+        let turned = turn_between(flange.rotation.matrix(), &goal.axes);
         Vector6::new(away.x, away.y, away.z, turned.x, turned.y, turned.z)
     }
 
@@ -230,7 +222,7 @@ impl Descent {
     fn least_squares(&self, error: &Vector6<f64>, lambda: f64) -> Vector6<f64> {
         let gram = self.gram();
         // A singular Jacobian gets the least damping that the factors need.
-        let least = 1e-15 * gram.trace();
+        let least = ROUNDING * gram.trace();
         (0..16)
             .map(|power| lambda.max(least * 10f64.powi(power)))
             .find_map(|lambda| (gram + Matrix6::from_diagonal_element(lambda)).cholesky())
@@ -248,6 +240,17 @@ impl Descent {
         for (trial, theta) in self.trial.iter_mut().zip(theta) {
             *trial = theta + shorter * *trial;
         }
+    }
+}
+
+/// Whether a descent has reached its goal, or the error (in units of `length`, rad) that remains.
+pub(super) fn outcome(error: &Vector6<f64>, length: f64) -> Result<(), Unreachable> {
+    let (by, turned) = (error.xyz().norm() * length, error.fixed_rows::<3>(3).norm());
+    // Rounding of a long chain may stop short of DONE; the check that follows decides.
+    if by < 1e-9 && turned < 1e-9 {
+        Ok(())
+    } else {
+        Err(Unreachable::NotFound { by, turned })
     }
 }
 

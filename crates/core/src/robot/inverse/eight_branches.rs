@@ -24,7 +24,9 @@ use super::lines::Turn;
 use super::ortho_parallel::OrthoParallel;
 use super::two_links::WRIST_SINGULAR;
 use crate::frame::Isometry;
-use crate::numbers::{Backend, Eight, Real, Vector, Work, atan2, lanes_of, put_eight, vector_of_eight};
+use crate::numbers::{
+    Backend, Eight, Lanes, Real, Vector, Work, atan2, lanes_of, put_in_lane, vector_in_lane,
+};
 
 /// The eight branches of one pose, in the order of [`Branch::ALL`].
 #[derive(Clone, Debug)]
@@ -195,8 +197,8 @@ impl Solved {
     #[inline(always)]
     fn rest<R: Real<Float = f64>>(&self, axes: WristAxes<R>, phi4: Turn<R>, lane: usize) -> (R, R) {
         let (out, second) = (
-            vector_of_eight(&self.out, lane),
-            vector_of_eight(&self.second, lane),
+            vector_in_lane(&self.out, lane),
+            vector_in_lane(&self.second, lane),
         );
         let left = axes.a3.mul_add(phi4.sin, axes.a5.scaled(phi4.cos));
         (left.dot(second), out.dot(left.cross(second)))
@@ -224,7 +226,7 @@ impl<R: Real> WristAxes<R> {
 }
 
 /// 1 for the branches without flip, -1 for those with it.
-const FLIP: Eight = Eight([1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0, -1.0]);
+const FLIP: Eight = Lanes([1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0, -1.0]);
 
 /// Upper arm, forearm, bend of the wrist and joint 4, as cosines and sines. Joint 4 is undefined where axes 4 and 6 are
 /// in line.
@@ -257,8 +259,8 @@ impl Work<f64> for FindWrists<'_> {
             solved.sin_4.set(i, side * per_bent);
             solved.along.set(i, along);
             solved.bent.set(i, bent);
-            put_eight(&mut solved.out, i, out);
-            put_eight(&mut solved.second, i, second);
+            put_in_lane(&mut solved.out, i, out);
+            put_in_lane(&mut solved.second, i, second);
             solved.cos_psi.set(i, psi.cos);
             solved.sin_psi.set(i, psi.sin);
             solved.cos_chi.set(i, chi.cos);

@@ -21,7 +21,7 @@ use super::closed_form::CALIBRATED;
 use super::lines::{IDEAL, Line, lines_at_zero};
 use super::ortho_parallel::OrthoParallel;
 use super::spherical_wrist::SphericalWrist;
-use super::starts::spread;
+use super::starts::Starts;
 use crate::frame::Isometry;
 
 /// Angles at which a joint is tried: to both sides of zero, all of them general.
@@ -46,10 +46,11 @@ impl FixedJoint {
     pub fn recognise(chain: &Chain) -> Option<FixedJoint> {
         let lines = lines_at_zero(chain)?;
         let at_zero = chain.base_from_flange(&[0.0; 7]);
+        let starts = Starts::within(&[[-PI, PI]; 7]);
         let poses: Vec<Isometry> = (1..=POSES)
             .map(|k| {
                 let mut theta = [0.0; 7];
-                spread(k, &[[-PI, PI]; 7], &mut theta);
+                starts.point(k, &mut theta);
                 chain.base_from_flange(&theta)
             })
             .collect();

@@ -5,11 +5,14 @@
 //! arms, a redundant [`fixed_joint`], a search for any other chain, and rails. A [`Finder`] solves one pose after the
 //! other; [`postures`] gives all properties of the postures of one. Each posture is verified by forward kinematics.
 //!
-//! `finder` runs them, `verify` checks their solutions, `starts` and `descent` are the search. The closed forms share
-//! `lines` (axes in space), `roots`, `two_links` and `three_turns`.
+//! `finder` runs them, `verify` checks their solutions, `starts` and `descent` are the search, in lanes in
+//! `step_in_lanes`, `descents_in_lanes` and `descents`. The closed forms share `lines` (axes in space), `roots`,
+//! `two_links` and `three_turns`.
 
 pub mod closed_form;
 mod descent;
+mod descents;
+mod descents_in_lanes;
 mod eight_branches;
 mod finder;
 pub mod fixed_joint;
@@ -19,6 +22,7 @@ pub mod ortho_parallel;
 mod roots;
 pub mod spherical_wrist;
 mod starts;
+mod step_in_lanes;
 pub mod three_parallel;
 mod three_turns;
 pub(crate) mod two_links;

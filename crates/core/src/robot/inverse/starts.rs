@@ -4,13 +4,33 @@
 //! discrepancy that needs no table. Source: M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences",
 //! 2018; for d = 1 the golden ratio.
 
-/// Point `k` of the sequence in the box between `lower` and `upper`, into `point`.
-pub(super) fn spread(k: usize, ranges: &[[f64; 2]], point: &mut [f64]) {
-    let phi = root(ranges.len());
-    let mut step = 1.0;
-    for (x, [lower, upper]) in point.iter_mut().zip(ranges) {
-        step /= phi;
-        *x = lower + (0.5 + k as f64 * step).fract() * (upper - lower);
+/// The sequence in a box.
+#[derive(Clone, Debug)]
+pub(super) struct Starts {
+    /// Lower corner, size, and step of the sequence, of each joint.
+    sides: Vec<[f64; 3]>,
+}
+
+impl Starts {
+    /// In the box between the lower and the upper end of each of these ranges.
+    pub fn within(ranges: &[[f64; 2]]) -> Starts {
+        let phi = root(ranges.len());
+        let mut step = 1.0;
+        let side = |[lower, upper]: &[f64; 2]| {
+            step /= phi;
+            [*lower, upper - lower, step]
+        };
+        Starts {
+            sides: ranges.iter().map(side).collect(),
+        }
+    }
+
+    /// Point `k` of the sequence, into `point`.
+    pub fn point(&self, k: usize, point: &mut [f64]) {
+        for (x, [lower, size, step]) in point.iter_mut().zip(&self.sides) {
+            let steps = 0.5 + k as f64 * step;
+            *x = lower + (steps - steps as u32 as f64) * size;
+        }
     }
 }
 
@@ -33,8 +53,9 @@ mod tests {
     fn every_octant_of_a_box_has_its_share() {
         let mut counts = [0; 8];
         let mut point = [0.0; 3];
+        let starts = Starts::within(&[[-1.0, 1.0], [0.0, 4.0], [10.0, 12.0]]);
         for k in 1..=800 {
-            spread(k, &[[-1.0, 1.0], [0.0, 4.0], [10.0, 12.0]], &mut point);
+            starts.point(k, &mut point);
             let [x, y, z] = point;
             counts[usize::from(x > 0.0) + 2 * usize::from(y > 2.0) + 4 * usize::from(z > 11.0)] += 1;
         }

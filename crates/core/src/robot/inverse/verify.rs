@@ -26,10 +26,12 @@ pub fn verify(frames: &Frames, base_from_flange: &Isometry) -> Result<(), Unreac
 }
 
 /// A flange pose as axes and origin.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Requested {
-    axes: Matrix3<f64>,
-    origin: Vector3<f64>,
+    /// Axes as columns.
+    pub axes: Matrix3<f64>,
+    /// Origin, m.
+    pub origin: Vector3<f64>,
 }
 
 impl Requested {

@@ -7,10 +7,9 @@
 //! use them, with the frames that they need anyway.
 //!
 //! In reading order: `found` (a solved branch), `target` (requested flange poses), `ortho_parallel` and `three_parallel`
-//! (closed forms), `newton` (with `gram`), `name`, `position` (joint positions and margins). [`BranchSolver`] runs them.
+//! (closed forms), `newton`, `name`, `position` (joint positions and margins). [`BranchSolver`] runs them.
 
 mod found;
-mod gram;
 mod name;
 mod newton;
 mod ortho_parallel;

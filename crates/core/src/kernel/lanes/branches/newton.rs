@@ -2,16 +2,14 @@
 //!
 //! ```text
 //! e = (away / l, turned)         J = columns (v_k / l, w_k)         dtheta = J^T (J J^T + lambda I)^-1 e
-//! J J^T = [A B; B^T D]     S = A - B D^-1 B^T     x = S^-1 (e_v - B D^-1 e_w), y = D^-1 (e_w - B^T x)
 //! ```
 //!
-//! `l` a length of the arm (m), `lambda = 1e-2 e^2` and rounding, as in `robot::inverse::descent`. The sum over joints
-//! and two symmetric 3 x 3 inverses need no pivots. Points where the step does not become small are undecided.
+//! `l` a length of the arm (m), `lambda = 1e-2 e^2` and rounding, as in `robot::inverse::descent`. Points where the
+//! step does not become small are undecided.
 
 use super::found::state;
-use super::gram::Gram;
 use crate::kernel::lanes::whole::{ChainConstants, Displacement, FindFrames, FramePlanes};
-use crate::numbers::{BLOCK, Backend, Float, Plane, Planes, Real, Vector, Work, planes, put, vector};
+use crate::numbers::{BLOCK, Backend, Float, Gram, Plane, Planes, Real, Vector, Work, planes, put, vector};
 use crate::robot::Chain;
 
 /// Joints of an arm with named branches.
@@ -136,7 +134,7 @@ impl<T: Float> Work<T> for Step<'_, T> {
             let turned = turned.scaled(half);
             let size = away.dot(away) + turned.dot(turned);
             let damping = R::of(DAMPING).mul_add(gram.trace(), R::of(FAR) * size);
-            let [x, y] = gram.damped(damping).solve(away, turned);
+            let ([x, y], _) = gram.damped(damping).solve(away, turned);
             put(&mut solved[0..3], i, x);
             put(&mut solved[3..6], i, y);
             step[i] = R::of(0.0).store();

@@ -1,13 +1,14 @@
 //! Descents: convergence, fixed joints, and redundant joints.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, Vector3};
 
 use super::*;
 use crate::arms::{self, Stream};
+use crate::frame::Isometry;
 use crate::robot::Robot;
 
-fn goal(robot: &Robot, theta: &[f64]) -> Goal {
-    Goal::new(&robot.chain().base_from_flange(theta))
+fn goal(robot: &Robot, theta: &[f64]) -> Requested {
+    Requested::new(&robot.chain().base_from_flange(theta))
 }
 
 /// Chain positions of the middle of the ranges, off by up to `by`.
@@ -153,7 +154,7 @@ fn joints_are_dependent_where_the_singular_values_say_so() {
 fn a_pose_out_of_reach_is_not_found_and_the_remaining_error_is_reported() {
     let robot = arms::other::oblique();
     let mut descent = Descent::new(robot.chain());
-    let far = Goal::new(&Isometry::translation(9.0, 0.0, 0.0));
+    let far = Requested::new(&Isometry::translation(9.0, 0.0, 0.0));
     let mut theta = vec![0.1; 6];
     let miss = descent.reach(robot.chain(), &far, &mut theta).unwrap_err();
     let Unreachable::NotFound { by, .. } = miss else {

@@ -10,7 +10,7 @@
 //! [`Descent::dependent`](super::super::descent::Descent::dependent).
 
 use super::super::descent::DEPENDENT;
-use crate::numbers::{Eight, Real, Vector, Work, put_eight, vector_of_eight};
+use crate::numbers::{Eight, Real, Vector, Work, put_in_lane, vector_in_lane};
 
 /// Whether joints with this square of the condition number are nearly dependent; of a singular Jacobian it is no
 /// positive number.
@@ -46,9 +46,9 @@ impl Work<f64> for FindDependence<'_> {
             let mut linear = [Eight::default(); 3];
             for i in 0..8 {
                 R::step();
-                let away = vector_of_eight::<R>(self.flange, i) - vector_of_eight(point, i);
-                let v = vector_of_eight(axis, i).cross(away);
-                put_eight(&mut linear, i, v.scaled(per_length));
+                let away = vector_in_lane::<R, 8>(self.flange, i) - vector_in_lane(point, i);
+                let v = vector_in_lane(axis, i).cross(away);
+                put_in_lane(&mut linear, i, v.scaled(per_length));
             }
             add_square::<R>(&mut gram.linear, &linear);
             add_square::<R>(&mut gram.angular, axis);
@@ -66,9 +66,9 @@ impl Work<f64> for FindDependence<'_> {
             );
             let a_inverse = a.inverse();
             let [b1, b2, b3] = [
-                vector_of_eight(&gram.mixed[0], i),
-                vector_of_eight(&gram.mixed[1], i),
-                vector_of_eight(&gram.mixed[2], i),
+                vector_in_lane(&gram.mixed[0], i),
+                vector_in_lane(&gram.mixed[1], i),
+                vector_in_lane(&gram.mixed[2], i),
             ];
             let (m1, m2, m3) = (a_inverse.times(b1), a_inverse.times(b2), a_inverse.times(b3));
             let s_inverse = Symmetric {
@@ -91,8 +91,8 @@ impl Work<f64> for FindDependence<'_> {
 fn add_scaled<R: Real<Float = f64>>(sum: &mut [Eight; 3], v: &[Eight; 3], factor: &Eight) {
     for i in 0..8 {
         R::step();
-        let added = vector_of_eight::<R>(v, i).mul_add(factor.at(i), vector_of_eight(sum, i));
-        put_eight(sum, i, added);
+        let added = vector_in_lane::<R, 8>(v, i).mul_add(factor.at(i), vector_in_lane(sum, i));
+        put_in_lane(sum, i, added);
     }
 }
 
@@ -102,22 +102,22 @@ fn add_square<R: Real<Float = f64>>([squares, products]: &mut [[Eight; 3]; 2], v
     for i in 0..8 {
         R::step();
         let (v, s, p) = (
-            vector_of_eight::<R>(v, i),
-            vector_of_eight::<R>(squares, i),
-            vector_of_eight::<R>(products, i),
+            vector_in_lane::<R, 8>(v, i),
+            vector_in_lane::<R, 8>(squares, i),
+            vector_in_lane::<R, 8>(products, i),
         );
         let added = Vector::new(
             v.x.mul_add(v.x, s.x),
             v.y.mul_add(v.y, s.y),
             v.z.mul_add(v.z, s.z),
         );
-        put_eight(squares, i, added);
+        put_in_lane(squares, i, added);
         let added = Vector::new(
             v.y.mul_add(v.z, p.x),
             v.z.mul_add(v.x, p.y),
             v.x.mul_add(v.y, p.z),
         );
-        put_eight(products, i, added);
+        put_in_lane(products, i, added);
     }
 }
 
@@ -132,8 +132,8 @@ impl<R: Real<Float = f64>> Symmetric<R> {
     #[inline(always)]
     fn at([squares, products]: &[[Eight; 3]; 2], lane: usize) -> Symmetric<R> {
         Symmetric {
-            squares: vector_of_eight(squares, lane),
-            products: vector_of_eight(products, lane),
+            squares: vector_in_lane(squares, lane),
+            products: vector_in_lane(products, lane),
         }
     }
 

@@ -6,7 +6,7 @@ use super::super::super::unreachable::Unreachable;
 use super::super::verify::{Miss, Requested};
 use super::dependence::{FindDependence, is_dependent};
 use super::positions::{ChainPositions, find_joints};
-use crate::numbers::{Backend, Eight, Real, Work, vector_of_eight};
+use crate::numbers::{Backend, Eight, Real, Work, vector_in_lane};
 
 /// Joint positions and forward kinematics of eight postures, and how far they are from the requested pose.
 #[derive(Clone, Debug)]
@@ -100,10 +100,10 @@ impl Work<f64> for FindPostures<'_> {
         for i in 0..8 {
             R::step();
             let reached = [
-                vector_of_eight(x, i),
-                vector_of_eight(y, i),
-                vector_of_eight(z, i),
-                vector_of_eight(origin, i),
+                vector_in_lane(x, i),
+                vector_in_lane(y, i),
+                vector_in_lane(z, i),
+                vector_in_lane(origin, i),
             ];
             let miss = Miss::between(reached, requested);
             away.set(i, miss.away);

@@ -26,8 +26,10 @@ use super::super::model::Robot;
 use super::super::posture::{Posture, PostureName, Sides, Singularity};
 use super::super::unreachable::Unreachable;
 use super::closed_form::ClosedForm;
-use super::descent::{Descent, Goal};
+use super::descent::Descent;
+use super::descents::Descents;
 use super::kind::Inverse;
+use super::starts::Starts;
 use super::verify::{Requested, verify};
 use crate::frame::Isometry;
 use eight::EightPostures;
@@ -74,8 +76,12 @@ pub struct Finder<'r> {
     robot: &'r Robot,
     arm: Arm<'r>,
     frames: Frames,
-    /// Set by the first search.
+    /// Set by the first descent.
     descent: Option<Descent>,
+    /// Set by the first search of a chain without redundant joints.
+    descents: Option<Descents>,
+    /// Set by the first search.
+    starts: Option<Starts>,
     eight: EightPostures,
     found: Vec<InverseSolution>,
     /// Of each posture found its lane of `eight`; empty where they are not lanes of it.
@@ -135,6 +141,8 @@ impl<'r> Finder<'r> {
             arm,
             frames: Frames::for_robot(robot),
             descent: None,
+            descents: None,
+            starts: None,
             eight: EightPostures::new(arm.first, arm.chain.length()),
             found: Vec::with_capacity(8),
             lanes: Vec::with_capacity(8),
@@ -335,7 +343,7 @@ impl<'r> Finder<'r> {
         let near = expected.near.map(|q| self.six_chain_positions(q));
         let any = BranchPattern::default();
         let branches = form.eight_branches(arm_from_flange, any, near.as_ref());
-        let goal = Goal::new(arm_from_flange);
+        let goal = Requested::new(arm_from_flange);
         let mut missed: Option<Unreachable> = None;
         // Requested branches first: usually they make the others unnecessary.
         let (requested, others): (Vec<Branch>, Vec<Branch>) = Branch::ALL

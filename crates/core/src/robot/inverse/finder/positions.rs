@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::super::super::forward_of_eight::JointsOfEight;
 use super::super::super::model::Robot;
-use crate::numbers::{Eight, Real};
+use crate::numbers::{Eight, Lanes, Real};
 
 /// What eight postures are made from.
 pub(super) struct ChainPositions<'a> {
@@ -71,7 +71,7 @@ pub(super) fn find_joints<R: Real<Float = f64>>(
     for (i, theta) in from.theta.iter().enumerate() {
         let index = from.rail.len() + i;
         if let Some((_, place)) = from.fixed.filter(|(fixed, _)| *fixed == index) {
-            joints[i] = Eight([place; 8]);
+            joints[i] = Lanes([place; 8]);
             continue;
         }
         let joint = &robot.joints()[index];

@@ -315,7 +315,57 @@ fn eight_at_once_are_the_postures_one_by_one() {
     }
 }
 
+#[test]
+fn a_search_in_lanes_finds_what_one_descent_after_the_other_finds() {
+    let mut stream = Stream(49);
+    let arms = [
+        other::open_wrist(),
+        other::oblique(),
+        other::five_joints(),
+        other::sliding(),
+    ];
+    for robot in arms {
+        let mut finder = Finder::new(&robot);
+        for _ in 0..6 {
+            let q = stream.joints(&robot);
+            let expected = expected(&robot, &q, None);
+            finder.forget();
+            let all = finder.all(&expected).unwrap_or_default().to_vec();
+            let mut alone = Finder::new(&robot);
+            alone.search_one_by_one(&expected);
+            assert_eq!(all.len(), alone.found.len(), "{}", robot.name());
+            for (a, b) in all.iter().zip(&alone.found) {
+                assert_eq!((a.name, a.singularity), (b.name, b.singularity));
+                let apart = a.joints.iter().zip(&b.joints).map(|(a, b)| (a - b).abs());
+                assert!(apart.fold(0.0, f64::max) < 1e-9, "{}: {a:?} {b:?}", robot.name());
+            }
+        }
+    }
+}
+
 impl Finder<'_> {
+    /// The search, each descent by itself and to its end.
+    fn search_one_by_one(&mut self, expected: &InverseTarget<'_>) {
+        self.settle_home(expected);
+        let goal = Requested::new(&expected.base_from_flange);
+        let starts = Starts::within(&self.ranges());
+        let mut theta = self.chain_positions(&self.home);
+        let mut idle = 0;
+        for start in 1..=400 {
+            if idle == THOROUGH {
+                break;
+            }
+            idle += 1;
+            starts.point(start, &mut theta);
+            let (descent, chain) = self.descent();
+            let reached = descent.reach(chain, &goal, &mut theta).is_ok();
+            if reached && !self.is_known(&theta, SAME) && self.keep_searched(expected, &theta).is_ok() {
+                idle = 0;
+            }
+        }
+        self.order(None, MOST);
+    }
+
     /// The branches of a closed form, each converted to joint positions and verified by itself.
     fn all_one_by_one(&mut self, expected: &InverseTarget<'_>) -> Vec<InverseSolution> {
         self.settle_home(expected);

@@ -7,7 +7,6 @@ use std::f64::consts::PI;
 
 use super::super::super::posture::{PostureName, Sides, Singularity};
 use super::super::super::unreachable::Unreachable;
-use super::super::descent::Goal;
 use super::super::fixed_joint::FixedJoint;
 use super::super::lines::sense_of;
 use super::super::spherical_wrist::SphericalWrist;
@@ -16,7 +15,7 @@ use super::positions::ChainPositions;
 use super::six_joints::SixJoints;
 use super::{Finder, InverseSolution, InverseTarget, SAME};
 use crate::frame::Isometry;
-use crate::numbers::Eight;
+use crate::numbers::{Eight, Lanes};
 
 /// Steps (rad) by which the fixed joint leaves home where no posture is within the limits there: 5 deg.
 const STEP: f64 = PI / 36.0;
@@ -106,7 +105,7 @@ impl Finder<'_> {
             return false;
         };
         if reached.contains(&true) {
-            let dependent = self.find_eight(target.requested, &target.fixed.with(Eight([angle; 8]), &theta));
+            let dependent = self.find_eight(target.requested, &target.fixed.with(Lanes([angle; 8]), &theta));
             for lane in (0..8).filter(|lane| reached[*lane]) {
                 if self.eight.verify(lane).is_err() {
                     self.discard();
@@ -188,7 +187,7 @@ impl Finder<'_> {
 
     /// Refines chain positions of the arm, with joint `still` fixed if there is one; whether they reach.
     fn is_refined(&mut self, arm_from_flange: &Isometry, still: Option<usize>, theta: &mut [f64]) -> bool {
-        let goal = Goal::new(arm_from_flange);
+        let goal = Requested::new(arm_from_flange);
         let (descent, chain) = self.descent();
         let reached = match still {
             Some(still) => descent.reach_with_fixed(chain, &goal, still, theta),
