@@ -189,10 +189,7 @@ mod tests {
         assert!(first.as_mut().poll(context).is_pending());
         begun.recv().unwrap();
         assert!(second.as_mut().poll(context).is_pending());
-        assert_eq!(
-            runtime.block_on(work.done_in_tab(&tab_b, |_| Ok(4))).unwrap(),
-            4
-        );
+        assert_eq!(runtime.block_on(work.done_in_tab(&tab_b, |_| Ok(4))).unwrap(), 4);
         assert!(third.as_mut().poll(context).is_pending());
         let replaced = runtime.block_on(second).unwrap_err();
         assert_eq!(format!("{replaced:?}"), format!("{:?}", ApiError::superseded()));

@@ -109,14 +109,16 @@ impl<'q> WholePoints<'q> {
             .envelope(self.question.cases, &self.plane, &mut self.answers);
         let (in_plane, best) = (&self.answers.worst.in_plane, &mut self.best);
         for i in 0..BLOCK {
-            best.undecided(found.state[i], i);
+            let reached = found.state[i] == state::REACHED;
+            let unknown = reached && !self.model.is_stable(i);
+            best.undecided(if unknown { state::UNDECIDED } else { found.state[i] }, i);
             let flips_the_best = index % 2 == 1 && usize::from(best.branch[i]) == index - 1;
             let less = if self.flips_are_alike && flips_the_best && best.score[i].is_finite() {
                 found.margin[i].min(NO_LIMIT) > best.posture.margin[i].min(NO_LIMIT)
             } else {
                 in_plane[i] < best.score[i] * (1.0 - ALIKE)
             };
-            if found.state[i] == state::REACHED && found.margin[i] >= -AT_LIMIT && less {
+            if reached && found.margin[i] >= -AT_LIMIT && less {
                 best.take(index, in_plane[i], found, i);
             }
         }
@@ -160,7 +162,8 @@ impl<'q> WholePoints<'q> {
             shares: &self.answers.shares,
         };
         solved.write(slots, |i| {
-            let decided = posture.state[i] == state::REACHED && score[i].is_finite() && self.missed[i] == 0.0;
+            let known = self.missed[i] == 0.0 && self.model.is_stable(i);
+            let decided = posture.state[i] == state::REACHED && score[i].is_finite() && known;
             decided.then(|| {
                 let branch = Branch::ALL[usize::from(branch[i])];
                 (branch, singularity(posture.singularity[i]))

@@ -1,15 +1,22 @@
-//! The whole model in lanes: any chain at known joint positions, springs, masses, geometry, thermal growth, backlash.
+//! The whole model in lanes: any chain at known joint positions, springs, torque curves, masses, compensator, geometry,
+//! thermal growth, backlash.
 //!
 //! The same sum as `predict.rs`, a block of points at a time. Loops over parts are outside, loops over points inside:
 //! only the latter become vectors.
 //!
 //! In reading order: `chain` (frames of the links), `model` (constants of an arm and its parts), `parts` (screws and
-//! torques of gravity), `sum` (the displacements), `backlash` (sides of the links), `answer` (the worst case, shares,
-//! uncertainty), `inputs` (uncertainty by load and tool). [`WholeModel`] runs them.
+//! torques of gravity), `compensator` (a spring against gravity), `sum` (the displacements), `curves` (joints whose
+//! stiffness depends on their torque), `backlash` (sides of the links), `answer` (the worst case, shares, uncertainty),
+//! `inputs` (uncertainty by load and tool). [`WholeModel`] runs them.
+//!
+//! Not known: a load-dependent equilibrium, a torque curve on the joint of the compensator, curves of more than 34 pairs,
+//! more than eight joints with backlash. Such arms are computed one point after the other.
 
 mod answer;
 mod backlash;
 mod chain;
+mod compensator;
+mod curves;
 mod inputs;
 mod model;
 mod parts;
@@ -22,16 +29,20 @@ use crate::load::InputUncertainty;
 use crate::numbers::{BLOCK, Backend, Plane, Planes, planes};
 use crate::source::Arm;
 use crate::spatial::Wrench;
-use answer::{FindShares, TakeCase, TakeRoot};
+pub(in crate::kernel::lanes) use answer::TakeRoot;
+use answer::{FindShares, TakeCase};
 use backlash::{CaseOnPlane, GapPlanes, KeepOffsets, ShareBacklash, Worn, gaps_of, settle};
 use chain::FindTool;
 pub(in crate::kernel::lanes) use chain::{ChainConstants, Displacement, FindFrames, FramePlanes};
+use compensator::{AddCompensated, Compensated, CompensatorPlanes, FindCompensation};
+use curves::{AddTurns, CurvePlanes, Curved, FindSag, curves_of};
 use inputs::AddInputs;
 use model::ModelConstants;
 pub(in crate::kernel::lanes) use parts::ResponsePlanes;
 use parts::{FindParts, PartPlanes};
+use sum::StillPlanes;
+pub(in crate::kernel::lanes) use sum::under;
 use sum::{AddStill, FindUnloaded, OneCase, OneWrench};
-pub(in crate::kernel::lanes) use sum::{StillPlanes, under};
 
 /// An arm with all parts of its model, and memory for a block of points; one per thread.
 #[derive(Clone, Debug)]
@@ -45,6 +56,12 @@ pub(in crate::kernel) struct WholeModel {
     actual: Box<[FramePlanes<f64>; 2]>,
     parts: Vec<PartPlanes<f64>>,
     gaps: Vec<GapPlanes<f64>>,
+    curves: Vec<CurvePlanes<f64>>,
+    compensated: Option<Box<CompensatorPlanes<f64>>>,
+    /// What the response to the current load case does not contain, m, base.
+    rest: Box<Planes<f64, 3>>,
+    /// Memory for a wrench at each point.
+    wrench: Box<Planes<f64, 6>>,
     still: Box<StillPlanes<f64>>,
     along: Planes<f64, 3>,
     response: Box<ResponsePlanes<f64>>,
@@ -102,6 +119,13 @@ impl WholeModel {
             response: Box::new(ResponsePlanes::none()),
             by_unit: vec![[0.0; BLOCK]; model.parts.len()],
             gaps: gaps_of(&model),
+            curves: curves_of(&model),
+            compensated: model
+                .compensator
+                .as_ref()
+                .map(|_| Box::new(CompensatorPlanes::unknown())),
+            rest: Box::new(planes()),
+            wrench: Box::new(planes()),
             model,
             shares,
             backend,
@@ -115,6 +139,7 @@ impl WholeModel {
             backend,
             frames,
             actual,
+            compensated,
             still,
             ..
         } = self;
@@ -133,6 +158,14 @@ impl WholeModel {
                 joints,
                 tool,
                 before,
+            });
+        }
+        if let (Some(constants), Some(out)) = (&model.compensator, compensated.as_deref_mut()) {
+            backend.run(FindCompensation {
+                model,
+                constants,
+                joints,
+                out,
             });
         }
         if model.geometry.is_some() || model.growth.is_some() {
@@ -156,9 +189,22 @@ impl WholeModel {
         self.model.chain.axis(index).0
     }
 
-    /// The response of the tool, and its displacement without load, after [`WholeModel::respond`].
-    pub(in crate::kernel::lanes) fn response(&self) -> (&ResponsePlanes<f64>, &StillPlanes<f64>) {
-        (&self.response, &self.still)
+    /// The response of the tool to the wrench of [`WholeModel::load`], and the displacement that it does not contain,
+    /// m, base.
+    pub(in crate::kernel::lanes) fn response(&self) -> (&ResponsePlanes<f64>, &Planes<f64, 3>) {
+        let rest = if self.curves.is_empty() {
+            &self.still.sum
+        } else {
+            &*self.rest
+        };
+        (&self.response, rest)
+    }
+
+    /// Whether lanes know an equilibrium of point `i` at the joint positions set.
+    pub(in crate::kernel::lanes) fn is_stable(&self, i: usize) -> bool {
+        self.compensated
+            .as_ref()
+            .is_none_or(|compensated| compensated.unstable[i] == 0.0)
     }
 
     /// Whether a joint has backlash, which the response does not contain.
@@ -173,11 +219,21 @@ impl WholeModel {
 
     /// Computes the response of the tool; that to moments only if `MOMENTS`, its parts if `PARTS`.
     pub(in crate::kernel::lanes) fn respond<const MOMENTS: bool, const PARTS: bool>(&mut self) {
+        if PARTS || self.compensated.is_some() || !self.curves.is_empty() {
+            self.add_up::<MOMENTS, true>();
+        } else {
+            self.add_up::<MOMENTS, false>();
+        }
+    }
+
+    fn add_up<const MOMENTS: bool, const PARTS: bool>(&mut self) {
         let WholeModel {
             model,
             backend,
             frames,
             parts,
+            curves,
+            compensated,
             response,
             still,
             ..
@@ -188,10 +244,63 @@ impl WholeModel {
             parts,
             response,
         });
+        if let (Some(constants), Some(compensated)) = (&model.compensator, compensated) {
+            backend.run(AddCompensated::<f64, MOMENTS> {
+                model,
+                constants,
+                compensated,
+                frames,
+                parts,
+                response,
+            });
+        }
         backend.run(AddStill {
             model,
             response,
             still,
+        });
+        if !curves.is_empty() {
+            backend.run(FindSag {
+                model,
+                parts,
+                curves,
+                still,
+            });
+        }
+    }
+
+    /// Prepares the response to these wrenches (at the TCP, base), after [`WholeModel::respond`]; their moments act only
+    /// if `MOMENTS`.
+    pub(in crate::kernel::lanes) fn load<const MOMENTS: bool>(&mut self, wrench: &Planes<f64, 6>) {
+        if !self.curves.is_empty() {
+            *self.wrench = *wrench;
+            self.turn::<MOMENTS>();
+        }
+    }
+
+    /// [`WholeModel::load`] with the same wrench at every point.
+    fn load_all<const MOMENTS: bool>(&mut self, wrench: &Wrench) {
+        if !self.curves.is_empty() {
+            let values = wrench.force.iter().chain(wrench.moment.iter());
+            for (plane, value) in self.wrench.iter_mut().zip(values) {
+                plane.fill(*value);
+            }
+            self.turn::<MOMENTS>();
+        }
+    }
+
+    /// Adds what joints with torque curves do under the wrench in memory to the displacement without load.
+    fn turn<const MOMENTS: bool>(&mut self) {
+        *self.rest = self.still.sum;
+        self.backend.run(AddTurns::<f64, MOMENTS> {
+            arm: Curved {
+                model: &self.model,
+                frames: &self.frames,
+                parts: &self.parts,
+                curves: &self.curves,
+            },
+            wrench: &self.wrench,
+            sum: &mut self.rest,
         });
     }
 }
@@ -229,62 +338,71 @@ impl WholeModel {
         } else {
             self.respond::<MOMENTS, false>();
         }
+        for (case, (wrench, deviation)) in cases.iter().zip(&mut out.deviations).enumerate() {
+            self.load_all::<MOMENTS>(wrench);
+            let of_case = CaseOnPlane { case, wrench, plane };
+            self.take::<MOMENTS, DETAILS>(of_case, cases.len(), deviation, &mut out.worst);
+        }
+    }
+
+    /// The deviation under one of `count` load cases, taken into the worst so far.
+    fn take<const MOMENTS: bool, const DETAILS: bool>(
+        &mut self,
+        of_case: CaseOnPlane<'_>,
+        count: usize,
+        deviation: &mut Planes<f64, 3>,
+        worst: &mut Worst<f64>,
+    ) {
+        let CaseOnPlane { case, wrench, plane } = of_case;
+        let (response, rest) = self.response();
+        if self.gaps.is_empty() {
+            self.backend.run(OneCase::<f64, MOMENTS> {
+                response,
+                rest,
+                cases: case..count,
+                wrench,
+                plane,
+                deviation,
+                worst,
+            });
+            return;
+        }
+        self.backend.run(OneWrench::<f64, MOMENTS> {
+            response,
+            rest,
+            wrench,
+            deviation,
+        });
         let WholeModel {
             model,
             backend,
             frames,
             parts,
             gaps,
-            response,
-            still,
             ..
         } = self;
-        let WholeAnswers {
-            deviations, worst, ..
-        } = out;
-        for (case, (wrench, deviation)) in cases.iter().zip(deviations).enumerate() {
-            if gaps.is_empty() {
-                backend.run(OneCase::<f64, MOMENTS> {
-                    response,
-                    still,
-                    cases: case..cases.len(),
-                    wrench,
-                    plane,
-                    deviation,
-                    worst,
-                });
-                continue;
-            }
-            backend.run(OneWrench::<f64, MOMENTS> {
-                response,
-                still,
-                wrench,
-                deviation,
-            });
-            let on_plane = CaseOnPlane { case, wrench, plane };
-            let arm = Worn {
+        let arm = Worn {
+            model,
+            frames,
+            parts,
+            gaps,
+        };
+        settle::<DETAILS>(*backend, arm, of_case, deviation);
+        backend.run(TakeCase {
+            cases: case..count,
+            force: wrench.force,
+            moment: wrench.moment,
+            plane,
+            deviation,
+            worst,
+        });
+        if DETAILS {
+            backend.run(KeepOffsets {
                 model,
-                frames,
-                parts,
-                gaps,
-            };
-            settle::<DETAILS>(*backend, arm, on_plane, deviation);
-            backend.run(TakeCase {
-                cases: case..cases.len(),
-                force: wrench.force,
-                moment: wrench.moment,
-                plane,
-                deviation,
+                case,
                 worst,
+                gaps,
             });
-            if DETAILS {
-                backend.run(KeepOffsets {
-                    model,
-                    case,
-                    worst,
-                    gaps,
-                });
-            }
         }
     }
 
@@ -320,6 +438,8 @@ impl WholeModel {
             frames,
             parts,
             gaps,
+            curves,
+            compensated,
             response,
             still,
             along,
@@ -332,10 +452,27 @@ impl WholeModel {
             uncertainty: variance,
             ..
         } = out;
+        let curved = Curved {
+            model,
+            frames,
+            parts,
+            curves,
+        };
+        let both = model.compensator.as_ref().zip(compensated.as_deref());
+        let compensated = both.map(|(constants, compensated)| Compensated {
+            model,
+            constants,
+            compensated,
+            frames,
+            parts,
+            worst,
+        });
         backend.run(FindShares::<f64, MOMENTS> {
             model,
             frames,
             parts,
+            curved,
+            compensated,
             still,
             plane,
             worst,
@@ -358,6 +495,8 @@ impl WholeModel {
                 inputs,
                 frames,
                 parts,
+                curved,
+                compensated,
                 response,
                 worst,
                 along,

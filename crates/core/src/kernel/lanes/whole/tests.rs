@@ -14,7 +14,8 @@ use crate::predict::deviation_of;
 use crate::robot::forward::forward;
 use crate::robot::inverse::tool_on;
 use crate::robot::{
-    Amount, Attachment, Backlash, BacklashSide, JointCompliance, Mass, Motion, Robot, Spring,
+    Amount, Attachment, Backlash, BacklashSide, Compensator, JointCompliance, JointCurve, Mass, Motion,
+    Robot, Spring, TorqueCurve,
 };
 use crate::source::stiffness_model::Gravity;
 use crate::source::thermal::ThermalGrowth;
@@ -90,6 +91,64 @@ fn worn(joints: usize, side: fn(usize) -> BacklashSide) -> Vec<Option<Backlash>>
         .collect()
 }
 
+/// A compliant curve with knots within the torques of these tests, and one with as few pairs as possible.
+fn curves(joint: usize) -> JointCurve {
+    let at = 7.0 * joint as f64;
+    let curve = |torques: &[f64], slopes: &[f64]| {
+        let mut angle = -4e-4;
+        let mut points = vec![[torques[0] - at, angle]];
+        for (ends, slope) in torques.windows(2).zip(slopes) {
+            angle += slope * (ends[1] - ends[0]);
+            points.push([ends[1] - at, angle]);
+        }
+        TorqueCurve::new(points).unwrap()
+    };
+    let rising = curve(
+        &[-300.0, -90.0, -15.0, 0.5, 30.0, 120.0, 400.0],
+        &[1e-6, 2e-6, 5e-6, 6e-6, 0.0, 1e-6],
+    );
+    let falling = match joint % 3 {
+        0 => None,
+        1 => Some(curve(&[-200.0, 100.0], &[3e-6])),
+        _ => Some(curve(&[-60.0, 10.0, 80.0], &[4e-6, 1.5e-6])),
+    };
+    JointCurve { rising, falling }
+}
+
+/// A soft spring against gravity, so that its joint changes by a fifth of its compliance.
+fn compensator(joint: usize) -> Compensator {
+    Compensator {
+        joint,
+        fixed_radius: 0.69,
+        arm_radius: 0.185,
+        angle: 0.17,
+        free_length: 0.458,
+        stiffness: 7e5,
+    }
+}
+
+/// What makes the stiffness of joints depend on load and posture: nothing; curves on all joints; a compensator; curves
+/// next to it. Prismatic joints have neither.
+const BENDS: [fn(&mut StiffnessModel, &Robot); 4] = [
+    |_, _| (),
+    |model, robot| model.structure.curves = on_all(robot),
+    |model, robot| model.structure.compensator = Some(compensator(1 + usize::from(robot.slides(0)))),
+    |model, robot| {
+        let carrier = 1 + usize::from(robot.slides(0));
+        model.structure.curves = on_all(robot);
+        model.structure.curves[carrier] = None;
+        model.structure.compensator = Some(compensator(carrier));
+    },
+];
+
+/// Curves on all revolute joints.
+fn on_all(robot: &Robot) -> Vec<Option<JointCurve>> {
+    let joints = 0..robot.joints().len();
+    joints
+        .map(|joint| (!robot.slides(joint)).then(|| curves(joint)))
+        .collect()
+}
+
 /// Of the first compliances, correlated.
 fn covariance(size: usize) -> DMatrix<f64> {
     let root = DMatrix::from_fn(size, size, |i, j| ((3 * i + 5 * j + i * j) % 7) as f64 - 2.5);
@@ -141,7 +200,7 @@ fn the_whole_model_in_lanes_is_that_of_the_plain_row() {
             lanes.respond::<true, false>();
             backend.run(OneWrench::<f64, true> {
                 response: &lanes.response,
-                still: &lanes.still,
+                rest: &lanes.still.sum,
                 wrench: &wrench,
                 deviation: &mut found,
             });
@@ -183,16 +242,21 @@ fn worst_case_shares_and_uncertainty_are_those_of_the_plain_row() {
     let normal = Unit::new_normalize(Vector3::new(0.2, -0.9, 0.3));
     let [first, second] = both_across(&normal);
     let railed = arms::other::on_rail(&arms::ALL[0]);
-    let each = arms::ALL
-        .iter()
-        .chain([&railed])
-        .flat_map(|robot| SIDES.map(|side| [(robot, side, true), (robot, side, false)]));
-    for (robot, side, weighs) in each.flatten() {
+    let each = arms::ALL.iter().chain([&railed]).flat_map(|robot| {
+        SIDES.map(|side| BENDS.map(|bend| [(robot, side, bend, true), (robot, side, bend, false)]))
+    });
+    for (robot, side, bend, weighs) in each.flatten().flatten() {
         let dof = robot.joints().len();
         // Geometry is the difference of two positions, which are some metres on a rail.
         let within = if robot.slides(0) { 1e-11 } else { 1e-12 };
         let mut model = model(dof);
         model.structure.backlash = worn(dof, side);
+        model.structure.masses.push(Mass {
+            attachment: Attachment::Tool,
+            mass: 4.0,
+            centre: Point3::new(0.0, 0.03, -0.02),
+        });
+        bend(&mut model, robot);
         if !weighs {
             model.gravity = None;
         }
@@ -272,12 +336,14 @@ fn a_question_about_a_whole_model_has_the_answers_of_the_general_solver() {
     let force = |x, y, z| Wrench::from_force(Vector3::new(x, y, z));
     let cases = [force(60.0, -35.0, 20.0), force(-20.0, 50.0, 30.0)];
     let (mut compared, mut in_all) = (0, 0);
-    for robot in arms::ALL.iter().filter(|robot| robot.ortho_parallel().is_some()) {
+    let named = arms::ALL.iter().filter(|robot| robot.ortho_parallel().is_some());
+    for (robot, bend) in named.flat_map(|robot| BENDS.map(|bend| (robot, bend))) {
         let dof = robot.joints().len();
         let mut model = model(dof);
         model.structure.repeatability = 4e-5;
         model.structure.backlash = worn(dof, SIDES[2]);
         model.actual = Some(Arc::new(longer(robot)));
+        bend(&mut model, robot);
         let compliance = vec![
             JointCompliance {
                 value: 2e-6,
