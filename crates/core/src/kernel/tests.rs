@@ -76,7 +76,8 @@ pub(super) fn springy() -> StiffnessModel {
     }
 }
 
-/// Arms and models that lanes know: drives alone, a spring and gravity, calibrated arms, three parallel axes.
+/// Arms and models that lanes know: drives alone; a spring and gravity, torque curves, a compensator; calibrated arms,
+/// three parallel axes.
 pub(super) fn subjects() -> Vec<(Robot, StiffnessModel)> {
     let mut heavy = springy();
     heavy.structure.masses = vec![Mass {
@@ -88,13 +89,24 @@ pub(super) fn subjects() -> Vec<(Robot, StiffnessModel)> {
         acceleration: Vector3::new(0.0, 0.0, -9.81),
         reference: vec![0.2; 6],
     });
+    let mut curved = heavy.clone();
+    curved.structure.curves = (0..6).map(|joint| Some(arms::curves(joint))).collect();
+    let mut balanced = heavy.clone();
+    balanced.structure.compensator = Some(arms::compensator(1));
+    let mut both = curved.clone();
+    both.structure.curves[2] = None;
+    both.structure.compensator = Some(arms::compensator(2));
     let calibrated = arms::other::calibrated(&arms::kr120(), 1e-3);
     let drives = || StiffnessModel::DRIVES.clone();
     let all = arms::all().into_iter().map(|robot| (robot, drives()));
     let others = [
         (arms::mh12(), heavy.clone()),
+        (arms::irb2400(), curved.clone()),
+        (arms::kr120(), balanced),
         (calibrated.clone(), drives()),
-        (calibrated, heavy.clone()),
+        (calibrated.clone(), heavy.clone()),
+        (calibrated, both),
+        (arms::other::ur10(), curved),
         (arms::other::ur10(), drives()),
         (arms::other::ur10e(), heavy),
     ];

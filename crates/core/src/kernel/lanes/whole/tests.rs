@@ -14,8 +14,7 @@ use crate::predict::deviation_of;
 use crate::robot::forward::forward;
 use crate::robot::inverse::tool_on;
 use crate::robot::{
-    Amount, Attachment, Backlash, BacklashSide, Compensator, JointCompliance, JointCurve, Mass, Motion,
-    Robot, Spring, TorqueCurve,
+    Amount, Attachment, Backlash, BacklashSide, JointCompliance, JointCurve, Mass, Motion, Robot, Spring,
 };
 use crate::source::stiffness_model::Gravity;
 use crate::source::thermal::ThermalGrowth;
@@ -91,53 +90,17 @@ fn worn(joints: usize, side: fn(usize) -> BacklashSide) -> Vec<Option<Backlash>>
         .collect()
 }
 
-/// A compliant curve with knots within the torques of these tests, and one with as few pairs as possible.
-fn curves(joint: usize) -> JointCurve {
-    let at = 7.0 * joint as f64;
-    let curve = |torques: &[f64], slopes: &[f64]| {
-        let mut angle = -4e-4;
-        let mut points = vec![[torques[0] - at, angle]];
-        for (ends, slope) in torques.windows(2).zip(slopes) {
-            angle += slope * (ends[1] - ends[0]);
-            points.push([ends[1] - at, angle]);
-        }
-        TorqueCurve::new(points).unwrap()
-    };
-    let rising = curve(
-        &[-300.0, -90.0, -15.0, 0.5, 30.0, 120.0, 400.0],
-        &[1e-6, 2e-6, 5e-6, 6e-6, 0.0, 1e-6],
-    );
-    let falling = match joint % 3 {
-        0 => None,
-        1 => Some(curve(&[-200.0, 100.0], &[3e-6])),
-        _ => Some(curve(&[-60.0, 10.0, 80.0], &[4e-6, 1.5e-6])),
-    };
-    JointCurve { rising, falling }
-}
-
-/// A soft spring against gravity, so that its joint changes by a fifth of its compliance.
-fn compensator(joint: usize) -> Compensator {
-    Compensator {
-        joint,
-        fixed_radius: 0.69,
-        arm_radius: 0.185,
-        angle: 0.17,
-        free_length: 0.458,
-        stiffness: 7e5,
-    }
-}
-
 /// What makes the stiffness of joints depend on load and posture: nothing; curves on all joints; a compensator; curves
 /// next to it. Prismatic joints have neither.
 const BENDS: [fn(&mut StiffnessModel, &Robot); 4] = [
     |_, _| (),
     |model, robot| model.structure.curves = on_all(robot),
-    |model, robot| model.structure.compensator = Some(compensator(1 + usize::from(robot.slides(0)))),
+    |model, robot| model.structure.compensator = Some(arms::compensator(1 + usize::from(robot.slides(0)))),
     |model, robot| {
         let carrier = 1 + usize::from(robot.slides(0));
         model.structure.curves = on_all(robot);
         model.structure.curves[carrier] = None;
-        model.structure.compensator = Some(compensator(carrier));
+        model.structure.compensator = Some(arms::compensator(carrier));
     },
 ];
 
@@ -145,7 +108,7 @@ const BENDS: [fn(&mut StiffnessModel, &Robot); 4] = [
 fn on_all(robot: &Robot) -> Vec<Option<JointCurve>> {
     let joints = 0..robot.joints().len();
     joints
-        .map(|joint| (!robot.slides(joint)).then(|| curves(joint)))
+        .map(|joint| (!robot.slides(joint)).then(|| arms::curves(joint)))
         .collect()
 }
 
