@@ -122,6 +122,11 @@ impl LoadedBranches {
         })
     }
 
+    /// Moves the rail, if there is one: see [`BranchSolver::set_home`].
+    pub fn set_home(&mut self, home: Option<&[f64]>) {
+        self.branches.set_home(home);
+    }
+
     /// Sets the tool poses, at most a block.
     pub fn aim_at(&mut self, poses: &[Isometry], loads: &PointLoads) {
         self.branches.aim_at(poses, &self.tool_from_flange);
@@ -152,9 +157,10 @@ impl LoadedBranches {
             model.respond::<false, false>();
         }
         backend.run(find_missed(branches.targets(), model.flange(), missed));
-        let (frames, axis) = (model.frames(), |joint| model.axis(joint));
+        let first = branches.first();
+        let axis = |joint: usize| model.axis(first + joint);
         backend.run(FindSines {
-            frames,
+            frames: &model.frames()[first..],
             axes: [axis(1), axis(3), axis(5)],
             elbow: elbow.as_ref(),
             sines,
@@ -176,7 +182,7 @@ impl LoadedBranches {
             BranchStatus::OutOfReach
         } else if found.state[i] == state::UNDECIDED || self.missed[i] != 0.0 || !self.model.is_stable(i) {
             BranchStatus::Undecided
-        } else if found.margin[i] < limits - AT_LIMIT {
+        } else if found.margin[i] < limits - AT_LIMIT || !self.branches.rail_is_inside() {
             BranchStatus::OutsideLimits
         } else if flagged || wrist_sine[i] < wrist.max(limits).sin() || elbow_sine[i] < limits.sin() {
             BranchStatus::Singular
@@ -198,6 +204,7 @@ impl LoadedBranches {
 
 /// Fills the sine of the angle between axes 4 and 6, and of that between upper arm and forearm; 1 without elbow.
 struct FindSines<'a, T> {
+    /// Those of the arm, from what carries it to the tool.
     frames: &'a [FramePlanes<T>],
     /// Axes of joints 2, 4 and 6 in their own frames.
     axes: [usize; 3],

@@ -49,11 +49,16 @@ impl<'q> WholePoints<'q> {
         let by_load_alone =
             detail == AnswerDetail::DeviationsAlone || !question.arm.model.has_unloaded_deviation();
         let [first, second] = both_across(&question.normal);
+        let branches = BranchSolver::of(question, backend)?;
+        // The best posture outside the range of a rail has none: the reason is stated one point after the other.
+        if question.choice == BranchChoice::Best && !branches.rail_is_inside() {
+            return None;
+        }
         Some(WholePoints {
             question,
             backend,
             tool_from_flange: question.arm.flange_from_tool.inverse(),
-            branches: BranchSolver::of(question, backend)?,
+            branches,
             answers: WholeAnswers::with(question.cases.len(), model.contributors()),
             model,
             plane: [first, second, question.normal.into_inner()],
@@ -87,6 +92,7 @@ impl<'q> WholePoints<'q> {
                 }
             }
         }
+        self.count_rail();
         self.model.set_joints(&self.best.posture.joints);
         self.verify();
         self.model.answer(
@@ -132,6 +138,22 @@ impl<'q> WholePoints<'q> {
             let score = -found.margin[i].min(NO_LIMIT);
             if found.state[i] == state::REACHED && score < self.best.score[i] {
                 self.best.take(index, score, found, i);
+            }
+        }
+    }
+
+    /// Takes the joints of a rail into the margins of the chosen postures.
+    fn count_rail(&mut self) {
+        let BranchPlanes { margin, nearest, .. } = &mut self.best.posture;
+        let first = self.branches.first();
+        for nearest in nearest.iter_mut() {
+            *nearest += first as f64;
+        }
+        if let Some((joint, of_rail)) = self.branches.rail_margin() {
+            for (margin, nearest) in margin.iter_mut().zip(nearest) {
+                if of_rail <= *margin {
+                    (*margin, *nearest) = (of_rail, joint as f64);
+                }
             }
         }
     }
