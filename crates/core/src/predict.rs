@@ -17,8 +17,9 @@
 //! gravity only. Along a path geometry, thermal growth and backlash are added in a second step
 //! (`map/backlash_geometry.rs`), because friction decides from point to point at which side of its backlash each link
 //! rests. `kernel/lanes/load/deviation.rs` repeats the drives-only part for many points per instruction, and
-//! `kernel/lanes/whole/` all but a compensator and what is not proportional to the load; both are tested against this
-//! function. [`elastic::predict`](crate::source::elastic::predict) is the simple model: joint drives only.
+//! `kernel/lanes/whole/` all but a load-dependent equilibrium and a torque curve on the joint of a compensator; both are
+//! tested against this function. [`elastic::predict`](crate::source::elastic::predict) is the simple model: joint
+//! drives only.
 //!
 //! Deviation: attained minus commanded position of the tool. Reference point: TCP. Basis: base. Unit: metres here,
 //! micrometres in the answers of `study`.

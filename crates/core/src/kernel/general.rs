@@ -1,7 +1,7 @@
 //! One point after the other: the physics of `predict.rs` with reused buffers.
 //!
-//! Used for all arms except ortho-parallel ones, and for the points that the lanes cannot decide: no posture and its
-//! reason; joints 4 and 6 in line.
+//! Used for arms and models that lanes do not know, and for the points that they cannot decide: no posture and its
+//! reason; joints 4 and 6 in line; no equilibrium.
 
 use nalgebra::Vector3;
 

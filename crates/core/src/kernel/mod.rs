@@ -1,10 +1,11 @@
 //! Many points at once: the same physics as `predict.rs`, over blocks of points.
 //!
 //! [`evaluate`] is the main entry. It finds a posture for each tool pose, the deviation under each load case, the
-//! envelope over the load cases and the worst case. Arms with named branches go through [`lanes`], many points in one
-//! instruction, with springs, masses, calibrated geometry, thermal growth and backlash. Where the lanes cannot decide,
-//! and for every other arm or part of a model (torque curves, compensator, ...), `general` computes one point after the
-//! other.
+//! envelope over the load cases and the worst case. Arms with named branches, also on a rail, go through [`lanes`], many
+//! points in one instruction, with springs, torque curves, masses, compensator, calibrated geometry, thermal growth and
+//! backlash. Where the lanes cannot decide, and for what they do not know, `general` computes one point after the
+//! other: arms without named branches, or coupled to their rail; a load-dependent equilibrium; a torque curve on the
+//! joint of the compensator; torque curves where each point has a separate load.
 //! [`evaluate_loaded`] uses a separate load at every point, [`evaluate_posture`] one posture at given joint positions,
 //! [`evaluate_at_joints`] any chain at given joint positions with a user-defined output, [`postures_at`] every posture
 //! of many poses. Blocks run on all threads of the current rayon pool. Every point is written by index, so any number

@@ -41,8 +41,7 @@ pub struct PartPlacement {
     pub base_from_part: Isometry,
     /// Additional spin of the tool, rad.
     pub spin: f64,
-    /// Position of the rail (the first prismatic joint), m; `None` where the question specifies it. Not used for arms
-    /// in lanes, which have no rail.
+    /// Position of the rail (the first prismatic joint), m; `None` where the question specifies it.
     pub rail: Option<f64>,
 }
 

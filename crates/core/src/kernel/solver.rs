@@ -183,7 +183,8 @@ impl<'q> Solver<'q> {
 
 /// Brings joint positions by whole turns as near as possible to those of the point before.
 fn follow(robot: &Robot, before: &[f64], joints: &mut [f64], evaluation: &mut Evaluation) {
-    for (joint, position) in joints.iter_mut().enumerate() {
+    let rail = robot.inverse().rail_joints();
+    for (joint, position) in joints.iter_mut().enumerate().skip(rail) {
         *position = WholeTurns::of(robot, joint, Some(before)).applied(*position);
     }
     if let Some((joint, margin)) = robot.limit_margin(joints) {

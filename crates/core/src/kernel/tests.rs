@@ -51,11 +51,19 @@ pub(super) fn analysis<T>(
 
 pub(super) const NOMINAL: BranchChoice = BranchChoice::Of(BranchPattern::FRONT_ELBOW_UP);
 
+/// Joint positions inside the limits; a rail is in the middle, where inverse kinematics has it without a home.
+pub(super) fn joints(stream: &mut Stream, robot: &Robot) -> Vec<f64> {
+    let mut q = stream.joints(robot);
+    let rail = robot.inverse().rail_joints();
+    q[..rail].copy_from_slice(&robot.home(None)[..rail]);
+    q
+}
+
 /// Tool poses of joint positions inside the limits.
 pub(super) fn poses(robot: &Robot, count: usize, seed: u64) -> Vec<Isometry> {
     let mut stream = Stream(seed);
     let pose = |_| {
-        let q = stream.joints(robot);
+        let q = joints(&mut stream, robot);
         crate::robot::inverse::posture_at(robot, &q, &arms::bent_tool()).base_from_tool
     };
     (0..count).map(pose).collect()
@@ -76,7 +84,8 @@ pub(super) fn springy() -> StiffnessModel {
     }
 }
 
-/// Arms and models that lanes know: drives alone, a spring and gravity, calibrated arms, three parallel axes.
+/// Arms and models that lanes know: drives alone; a spring and gravity, torque curves, a compensator; calibrated arms,
+/// three parallel axes; rails.
 pub(super) fn subjects() -> Vec<(Robot, StiffnessModel)> {
     let mut heavy = springy();
     heavy.structure.masses = vec![Mass {
@@ -88,15 +97,34 @@ pub(super) fn subjects() -> Vec<(Robot, StiffnessModel)> {
         acceleration: Vector3::new(0.0, 0.0, -9.81),
         reference: vec![0.2; 6],
     });
+    let mut curved = heavy.clone();
+    curved.structure.curves = (0..6).map(|joint| Some(arms::curves(joint))).collect();
+    let mut balanced = heavy.clone();
+    balanced.structure.compensator = Some(arms::compensator(1));
+    let mut both = curved.clone();
+    both.structure.curves[2] = None;
+    both.structure.compensator = Some(arms::compensator(2));
+    let mut railed = curved.clone();
+    railed.structure.curves.insert(0, None);
+    railed.gravity.as_mut().unwrap().reference.push(0.2);
     let calibrated = arms::other::calibrated(&arms::kr120(), 1e-3);
+    let on_rail = arms::other::on_rail;
     let drives = || StiffnessModel::DRIVES.clone();
     let all = arms::all().into_iter().map(|robot| (robot, drives()));
     let others = [
         (arms::mh12(), heavy.clone()),
+        (arms::irb2400(), curved.clone()),
+        (arms::kr120(), balanced),
         (calibrated.clone(), drives()),
-        (calibrated, heavy.clone()),
+        (calibrated.clone(), heavy.clone()),
+        (calibrated, both),
+        (arms::other::ur10(), curved),
         (arms::other::ur10(), drives()),
         (arms::other::ur10e(), heavy),
+        (on_rail(&arms::mh12()), drives()),
+        (on_rail(&arms::tx2_90()), railed.clone()),
+        (on_rail(&arms::other::ur10e()), drives()),
+        (on_rail(&arms::other::calibrated(&arms::kr120(), 1e-4)), railed),
     ];
     all.chain(others).collect()
 }

@@ -127,12 +127,10 @@ impl PathLoad {
     pub fn scaled(&self, factor: f64) -> PathLoad {
         let mut scaled = self.clone();
         match &mut scaled {
-            PathLoad::Cases(load) => load
-                .cases
-                .iter_mut()
-                .for_each(|wrench| *wrench = *wrench * factor),
-            PathLoad::OfEach { wrenches, .. } => {
-                wrenches.iter_mut().for_each(|wrench| *wrench = *wrench * factor)
+            PathLoad::Cases(LoadCases { cases: wrenches, .. }) | PathLoad::OfEach { wrenches, .. } => {
+                for wrench in wrenches {
+                    *wrench = *wrench * factor;
+                }
             }
             PathLoad::Cuts(cuts) => {
                 cuts.law = cuts.law.scaled(factor);

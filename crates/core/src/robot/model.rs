@@ -262,6 +262,12 @@ impl Robot {
         joint.sign.factor() * (theta - joint.zero_offset) - coupled
     }
 
+    /// `home`, rad (m); without it the middle of each range, zero where there is none.
+    pub(crate) fn home(&self, home: Option<&[f64]>) -> Vec<f64> {
+        let middle = |joint: &Joint| joint.limits.map_or(0.0, |limits| limits.middle());
+        home.map_or_else(|| self.joints.iter().map(middle).collect(), <[f64]>::to_vec)
+    }
+
     /// The joint nearest to one of its limits, or farthest outside, and its margin: rad, m of a
     /// prismatic joint, compared by number; negative outside. `None` where no joint has limits.
     pub fn limit_margin(&self, q: &[f64]) -> Option<(usize, f64)> {

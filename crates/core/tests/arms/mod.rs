@@ -12,7 +12,8 @@ use armill_core::nalgebra::Vector3;
 use armill_core::predict::{Deviation, predict};
 use armill_core::robot::joint::Sign;
 use armill_core::robot::{
-    Amount, Axis, Branch, Compensator, Joint, JointCompliance, Limits, Motion, PostureName, Robot,
+    Amount, Axis, Branch, Compensator, Joint, JointCompliance, JointCurve, Limits, Motion, PostureName,
+    Robot, TorqueCurve,
 };
 use armill_core::source::{Arm, ArmState, Links, Unstable};
 use armill_core::spatial::Wrench;
@@ -26,6 +27,42 @@ pub fn spring_energy(compensator: &Compensator, theta: f64) -> f64 {
     let (a, l) = (compensator.fixed_radius, compensator.arm_radius);
     let s = (a * a + l * l + 2.0 * a * l * (compensator.angle + theta).cos()).sqrt();
     0.5 * compensator.stiffness * (s - compensator.free_length).powi(2)
+}
+
+/// Curves of a joint with knots at torques of some hundred N m; of most joints the falling one differs.
+pub fn curves(joint: usize) -> JointCurve {
+    let at = 7.0 * joint as f64;
+    let curve = |torques: &[f64], slopes: &[f64]| {
+        let mut angle = -4e-4;
+        let mut points = vec![[torques[0] - at, angle]];
+        for (ends, slope) in torques.windows(2).zip(slopes) {
+            angle += slope * (ends[1] - ends[0]);
+            points.push([ends[1] - at, angle]);
+        }
+        TorqueCurve::new(points).unwrap()
+    };
+    let rising = curve(
+        &[-300.0, -90.0, -15.0, 0.5, 30.0, 120.0, 400.0],
+        &[1e-6, 2e-6, 5e-6, 6e-6, 0.0, 1e-6],
+    );
+    let falling = match joint % 3 {
+        0 => None,
+        1 => Some(curve(&[-200.0, 100.0], &[3e-6])),
+        _ => Some(curve(&[-60.0, 10.0, 80.0], &[4e-6, 1.5e-6])),
+    };
+    JointCurve { rising, falling }
+}
+
+/// A soft spring against gravity, so that its joint changes by a fifth of its compliance.
+pub fn compensator(joint: usize) -> Compensator {
+    Compensator {
+        joint,
+        fixed_radius: 0.69,
+        arm_radius: 0.185,
+        angle: 0.17,
+        free_length: 0.458,
+        stiffness: 7e5,
+    }
 }
 
 /// A stream of numbers in 0..1 (SplitMix64), the same on every machine; the seed is part of the test.

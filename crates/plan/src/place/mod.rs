@@ -15,6 +15,7 @@
 pub mod answer;
 mod certificate;
 pub mod evaluate;
+mod fixture;
 mod freedom;
 pub mod journal;
 mod pictures;
@@ -30,7 +31,6 @@ pub use freedom::{FreeAnswer, PlaceAnswer};
 pub use journal::Journal;
 pub use result::PlacementResult;
 
-use armill_core::frame::from_xyz_and_fixed_angles;
 use armill_core::kernel::{BranchChoice, PartPlacement};
 use armill_core::nalgebra::{Point3, UnitQuaternion, Vector3};
 use armill_core::optimize::{PlacementObjective, PostureSearch, PostureSelection, ToolTurn, on_part};
@@ -38,7 +38,6 @@ use armill_core::path::{LoadedTrack, Spin};
 use armill_core::robot::BranchPattern;
 use armill_core::units::{from_deg, from_mm, to_deg, to_mm, to_um};
 use armill_core::watch::Watch;
-use armill_core::workpiece::Plane;
 use armill_study::analysis::Subject;
 use armill_study::analysis::path::PathAnalysis;
 use armill_study::analysis::path::answer::search::{component_name, objective_name};
@@ -52,6 +51,7 @@ use armill_study::joint_unit::JointUnit;
 use armill_study::number::decimals;
 
 use self::answer::rank_by_name;
+use self::fixture::plane_of;
 use self::freedom::Freedom;
 use self::rail::{check_rail, rail_of};
 use self::rounds::{Best, FoundPlacements, MARGINS_DEG, Prepared, Site, SiteSearch};
@@ -479,24 +479,4 @@ fn chosen<'a>(
                 StudyError::value(message, format!("its paths: {}", names()))
             }),
     }
-}
-
-/// The plane in this fixture, base, and its tilt if it is given by one.
-fn plane_of(fixture: &FixtureTable, setting: &Setting) -> (Plane, Option<f64>) {
-    let centre = from_mm(Vector3::from(fixture.centre_mm));
-    let reference_from_part = match fixture.rotation_deg {
-        Some(angles) => from_xyz_and_fixed_angles(centre, Vector3::from(angles).map(from_deg)),
-        None => {
-            let tilt = from_deg(fixture.tilt_deg.unwrap_or(0.0));
-            Plane::tilted(centre.into(), tilt).base_from_part
-        }
-    };
-    let plane = Plane {
-        base_from_part: setting.base_from_reference * reference_from_part,
-    };
-    let tilt = fixture
-        .rotation_deg
-        .is_none()
-        .then(|| from_deg(fixture.tilt_deg.unwrap_or(0.0)));
-    (plane, tilt)
 }

@@ -24,9 +24,9 @@ pub use postures::{Column, ColumnLoad, PostureStatus, SLOTS};
 use super::lanes::{Backend, Batch, POINTS, flag};
 use super::question::Question;
 use crate::frame::Isometry;
+use crate::robot::Robot;
 use crate::robot::forward::Frames;
 use crate::robot::inverse::Finder;
-use crate::robot::{Joint, Robot};
 use crate::source::{Arm, ArmState};
 use one_by_one::{ArmMargins, OneByOne};
 use whole_columns::{WholeColumns, WholeFill};
@@ -119,23 +119,32 @@ impl<'q> Columns<'q> {
         }
     }
 
-    /// Fixes the first prismatic joint at `at` (m) from here on; `None`: where the question specifies it. Lanes have no
-    /// rail.
+    /// Fixes the first prismatic joint at `at` (m) from here on; `None`: where the question specifies it. The arms of the
+    /// drives-only lanes have none.
     pub(super) fn set_rail(&mut self, at: Option<f64>) {
-        let ColumnMethod::General(one_by_one) = &mut self.method else {
+        let (ColumnMethod::General(rest) | ColumnMethod::Whole(_, rest)) = &mut self.method else {
             return;
         };
         let robot = self.margins.arm.robot;
         let rail = (0..robot.joints().len()).find(|joint| robot.slides(*joint));
-        one_by_one.rail = at.zip(rail).map(|(at, rail)| {
-            let middle = |joint: &Joint| joint.limits.map_or(0.0, |limits| limits.middle());
-            let mut home = match self.margins.home {
-                Some(home) => home.to_vec(),
-                None => robot.joints().iter().map(middle).collect(),
-            };
+        rest.rail = at.zip(rail).map(|(at, rail)| {
+            let mut home = robot.home(self.margins.home);
             home[rail] = at;
             home
         });
+        if let ColumnMethod::Whole(lanes, rest) = &mut self.method {
+            lanes.set_home(rest.rail.as_deref().or(self.margins.home));
+        }
+    }
+
+    /// Joint positions at home, rad (m), with the rail where it was fixed.
+    pub(super) fn home(&self) -> Option<&[f64]> {
+        match &self.method {
+            ColumnMethod::General(rest) | ColumnMethod::Whole(_, rest) => {
+                rest.rail.as_deref().or(self.margins.home)
+            }
+            ColumnMethod::Lanes(_) => self.margins.home,
+        }
     }
 
     /// Whether slots are branches, in the order of [`Branch::ALL`](crate::robot::Branch::ALL); otherwise they are the

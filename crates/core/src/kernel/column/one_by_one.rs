@@ -50,6 +50,7 @@ impl OneByOne<'_> {
             return;
         };
         let named = arm.robot.inverse().has_branches();
+        let rail = arm.robot.inverse().rail_joints();
         for (order, one) in found.iter().enumerate() {
             let slot = match one.name {
                 PostureName::Branch(branch) if named => Branch::ALL.iter().position(|other| *other == branch),
@@ -69,8 +70,12 @@ impl OneByOne<'_> {
                 let tcp = pose.translation.vector.into();
                 self.arm_state.set_frames(&one.joints, &self.frames, &tcp);
                 let wrist = margins.wrist.max(margins.margin);
-                if is_singular(named, one, self.arm_state.screws(), wrist)
-                    || elbow_bend(arm.robot, &self.frames) < margins.margin.sin()
+                if is_singular(
+                    named,
+                    one,
+                    self.arm_state.screws().get(rail..).unwrap_or_default(),
+                    wrist,
+                ) || elbow_bend(arm.robot, &self.frames) < margins.margin.sin()
                 {
                     PostureStatus::Singular
                 } else {
@@ -104,7 +109,7 @@ impl OneByOne<'_> {
 }
 
 /// Whether a posture is nearer to a singularity than allowed: of an arm with branch names by the angle between axes 4
-/// and 6, of others by its flag.
+/// and 6, of others by its flag. `screws` are those of the arm, without its rail.
 fn is_singular(named: bool, found: &InverseSolution, screws: &[Twist], wrist: f64) -> bool {
     match (found.singularity, screws) {
         (Some(Singularity::Elbow | Singularity::Shoulder), _) => true,

@@ -33,6 +33,11 @@ impl WholeColumns {
         })
     }
 
+    /// Moves the rail, if there is one, to its positions in `home`, rad (m).
+    pub fn set_home(&mut self, home: Option<&[f64]>) {
+        self.lanes.set_home(home);
+    }
+
     /// Fills `out`, which is clear.
     pub fn fill(
         &mut self,

@@ -221,6 +221,7 @@ impl GeneralPlacer<'_> {
             lanes,
             tolerance,
         } = self;
+        columns.set_rail(placement.rail);
         if let Some(lanes) = lanes {
             return lanes.evaluate(Placed { path, placement }, open, columns, keep);
         }
@@ -229,7 +230,6 @@ impl GeneralPlacer<'_> {
             // A single result: the best posture at each point.
             open = std::array::from_fn(|slot| slot == 0);
         }
-        columns.set_rail(placement.rail);
         let unspun = SpunPlacement {
             placement,
             spins: &[0.0],

@@ -4,7 +4,7 @@ use super::*;
 use crate::arms::{self, Stream};
 use crate::frame::Isometry;
 use crate::kernel::path_on_part::{PathWrenches, PlacedPoint, WrenchAxes};
-use crate::kernel::tests::subjects;
+use crate::kernel::tests::{joints, subjects};
 use crate::source::StiffnessModel;
 use crate::spatial::Wrench;
 
@@ -49,14 +49,18 @@ fn path(random: &mut Stream, [turned, each]: [bool; 2], wrench_axes: WrenchAxes)
     PlacedPath::new(points, pushes)
 }
 
-/// A placement whose first point has joint positions within their limits.
+/// A placement whose first point has joint positions within their limits, that of a rail included.
 fn within_reach(
     random: &mut Stream,
     robot: &crate::robot::Robot,
     tool: &Isometry,
     path: &PlacedPath,
 ) -> PartPlacement {
-    let joints = random.joints(robot);
+    let mut joints = joints(random, robot);
+    let rail = robot.slides(0).then(|| random.between(-1.0, 5.0));
+    if let Some(rail) = rail {
+        joints[0] = rail;
+    }
     let pose = crate::robot::forward::forward(robot, &joints).base_from_flange;
     let base_from_flange = Isometry::from_parts(
         pose.translation,
@@ -65,7 +69,7 @@ fn within_reach(
     PartPlacement {
         base_from_part: base_from_flange * tool * path.points[0].part_from_tool.inverse(),
         spin: 0.0,
-        rail: None,
+        rail,
     }
 }
 

@@ -44,7 +44,8 @@ impl WholePlacer {
     }
 
     /// Totals of each open branch over the points of `path`; a branch is given up as soon as `keep` returns false for
-    /// its totals so far. `rest` computes the points that lanes cannot decide.
+    /// its totals so far. `rest` computes the points that lanes cannot
+    /// decide, and has the rail where it is.
     pub fn evaluate(
         &mut self,
         placed: Placed<'_>,
@@ -53,6 +54,7 @@ impl WholePlacer {
         mut keep: impl FnMut(&PathTotals) -> bool,
     ) -> [Option<PathTotals>; SLOTS] {
         let path = placed.path;
+        self.lanes.set_home(rest.home());
         let mut totals = [PathTotals::default(); SLOTS];
         for first in (0..path.len()).step_by(POINTS) {
             let last = path.len().min(first + POINTS);

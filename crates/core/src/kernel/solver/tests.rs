@@ -5,6 +5,7 @@ use super::*;
 use crate::arms;
 use crate::kernel::Answers;
 use crate::robot::inverse::Inverse;
+use crate::robot::joint::Coupling;
 use crate::source::StiffnessModel;
 
 /// The answers at these poses, with or without lanes.
@@ -34,10 +35,18 @@ fn lanes_and_single_points_agree_for_every_arm() {
         .into_iter()
         .chain(calibrated(1e-6))
         .chain(calibrated(3e-3));
-    for robot in all.chain(collaborative).chain(off) {
+    let railed = [
+        arms::kr120(),
+        arms::hung(),
+        arms::other::ur10e(),
+        arms::other::calibrated(&arms::tx2_90(), 1e-4),
+    ];
+    let railed = railed.each_ref().map(arms::other::on_rail);
+    let twice = arms::other::on_rail(&railed[0]);
+    for robot in all.chain(collaborative).chain(off).chain(railed).chain([twice]) {
         let poses = poses(&robot, 190, 11);
         // A descent ends within 1e-12 of the pose, which the condition of the Jacobian multiplies.
-        let exact = matches!(robot.inverse(), Inverse::Closed(_));
+        let exact = matches!(robot.inverse().of_arm(), Inverse::Closed(_));
         let accuracy = if exact { 1e-11 } else { 2e-10 };
         for choice in [NOMINAL, BranchChoice::Best] {
             analysis(&robot, StiffnessModel::DRIVES, choice, |question| {
@@ -100,12 +109,62 @@ fn what_lanes_do_not_know_goes_the_general_way() {
             assert_eq!(solver.lanes.is_some(), in_lanes);
         });
     }
-    let railed = arms::other::on_rail(&arms::ALL[0]);
-    analysis(&railed, StiffnessModel::DRIVES, NOMINAL, |question| {
-        assert!(
-            Solver::new(question, Order::Any, AnswerDetail::Shares)
-                .lanes
-                .is_none()
-        );
+    // The branches of the first have no names, those of the second depend on where its rail is.
+    let coupled = arms::other::on_rail(&arms::ALL[0]);
+    let mut joints = coupled.joints().to_vec();
+    joints[2].coupling.push(Coupling {
+        joint: 0,
+        factor: 0.1,
     });
+    let coupled = Robot::new("coupled", coupled.chain().motions().to_vec(), joints).unwrap();
+    let compliance = vec![arms::ALL[0].compliance().unwrap()[0]; 7];
+    let coupled = coupled.with_compliance(compliance).unwrap();
+    for robot in [&arms::other::iiwa14(), &coupled] {
+        analysis(robot, StiffnessModel::DRIVES, NOMINAL, |question| {
+            assert!(
+                Solver::new(question, Order::Any, AnswerDetail::Shares)
+                    .lanes
+                    .is_none()
+            );
+        });
+    }
+}
+
+#[test]
+fn a_rail_outside_its_range_and_one_at_home_agree_with_single_points() {
+    let robot = arms::other::on_rail(&arms::mh12());
+    let mut home = robot.home(None);
+    for at in [0.3, 5.5] {
+        home[0] = at;
+        let poses = poses(&robot, 190, 5);
+        let moved: Vec<Isometry> = poses
+            .iter()
+            .map(|pose| Isometry::translation(0.0, at - 2.0, 0.0) * pose)
+            .collect();
+        for choice in [NOMINAL, BranchChoice::Best] {
+            analysis(&robot, StiffnessModel::DRIVES, choice, |question| {
+                let question = Question {
+                    home: Some(&home),
+                    ..*question
+                };
+                let found =
+                    crate::kernel::evaluate(&question, moved.len(), |i| moved[i], Watch::NONE).unwrap();
+                let mut general = General::new(&question, AnswerDetail::Shares);
+                let mut reached = 0;
+                for (pose, found) in moved.iter().zip(&found.points) {
+                    let expected = general.answer(&question, pose, None);
+                    general.forget();
+                    let (Ok(a), Ok(b)) = (found, &expected) else {
+                        assert_eq!(*found, expected);
+                        continue;
+                    };
+                    reached += 1;
+                    assert_eq!((a.name, a.limit_joint), (b.name, b.limit_joint), "{at}");
+                    assert!((a.limit_margin - b.limit_margin).abs() < 1e-9, "{at}");
+                    assert!((a.in_plane - b.in_plane).abs() < 1e-9 * b.full, "{at}");
+                }
+                assert_eq!(reached > 100, at < 5.0 || choice == NOMINAL, "{at} {reached}");
+            });
+        }
+    }
 }

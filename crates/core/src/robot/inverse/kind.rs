@@ -11,11 +11,12 @@
 
 use std::fmt;
 
-use super::super::chain::{Chain, Motion};
+use super::super::chain::{Amount, Chain, Motion};
 use super::closed_form::ClosedForm;
 use super::fixed_joint::FixedJoint;
 use super::ortho_parallel::OrthoParallel;
 use super::spherical_wrist::SphericalWrist;
+use crate::frame::Isometry;
 
 /// How the postures of a chain are found.
 #[derive(Clone, Debug)]
@@ -45,6 +46,33 @@ pub struct Rail {
     pub(super) chain: Chain,
     /// The inverse of that chain; never itself a rail.
     pub(super) inverse: Inverse,
+}
+
+impl Rail {
+    /// Number of prismatic joints.
+    pub(crate) fn joints(&self) -> usize {
+        self.joints
+    }
+
+    /// The chain on the rail.
+    pub(crate) fn chain(&self) -> &Chain {
+        &self.chain
+    }
+
+    /// Frame of the rail's end for the chain position `theta` of each joint, rad (m).
+    pub(crate) fn base_from_arm(&self, theta: impl Fn(usize) -> f64) -> Isometry {
+        end_of(&self.motions, theta)
+    }
+}
+
+/// Frame at the end of the `motions` of a rail for the chain position `theta` of each joint, rad (m).
+pub(super) fn end_of(motions: &[Motion], theta: impl Fn(usize) -> f64) -> Isometry {
+    let amount = |motion: &Motion| match motion.amount() {
+        Amount::Constant(value) => value,
+        Amount::Joint(joint) => theta(joint),
+    };
+    let displacements = motions.iter().map(|motion| motion.displacement(amount(motion)));
+    displacements.fold(Isometry::identity(), |end, displacement| end * displacement)
 }
 
 /// Joints needed for any pose: further ones are redundant.
@@ -89,10 +117,18 @@ impl Inverse {
     }
 
     /// The inverse of the arm itself, without a rail.
-    pub(super) fn of_arm(&self) -> &Inverse {
+    pub(crate) fn of_arm(&self) -> &Inverse {
         match self {
             Inverse::OnRail(rail) => &rail.inverse,
             own => own,
+        }
+    }
+
+    /// Number of prismatic joints that carry the arm.
+    pub(crate) fn rail_joints(&self) -> usize {
+        match self {
+            Inverse::OnRail(rail) => rail.joints,
+            _ => 0,
         }
     }
 

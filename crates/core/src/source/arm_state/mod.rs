@@ -337,8 +337,9 @@ impl<'a> ArmState<'a> {
         Some((weight.sag.as_ref()?[k], weight.at_reference.as_ref()?[k]))
     }
 
-    /// Displacement by gravity of each drive and spring, and the same per unit of compliance.
-    fn sagging(&self) -> Option<Vec<(Twist, Vector3<f64>)>> {
+    /// Displacement by gravity of each drive and spring, and the same per unit of compliance, m; none without gravity, or
+    /// where the arm has no equilibrium.
+    pub(crate) fn sagging(&self) -> Option<Vec<(Twist, Vector3<f64>)>> {
         let sag = self.weight.as_ref()?.sag.as_ref()?;
         let each = |(k, sag): (usize, &f64)| {
             let grown = self

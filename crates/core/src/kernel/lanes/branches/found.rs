@@ -18,7 +18,7 @@ pub(in crate::kernel::lanes) mod state {
 pub(in crate::kernel::lanes) struct BranchPlanes {
     /// Joint positions, rad, one plane per joint.
     pub joints: Vec<Plane<f64>>,
-    /// Smallest distance to a joint limit, and the joint.
+    /// Smallest distance to a joint limit, and the joint, without those of a rail, which do not count either.
     pub margin: Plane<f64>,
     pub nearest: Plane<f64>,
     /// One of [`state`].

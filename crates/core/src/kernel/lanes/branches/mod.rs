@@ -1,5 +1,5 @@
 //! The named branches of arms that are not exactly ortho-parallel, in lanes: three parallel axes, calibrated arms; and
-//! exact ortho-parallel ones for models with more than the drives.
+//! exact ortho-parallel ones for models with more than the drives; each also on a rail.
 //!
 //! A closed form gives the chain positions of one branch of a block of poses. Of a calibrated arm they are starting
 //! values: Newton's iteration on its own chain follows. Names and singularities come from the chain positions, joint
@@ -7,13 +7,14 @@
 //! use them, with the frames that they need anyway.
 //!
 //! In reading order: `found` (a solved branch), `target` (requested flange poses), `ortho_parallel` and `three_parallel`
-//! (closed forms), `newton`, `name`, `position` (joint positions and margins). [`BranchSolver`] runs them.
+//! (closed forms), `newton`, `name`, `position` (joint positions and margins), `rail`. [`BranchSolver`] runs them.
 
 mod found;
 mod name;
 mod newton;
 mod ortho_parallel;
 mod position;
+mod rail;
 mod target;
 mod three_parallel;
 
@@ -23,10 +24,12 @@ use crate::kernel::question::Question;
 use crate::numbers::{BLOCK, Backend, Plane};
 use crate::robot::inverse::{ClosedForm, Inverse};
 use crate::robot::{Branch, Robot};
+use crate::source::Arm;
 use name::{CheckNames, NameConstants};
 use newton::Newton;
 use ortho_parallel::OrthoParallelBlock;
 use position::{JointRows, TakePositions};
+use rail::{RailBlock, arm_on};
 use target::set_targets;
 use three_parallel::ThreeParallelBlock;
 
@@ -42,7 +45,13 @@ pub(in crate::kernel::lanes) struct BranchSolver {
     /// Of a calibrated arm.
     newton: Option<Box<Newton>>,
     rows: JointRows,
+    /// What carries the arm.
+    rail: Option<Box<RailBlock>>,
+    /// The requested flange poses in base, and as seen from an arm on a rail.
     targets: Box<FramePlanes<f64>>,
+    seen: Option<Box<FramePlanes<f64>>>,
+    /// Memory for tool poses as seen from an arm on a rail.
+    poses: Vec<Isometry>,
     theta: Vec<Plane<f64>>,
     found: BranchPlanes,
 }
@@ -54,8 +63,29 @@ enum Form {
 }
 
 impl BranchSolver {
-    /// For the robot of `question`; none if its branches have no names, or if it is on a rail.
+    /// For the robot of `question`; none if its branches have no names, or depend on the position of its rail.
     pub fn of(question: &Question<'_>, backend: Backend) -> Option<BranchSolver> {
+        let robot = question.arm.robot;
+        let Inverse::OnRail(rail) = robot.inverse() else {
+            return BranchSolver::of_arm(question, backend);
+        };
+        let question = Question {
+            arm: Arm {
+                robot: &arm_on(rail, robot)?,
+                ..question.arm
+            },
+            ..*question
+        };
+        let mut solver = BranchSolver::of_arm(&question, backend)?;
+        solver.seen = Some(Box::new(FramePlanes::unknown()));
+        solver.found = BranchPlanes::of(robot.joints().len());
+        solver.rail = Some(Box::new(RailBlock::of(robot, rail, question.home)));
+        solver.put_rail();
+        Some(solver)
+    }
+
+    /// For an arm without a rail.
+    fn of_arm(question: &Question<'_>, backend: Backend) -> Option<BranchSolver> {
         let robot: &Robot = question.arm.robot;
         let (form, exact) = match robot.inverse() {
             Inverse::Closed(form) => (form, true),
@@ -73,28 +103,72 @@ impl BranchSolver {
             },
             newton: (!exact).then(|| Box::new(Newton::of(robot.chain()))),
             rows: JointRows::of(robot),
+            rail: None,
             targets: Box::new(FramePlanes::unknown()),
+            seen: None,
+            poses: Vec::new(),
             theta: vec![[0.0; BLOCK]; robot.joints().len()],
             found: BranchPlanes::of(robot.joints().len()),
         })
     }
 
-    /// Sets the poses, at most a block; the remaining lanes repeat the last.
-    pub fn aim_at(&mut self, poses: &[Isometry], tool_from_flange: &Isometry) {
-        set_targets(poses, tool_from_flange, &mut self.targets);
-        match &mut self.form {
-            Form::OrthoParallel(form) => form.aim_at(poses),
-            Form::ThreeParallel(form) => form.aim_at(&self.targets, self.backend),
+    /// Moves the rail, if there is one, to its positions in `home`, rad (m); without that to the middle of its range.
+    pub fn set_home(&mut self, home: Option<&[f64]>) {
+        if let Some(rail) = &mut self.rail {
+            rail.set_home(home);
+            self.put_rail();
         }
     }
 
-    /// The requested flange poses.
+    fn put_rail(&mut self) {
+        let positions = self.rail.iter().flat_map(|rail| &rail.positions);
+        for (plane, position) in self.found.joints.iter_mut().zip(positions) {
+            plane.fill(*position);
+        }
+    }
+
+    /// Number of joints of the rail.
+    pub fn first(&self) -> usize {
+        self.rail.as_ref().map_or(0, |rail| rail.positions.len())
+    }
+
+    /// The joint of the rail that is nearest to a limit, and its distance, m; branches do not contain it.
+    pub fn rail_margin(&self) -> Option<(usize, f64)> {
+        self.rail.as_ref()?.margin
+    }
+
+    /// Whether the rail, if there is one, is inside its range.
+    pub fn rail_is_inside(&self) -> bool {
+        self.rail.as_ref().is_none_or(|rail| rail.is_inside())
+    }
+
+    /// Sets the poses, at most a block; the remaining lanes repeat the last.
+    pub fn aim_at(&mut self, poses: &[Isometry], tool_from_flange: &Isometry) {
+        set_targets(poses, tool_from_flange, &mut self.targets);
+        let (poses, targets) = match (&self.rail, &mut self.seen) {
+            (Some(rail), Some(seen)) => {
+                self.poses.clear();
+                self.poses
+                    .extend(poses.iter().map(|pose| rail.arm_from_base * pose));
+                set_targets(&self.poses, tool_from_flange, seen);
+                (&*self.poses, &*seen)
+            }
+            _ => (poses, &self.targets),
+        };
+        match &mut self.form {
+            Form::OrthoParallel(form) => form.aim_at(poses),
+            Form::ThreeParallel(form) => form.aim_at(targets, self.backend),
+        }
+    }
+
+    /// The requested flange poses, base.
     pub fn targets(&self) -> &FramePlanes<f64> {
         &self.targets
     }
 
     /// Solves this branch at every pose.
     pub fn solve(&mut self, branch: Branch) -> &BranchPlanes {
+        let first = self.first();
         let BranchSolver {
             backend,
             form,
@@ -102,13 +176,15 @@ impl BranchSolver {
             newton,
             rows,
             targets,
+            seen,
             theta,
             found,
+            ..
         } = self;
         match form {
             Form::OrthoParallel(form) if newton.is_none() => {
                 form.solve(branch);
-                form.copy_to(branch, found);
+                form.copy_to(branch, first, found);
                 return found;
             }
             Form::OrthoParallel(form) => {
@@ -118,6 +194,7 @@ impl BranchSolver {
             Form::ThreeParallel(form) => form.solve(branch, *backend, theta, &mut found.state),
         }
         if let Some(newton) = newton {
+            let targets = seen.as_ref().unwrap_or(targets);
             newton.reach(*backend, targets, theta, &mut found.state);
         }
         backend.run(CheckNames {
@@ -127,7 +204,12 @@ impl BranchSolver {
             state: &mut found.state,
             singularity: &mut found.singularity,
         });
-        backend.run(TakePositions { rows, theta, found });
+        backend.run(TakePositions {
+            rows,
+            theta,
+            first,
+            found,
+        });
         found
     }
 }

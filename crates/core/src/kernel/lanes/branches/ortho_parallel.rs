@@ -53,11 +53,12 @@ impl OrthoParallelBlock {
         }
     }
 
-    /// Copies the solved branch of an exact arm.
-    pub fn copy_to(&self, branch: Branch, found: &mut BranchPlanes) {
+    /// Copies the solved branch of an exact arm whose joints begin at `first`.
+    pub fn copy_to(&self, branch: Branch, first: usize, found: &mut BranchPlanes) {
         let solved = self.batch.solved();
         let flip = usize::from(branch.wrist == Wrist::Flip);
-        for (joint, from) in found.joints.iter_mut().zip(&solved.positions.joints[flip]) {
+        let joints = found.joints.iter_mut().skip(first);
+        for (joint, from) in joints.zip(&solved.positions.joints[flip]) {
             joint.clone_from(from);
         }
         found.margin.clone_from(&solved.positions.room[flip]);

@@ -46,6 +46,8 @@ impl JointRows {
 pub(super) struct TakePositions<'a> {
     pub rows: &'a JointRows,
     pub theta: &'a [Plane<f64>],
+    /// Index of the first joint that has a row.
+    pub first: usize,
     pub found: &'a mut BranchPlanes,
 }
 
@@ -58,6 +60,7 @@ impl Work<f64> for TakePositions<'_> {
             nearest,
             ..
         } = self.found;
+        let joints = &mut joints[self.first..];
         let mut joint = 0;
         while joint < joints.len() {
             let counting = Counting::<R>::of(self.rows.rows[joint], &self.rows.coupling[joint], joint);

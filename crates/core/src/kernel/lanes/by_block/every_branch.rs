@@ -71,7 +71,8 @@ impl EveryBranch {
         for (branch, found) in Branch::ALL.into_iter().zip(&self.found) {
             if found.state[index] == state::REACHED {
                 joints.extend(found.joints.iter().map(|plane| plane[index]));
-                visit(branch, found.margin[index] >= -AT_LIMIT);
+                let inside = found.margin[index] >= -AT_LIMIT && self.solver.rail_is_inside();
+                visit(branch, inside);
             }
         }
     }

@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 use crate::frame::Isometry;
 use crate::kernel::answer::AT_LIMIT;
 use crate::kernel::lanes::branches::{BranchPlanes, BranchSolver, find_missed, state};
-use crate::kernel::lanes::whole::{FramePlanes, ResponsePlanes, StillPlanes, WholeModel, under};
+use crate::kernel::lanes::whole::{FramePlanes, ResponsePlanes, TakeRoot, WholeModel, under};
 use crate::kernel::question::Question;
 use crate::numbers::{BLOCK, Backend, Float, Plane, Planes, Real, Vector, Work, planes, vector};
 use crate::robot::inverse::OrthoParallel;
@@ -122,6 +122,11 @@ impl LoadedBranches {
         })
     }
 
+    /// Moves the rail, if there is one: see [`BranchSolver::set_home`].
+    pub fn set_home(&mut self, home: Option<&[f64]>) {
+        self.branches.set_home(home);
+    }
+
     /// Sets the tool poses, at most a block.
     pub fn aim_at(&mut self, poses: &[Isometry], loads: &PointLoads) {
         self.branches.aim_at(poses, &self.tool_from_flange);
@@ -152,28 +157,18 @@ impl LoadedBranches {
             model.respond::<false, false>();
         }
         backend.run(find_missed(branches.targets(), model.flange(), missed));
-        let (frames, axis) = (model.frames(), |joint| model.axis(joint));
+        let first = branches.first();
+        let axis = |joint: usize| model.axis(first + joint);
         backend.run(FindSines {
-            frames,
+            frames: &model.frames()[first..],
             axes: [axis(1), axis(3), axis(5)],
             elbow: elbow.as_ref(),
             sines,
         });
-        let (response, still) = model.response();
         if self.moments {
-            backend.run(Largest::<f64, true> {
-                response,
-                still,
-                loads,
-                deviation,
-            });
+            find_largest::<true>(*backend, model, loads, deviation);
         } else {
-            backend.run(Largest::<f64, false> {
-                response,
-                still,
-                loads,
-                deviation,
-            });
+            find_largest::<false>(*backend, model, loads, deviation);
         }
     }
 
@@ -185,9 +180,9 @@ impl LoadedBranches {
         let flagged = found.singularity[i] >= 2.0;
         if found.state[i] == state::UNREACHED {
             BranchStatus::OutOfReach
-        } else if found.state[i] == state::UNDECIDED || self.missed[i] != 0.0 {
+        } else if found.state[i] == state::UNDECIDED || self.missed[i] != 0.0 || !self.model.is_stable(i) {
             BranchStatus::Undecided
-        } else if found.margin[i] < limits - AT_LIMIT {
+        } else if found.margin[i] < limits - AT_LIMIT || !self.branches.rail_is_inside() {
             BranchStatus::OutsideLimits
         } else if flagged || wrist_sine[i] < wrist.max(limits).sin() || elbow_sine[i] < limits.sin() {
             BranchStatus::Singular
@@ -209,6 +204,7 @@ impl LoadedBranches {
 
 /// Fills the sine of the angle between axes 4 and 6, and of that between upper arm and forearm; 1 without elbow.
 struct FindSines<'a, T> {
+    /// Those of the arm, from what carries it to the tool.
     frames: &'a [FramePlanes<T>],
     /// Axes of joints 2, 4 and 6 in their own frames.
     axes: [usize; 3],
@@ -259,40 +255,54 @@ impl<T: Float> Work<T> for FindSines<'_, T> {
 }
 
 /// Fills the largest selected component of the deviation over the load cases, m.
-struct Largest<'a, T, const MOMENTS: bool> {
-    response: &'a ResponsePlanes<T>,
-    still: &'a StillPlanes<T>,
-    loads: &'a PointLoads,
-    deviation: &'a mut Plane<T>,
+fn find_largest<const MOMENTS: bool>(
+    backend: Backend,
+    model: &mut WholeModel,
+    loads: &PointLoads,
+    deviation: &mut Plane<f64>,
+) {
+    deviation.fill(0.0);
+    for wrench in &loads.cases {
+        model.load::<MOMENTS>(wrench);
+        let (response, rest) = model.response();
+        backend.run(TakeLarger::<f64, MOMENTS> {
+            response,
+            rest,
+            wrench,
+            along: &loads.along,
+            square: deviation,
+        });
+    }
+    backend.run(TakeRoot { of: deviation });
 }
 
-impl<const MOMENTS: bool> Work<f64> for Largest<'_, f64, MOMENTS> {
+/// Takes the square of the selected component under one load case where it is larger than that so far, m^2.
+struct TakeLarger<'a, T, const MOMENTS: bool> {
+    response: &'a ResponsePlanes<T>,
+    rest: &'a Planes<T, 3>,
+    wrench: &'a Planes<T, 6>,
+    along: &'a Planes<T, 6>,
+    square: &'a mut Plane<T>,
+}
+
+impl<T: Float, const MOMENTS: bool> Work<T> for TakeLarger<'_, T, MOMENTS> {
     #[inline(always)]
-    fn run<R: Real<Float = f64>>(self) {
-        let Largest {
+    fn run<R: Real<Float = T>>(self) {
+        let TakeLarger {
             response,
-            still,
-            loads,
-            deviation,
+            rest,
+            wrench,
+            along,
+            square,
         } = self;
         for i in 0..BLOCK {
             R::step();
-            deviation[i] = 0.0;
-        }
-        for case in &loads.cases {
-            for i in 0..BLOCK {
-                R::step();
-                let (force, moment) = (vector::<R>(&case[0..3], i), vector::<R>(&case[3..6], i));
-                let delta = under::<R, MOMENTS>(response, still, force, moment, i);
-                let a = delta.dot(vector::<R>(&loads.along[0..3], i));
-                let b = delta.dot(vector::<R>(&loads.along[3..6], i));
-                let size = a.mul_add(a, b * b);
-                deviation[i] = size.max(R::load(deviation[i])).store();
-            }
-        }
-        for i in 0..BLOCK {
-            R::step();
-            deviation[i] = R::load(deviation[i]).sqrt().store();
+            let (force, moment) = (vector::<R>(&wrench[0..3], i), vector::<R>(&wrench[3..6], i));
+            let delta = under::<R, MOMENTS>(response, rest, force, moment, i);
+            let a = delta.dot(vector::<R>(&along[0..3], i));
+            let b = delta.dot(vector::<R>(&along[3..6], i));
+            let size = a.mul_add(a, b * b);
+            square[i] = size.max(R::load(square[i])).store();
         }
     }
 }

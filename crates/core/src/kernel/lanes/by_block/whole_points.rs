@@ -49,11 +49,16 @@ impl<'q> WholePoints<'q> {
         let by_load_alone =
             detail == AnswerDetail::DeviationsAlone || !question.arm.model.has_unloaded_deviation();
         let [first, second] = both_across(&question.normal);
+        let branches = BranchSolver::of(question, backend)?;
+        // The best posture outside the range of a rail has none: the reason is stated one point after the other.
+        if question.choice == BranchChoice::Best && !branches.rail_is_inside() {
+            return None;
+        }
         Some(WholePoints {
             question,
             backend,
             tool_from_flange: question.arm.flange_from_tool.inverse(),
-            branches: BranchSolver::of(question, backend)?,
+            branches,
             answers: WholeAnswers::with(question.cases.len(), model.contributors()),
             model,
             plane: [first, second, question.normal.into_inner()],
@@ -87,6 +92,7 @@ impl<'q> WholePoints<'q> {
                 }
             }
         }
+        self.count_rail();
         self.model.set_joints(&self.best.posture.joints);
         self.verify();
         self.model.answer(
@@ -109,14 +115,16 @@ impl<'q> WholePoints<'q> {
             .envelope(self.question.cases, &self.plane, &mut self.answers);
         let (in_plane, best) = (&self.answers.worst.in_plane, &mut self.best);
         for i in 0..BLOCK {
-            best.undecided(found.state[i], i);
+            let reached = found.state[i] == state::REACHED;
+            let unknown = reached && !self.model.is_stable(i);
+            best.undecided(if unknown { state::UNDECIDED } else { found.state[i] }, i);
             let flips_the_best = index % 2 == 1 && usize::from(best.branch[i]) == index - 1;
             let less = if self.flips_are_alike && flips_the_best && best.score[i].is_finite() {
                 found.margin[i].min(NO_LIMIT) > best.posture.margin[i].min(NO_LIMIT)
             } else {
                 in_plane[i] < best.score[i] * (1.0 - ALIKE)
             };
-            if found.state[i] == state::REACHED && found.margin[i] >= -AT_LIMIT && less {
+            if reached && found.margin[i] >= -AT_LIMIT && less {
                 best.take(index, in_plane[i], found, i);
             }
         }
@@ -130,6 +138,22 @@ impl<'q> WholePoints<'q> {
             let score = -found.margin[i].min(NO_LIMIT);
             if found.state[i] == state::REACHED && score < self.best.score[i] {
                 self.best.take(index, score, found, i);
+            }
+        }
+    }
+
+    /// Takes the joints of a rail into the margins of the chosen postures.
+    fn count_rail(&mut self) {
+        let BranchPlanes { margin, nearest, .. } = &mut self.best.posture;
+        let first = self.branches.first();
+        for nearest in nearest.iter_mut() {
+            *nearest += first as f64;
+        }
+        if let Some((joint, of_rail)) = self.branches.rail_margin() {
+            for (margin, nearest) in margin.iter_mut().zip(nearest) {
+                if of_rail <= *margin {
+                    (*margin, *nearest) = (of_rail, joint as f64);
+                }
             }
         }
     }
@@ -160,7 +184,8 @@ impl<'q> WholePoints<'q> {
             shares: &self.answers.shares,
         };
         solved.write(slots, |i| {
-            let decided = posture.state[i] == state::REACHED && score[i].is_finite() && self.missed[i] == 0.0;
+            let known = self.missed[i] == 0.0 && self.model.is_stable(i);
+            let decided = posture.state[i] == state::REACHED && score[i].is_finite() && known;
             decided.then(|| {
                 let branch = Branch::ALL[usize::from(branch[i])];
                 (branch, singularity(posture.singularity[i]))

@@ -12,6 +12,8 @@ use std::ops::Range;
 use nalgebra::Vector3;
 
 use super::chain::FramePlanes;
+use super::compensator::Compensated;
+use super::curves::Curved;
 use super::model::ModelConstants;
 use super::parts::{PartPlanes, angular};
 use super::sum::StillPlanes;
@@ -47,6 +49,8 @@ pub(in crate::kernel::lanes) struct FindShares<'a, T, const MOMENTS: bool> {
     pub model: &'a ModelConstants,
     pub frames: &'a [FramePlanes<T>],
     pub parts: &'a [PartPlanes<T>],
+    pub curved: Curved<'a, T>,
+    pub compensated: Option<Compensated<'a, T>>,
     pub still: &'a StillPlanes<T>,
     pub plane: &'a [Vector3<f64>; 3],
     pub worst: &'a Worst<T>,
@@ -65,6 +69,8 @@ impl<T: Float, const MOMENTS: bool> Work<T> for FindShares<'_, T, MOMENTS> {
             model,
             frames,
             parts,
+            curved,
+            compensated,
             still,
             plane,
             worst,
@@ -112,6 +118,10 @@ impl<T: Float, const MOMENTS: bool> Work<T> for FindShares<'_, T, MOMENTS> {
                 _ => of_group.add::<R, 3, MOMENTS>(by_unit, share, &mut sums),
             }
             g += 1;
+        }
+        curved.share::<R, MOMENTS>(&worst.wrench, along, shares, &mut sums[0]);
+        if let Some(compensated) = compensated {
+            compensated.share::<R, MOMENTS>(along, by_unit, shares, &mut sums);
         }
         add_correlated::<R>(model, by_unit, &mut sums[1]);
         let (model_error, scatter) = (R::of(model.model_error), R::of(model.repeatability));

@@ -1,37 +1,47 @@
-//! The whole model in lanes: any chain at known joint positions, springs, masses, geometry, thermal growth, backlash.
+//! The whole model in lanes: any chain at known joint positions, springs, torque curves, masses, compensator, geometry,
+//! thermal growth, backlash.
 //!
 //! The same sum as `predict.rs`, a block of points at a time. Loops over parts are outside, loops over points inside:
 //! only the latter become vectors.
 //!
-//! In reading order: `chain` (frames of the links), `model` (constants of an arm and its parts), `parts` (screws and
-//! torques of gravity), `sum` (the displacements), `backlash` (sides of the links), `answer` (the worst case, shares,
-//! uncertainty), `inputs` (uncertainty by load and tool). [`WholeModel`] runs them.
+//! In reading order: `chain` (frames of the links), `curve_angles` and `model` (constants of an arm and its parts),
+//! `parts` (screws and torques of gravity), `compensator` (a spring against gravity), `sum` (the displacements),
+//! `curves` (joints whose stiffness depends on their torque), `backlash` (sides of the links), `answer` (the worst case,
+//! shares, uncertainty), `inputs` (uncertainty by load and tool, in `input_order`), `cases` (all load cases of a
+//! question). [`WholeModel`] runs them.
+//!
+//! Not known: a load-dependent equilibrium, a torque curve on the joint of the compensator, curves of more than 34 pairs,
+//! more than eight joints with backlash. Such arms are computed one point after the other.
 
 mod answer;
 mod backlash;
+mod cases;
 mod chain;
+mod compensator;
+mod curve_angles;
+mod curves;
+mod input_order;
 mod inputs;
 mod model;
 mod parts;
 mod sum;
 
-use nalgebra::Vector3;
-
 use crate::kernel::lanes::load::Worst;
-use crate::load::InputUncertainty;
 use crate::numbers::{BLOCK, Backend, Plane, Planes, planes};
 use crate::source::Arm;
 use crate::spatial::Wrench;
-use answer::{FindShares, TakeCase, TakeRoot};
-use backlash::{CaseOnPlane, GapPlanes, KeepOffsets, ShareBacklash, Worn, gaps_of, settle};
+pub(in crate::kernel::lanes) use answer::TakeRoot;
+use backlash::{GapPlanes, gaps_of};
 use chain::FindTool;
 pub(in crate::kernel::lanes) use chain::{ChainConstants, Displacement, FindFrames, FramePlanes};
-use inputs::AddInputs;
+use compensator::{AddCompensated, CompensatorPlanes, FindCompensation};
+use curves::{AddTurns, CurvePlanes, Curved, FindSag, curves_of};
 use model::ModelConstants;
 pub(in crate::kernel::lanes) use parts::ResponsePlanes;
 use parts::{FindParts, PartPlanes};
-use sum::{AddStill, FindUnloaded, OneCase, OneWrench};
-pub(in crate::kernel::lanes) use sum::{StillPlanes, under};
+use sum::StillPlanes;
+pub(in crate::kernel::lanes) use sum::under;
+use sum::{AddStill, FindUnloaded};
 
 /// An arm with all parts of its model, and memory for a block of points; one per thread.
 #[derive(Clone, Debug)]
@@ -45,6 +55,12 @@ pub(in crate::kernel) struct WholeModel {
     actual: Box<[FramePlanes<f64>; 2]>,
     parts: Vec<PartPlanes<f64>>,
     gaps: Vec<GapPlanes<f64>>,
+    curves: Vec<CurvePlanes<f64>>,
+    compensated: Option<Box<CompensatorPlanes<f64>>>,
+    /// What the response to the current load case does not contain, m, base.
+    rest: Box<Planes<f64, 3>>,
+    /// Memory for a wrench at each point.
+    wrench: Box<Planes<f64, 6>>,
     still: Box<StillPlanes<f64>>,
     along: Planes<f64, 3>,
     response: Box<ResponsePlanes<f64>>,
@@ -102,6 +118,13 @@ impl WholeModel {
             response: Box::new(ResponsePlanes::none()),
             by_unit: vec![[0.0; BLOCK]; model.parts.len()],
             gaps: gaps_of(&model),
+            curves: curves_of(&model),
+            compensated: model
+                .compensator
+                .as_ref()
+                .map(|_| Box::new(CompensatorPlanes::unknown())),
+            rest: Box::new(planes()),
+            wrench: Box::new(planes()),
             model,
             shares,
             backend,
@@ -115,6 +138,7 @@ impl WholeModel {
             backend,
             frames,
             actual,
+            compensated,
             still,
             ..
         } = self;
@@ -133,6 +157,14 @@ impl WholeModel {
                 joints,
                 tool,
                 before,
+            });
+        }
+        if let (Some(constants), Some(out)) = (&model.compensator, compensated.as_deref_mut()) {
+            backend.run(FindCompensation {
+                model,
+                constants,
+                joints,
+                out,
             });
         }
         if model.geometry.is_some() || model.growth.is_some() {
@@ -156,9 +188,22 @@ impl WholeModel {
         self.model.chain.axis(index).0
     }
 
-    /// The response of the tool, and its displacement without load, after [`WholeModel::respond`].
-    pub(in crate::kernel::lanes) fn response(&self) -> (&ResponsePlanes<f64>, &StillPlanes<f64>) {
-        (&self.response, &self.still)
+    /// The response of the tool to the wrench of [`WholeModel::load`], and the displacement that it does not contain,
+    /// m, base.
+    pub(in crate::kernel::lanes) fn response(&self) -> (&ResponsePlanes<f64>, &Planes<f64, 3>) {
+        let rest = if self.curves.is_empty() {
+            &self.still.sum
+        } else {
+            &*self.rest
+        };
+        (&self.response, rest)
+    }
+
+    /// Whether lanes know an equilibrium of point `i` at the joint positions set.
+    pub(in crate::kernel::lanes) fn is_stable(&self, i: usize) -> bool {
+        self.compensated
+            .as_ref()
+            .is_none_or(|compensated| compensated.unstable[i] == 0.0)
     }
 
     /// Whether a joint has backlash, which the response does not contain.
@@ -173,11 +218,21 @@ impl WholeModel {
 
     /// Computes the response of the tool; that to moments only if `MOMENTS`, its parts if `PARTS`.
     pub(in crate::kernel::lanes) fn respond<const MOMENTS: bool, const PARTS: bool>(&mut self) {
+        if PARTS || self.compensated.is_some() || !self.curves.is_empty() {
+            self.add_up::<MOMENTS, true>();
+        } else {
+            self.add_up::<MOMENTS, false>();
+        }
+    }
+
+    fn add_up<const MOMENTS: bool, const PARTS: bool>(&mut self) {
         let WholeModel {
             model,
             backend,
             frames,
             parts,
+            curves,
+            compensated,
             response,
             still,
             ..
@@ -188,188 +243,65 @@ impl WholeModel {
             parts,
             response,
         });
+        if let (Some(constants), Some(compensated)) = (&model.compensator, compensated) {
+            backend.run(AddCompensated::<f64, MOMENTS> {
+                model,
+                constants,
+                compensated,
+                frames,
+                parts,
+                response,
+            });
+        }
         backend.run(AddStill {
             model,
             response,
             still,
         });
-    }
-}
-
-impl WholeModel {
-    /// Number of contributors.
-    pub(in crate::kernel::lanes) fn contributors(&self) -> usize {
-        self.model.contributors
-    }
-
-    /// Deviations under these wrenches (at the TCP, base) and the worst case; `plane` is two directions across the
-    /// normal, then the normal, base.
-    pub(in crate::kernel::lanes) fn envelope(
-        &mut self,
-        cases: &[Wrench],
-        plane: &[Vector3<f64>; 3],
-        out: &mut WholeAnswers,
-    ) {
-        if have_moments(cases) {
-            self.envelope_of::<true, false>(cases, plane, out);
-        } else {
-            self.envelope_of::<false, false>(cases, plane, out);
-        }
-    }
-
-    /// The envelope; with the parts and the offsets of links that shares need if `DETAILS`.
-    fn envelope_of<const MOMENTS: bool, const DETAILS: bool>(
-        &mut self,
-        cases: &[Wrench],
-        plane: &[Vector3<f64>; 3],
-        out: &mut WholeAnswers,
-    ) {
-        if DETAILS || !self.gaps.is_empty() {
-            self.respond::<MOMENTS, true>();
-        } else {
-            self.respond::<MOMENTS, false>();
-        }
-        let WholeModel {
-            model,
-            backend,
-            frames,
-            parts,
-            gaps,
-            response,
-            still,
-            ..
-        } = self;
-        let WholeAnswers {
-            deviations, worst, ..
-        } = out;
-        for (case, (wrench, deviation)) in cases.iter().zip(deviations).enumerate() {
-            if gaps.is_empty() {
-                backend.run(OneCase::<f64, MOMENTS> {
-                    response,
-                    still,
-                    cases: case..cases.len(),
-                    wrench,
-                    plane,
-                    deviation,
-                    worst,
-                });
-                continue;
-            }
-            backend.run(OneWrench::<f64, MOMENTS> {
-                response,
+        if !curves.is_empty() {
+            backend.run(FindSag {
+                model,
+                parts,
+                curves,
                 still,
-                wrench,
-                deviation,
             });
-            let on_plane = CaseOnPlane { case, wrench, plane };
-            let arm = Worn {
-                model,
-                frames,
-                parts,
-                gaps,
-            };
-            settle::<DETAILS>(*backend, arm, on_plane, deviation);
-            backend.run(TakeCase {
-                cases: case..cases.len(),
-                force: wrench.force,
-                moment: wrench.moment,
-                plane,
-                deviation,
-                worst,
-            });
-            if DETAILS {
-                backend.run(KeepOffsets {
-                    model,
-                    case,
-                    worst,
-                    gaps,
-                });
+        }
+    }
+
+    /// Prepares the response to these wrenches (at the TCP, base), after [`WholeModel::respond`]; their moments act only
+    /// if `MOMENTS`.
+    pub(in crate::kernel::lanes) fn load<const MOMENTS: bool>(&mut self, wrench: &Planes<f64, 6>) {
+        if !self.curves.is_empty() {
+            *self.wrench = *wrench;
+            self.turn::<MOMENTS>();
+        }
+    }
+
+    /// [`WholeModel::load`] with the same wrench at every point.
+    fn load_all<const MOMENTS: bool>(&mut self, wrench: &Wrench) {
+        if !self.curves.is_empty() {
+            let values = wrench.force.iter().chain(wrench.moment.iter());
+            for (plane, value) in self.wrench.iter_mut().zip(values) {
+                plane.fill(*value);
             }
+            self.turn::<MOMENTS>();
         }
     }
 
-    /// [`WholeModel::envelope`] with shares and uncertainty, that of load and tool included.
-    pub(in crate::kernel::lanes) fn answer(
-        &mut self,
-        cases: &[Wrench],
-        plane: &[Vector3<f64>; 3],
-        inputs: &InputUncertainty,
-        out: &mut WholeAnswers,
-    ) {
-        if have_moments(cases) {
-            self.answer_of::<true>(cases, plane, inputs, out);
-        } else {
-            self.answer_of::<false>(cases, plane, inputs, out);
-        }
-    }
-
-    fn answer_of<const MOMENTS: bool>(
-        &mut self,
-        cases: &[Wrench],
-        plane: &[Vector3<f64>; 3],
-        inputs: &InputUncertainty,
-        out: &mut WholeAnswers,
-    ) {
-        self.envelope_of::<MOMENTS, true>(cases, plane, out);
-        if !self.shares {
-            return;
-        }
-        let WholeModel {
-            model,
-            backend,
-            frames,
-            parts,
-            gaps,
-            response,
-            still,
-            along,
-            by_unit,
-            ..
-        } = self;
-        let WholeAnswers {
-            worst,
-            shares,
-            uncertainty: variance,
-            ..
-        } = out;
-        backend.run(FindShares::<f64, MOMENTS> {
-            model,
-            frames,
-            parts,
-            still,
-            plane,
-            worst,
-            along,
-            by_unit,
-            shares,
-            variance,
+    /// Adds what joints with torque curves do under the wrench in memory to the displacement without load.
+    fn turn<const MOMENTS: bool>(&mut self) {
+        *self.rest = self.still.sum;
+        self.backend.run(AddTurns::<f64, MOMENTS> {
+            arm: Curved {
+                model: &self.model,
+                frames: &self.frames,
+                parts: &self.parts,
+                curves: &self.curves,
+            },
+            wrench: &self.wrench,
+            sum: &mut self.rest,
         });
-        backend.run(ShareBacklash {
-            model,
-            parts,
-            gaps,
-            along,
-            shares,
-            variance,
-        });
-        if !inputs.is_none() {
-            backend.run(AddInputs::<f64, MOMENTS> {
-                model,
-                inputs,
-                frames,
-                parts,
-                response,
-                worst,
-                along,
-                variance,
-            });
-        }
-        backend.run(TakeRoot { of: variance });
     }
-}
-
-fn have_moments(cases: &[Wrench]) -> bool {
-    cases.iter().any(|wrench| wrench.moment != Vector3::zeros())
 }
 
 #[cfg(test)]

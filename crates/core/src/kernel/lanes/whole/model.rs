@@ -5,7 +5,8 @@ use std::cmp::Reverse;
 use nalgebra::{DMatrix, Vector3};
 
 use super::chain::{ChainConstants, Displacement};
-use crate::robot::{Attachment, BacklashSide, JointCompliance};
+use super::curve_angles::CurveConstants;
+use crate::robot::{Attachment, BacklashSide, Compensator, JointCompliance, Mass};
 use crate::source::{Arm, ArmState, Contributor};
 use crate::spatial::Twist;
 
@@ -20,7 +21,7 @@ pub(in crate::kernel::lanes) struct PartConstants {
     /// The axis of the frame that it turns about, if `about`: then its motion is one unit about it.
     pub axis: usize,
     pub about: bool,
-    /// rad/(N m) or m/N.
+    /// rad/(N m) or m/N; zero where the joint has a torque curve or a compensator, which are added to the sum separately.
     pub compliance: f64,
     pub uncertainty: f64,
     /// Index of its contributor.
@@ -59,6 +60,21 @@ pub(in crate::kernel::lanes) struct GapConstants {
 /// Most gaps that lanes know. They are computed six or eight at once; those that an arm lacks are zero.
 pub(in crate::kernel::lanes) const MOST_GAPS: usize = 8;
 
+/// A joint with a compensator.
+#[derive(Clone, Debug)]
+pub(in crate::kernel::lanes) struct CompensatorConstants {
+    /// Index of the drive of the joint.
+    pub part: usize,
+    /// Its compliance without the compensator, rad/(N m), and the standard uncertainty of that if it is independent.
+    pub compliance: f64,
+    pub uncertainty: f64,
+    /// Displacement by gravity at tool setting, m, base.
+    pub reference: Vector3<f64>,
+    pub compensator: Compensator,
+    /// Whether its torque acts: not where gravity is neglected.
+    pub weighs: bool,
+}
+
 /// A mass.
 #[derive(Clone, Debug)]
 pub(in crate::kernel::lanes) struct MassConstants {
@@ -84,6 +100,11 @@ pub(in crate::kernel::lanes) struct ModelConstants {
     pub covariance: Vec<CovarianceRow>,
     /// The joints with backlash, in their order.
     pub backlash: Vec<GapConstants>,
+    /// The joints with torque curves.
+    pub curves: Vec<CurveConstants>,
+    pub compensator: Option<CompensatorConstants>,
+    /// Weight of the masses that move with the end of the tool, N, base.
+    pub weight_on_tool: Vector3<f64>,
     /// The calibrated arm.
     pub actual: Option<ChainConstants>,
     /// Relative growth of the links and its standard uncertainty.
@@ -100,20 +121,22 @@ pub(in crate::kernel::lanes) struct ModelConstants {
 
 impl ModelConstants {
     /// The constants of `arm`, with or without geometry, thermal growth and backlash (`unloaded`); none if it has a part
-    /// that lanes do not know: torque curves, a compensator, a load-dependent equilibrium, more than
-    /// [`MOST_GAPS`] joints with backlash.
+    /// that lanes do not know: a load-dependent equilibrium, a torque curve on the joint of the compensator or with more
+    /// knots than lanes know, more than [`MOST_GAPS`] joints with backlash, no equilibrium at tool setting.
     pub fn of(arm: &Arm<'_>, unloaded: bool) -> Option<ModelConstants> {
         let (robot, model) = (arm.robot, arm.model);
         let structure = &model.structure;
         let thermal = model.thermal.filter(|_| unloaded);
-        if !model.is_affine() || structure.compensator.is_some() {
+        let special = structure.compensator.as_ref();
+        if model.load_dependent || special.is_some_and(|c| structure.curve(c.joint).is_some()) {
             return None;
         }
         let joints = robot.joints().len();
         let contributors = model.contributors(joints);
         let place = |wanted: Contributor| contributors.iter().position(|one| *one == wanted);
         let gravity = model.gravity.as_ref().filter(|_| !structure.masses.is_empty());
-        let (reference, at_reference) = reference(arm);
+        let at_reference = reference(arm)?;
+        let there = |k: usize| at_reference.get(k).copied().unwrap_or_default();
         let chain = ChainConstants::of(robot);
         let correlated = structure.covariance.as_ref().map_or(0, DMatrix::nrows);
         let all = compliant(arm, &chain).into_iter().enumerate();
@@ -133,13 +156,13 @@ impl ModelConstants {
                     c.standard_uncertainty
                 },
                 contributor: place(Contributor::At(attachment))?,
-                reference: at_reference.get(k).copied().unwrap_or_default(),
+                reference: there(k).1,
             };
             Some((k, part))
         });
         let mut parts = parts.collect::<Option<Vec<(usize, PartConstants)>>>()?;
         parts.sort_by_key(|(_, part)| (Reverse(part.rank), !part.about));
-        let (order, parts): (Vec<usize>, Vec<PartConstants>) = parts.into_iter().unzip();
+        let (order, mut parts): (Vec<usize>, Vec<PartConstants>) = parts.into_iter().unzip();
         let index = |k: usize| order.iter().position(|one| *one == k);
         let gaps = structure.joints_with_backlash().filter(|_| unloaded);
         let gaps = gaps.map(|(joint, gap)| {
@@ -151,6 +174,26 @@ impl ModelConstants {
             })
         });
         let backlash = gaps.collect::<Option<Vec<GapConstants>>>()?;
+        let curved = (0..joints).filter_map(|joint| Some((joint, structure.curve(joint)?)));
+        let curves = curved.map(|(joint, curve)| CurveConstants::of(curve, index(joint)?, there(joint).0));
+        let curves = curves.collect::<Option<Vec<CurveConstants>>>()?;
+        for curve in &curves {
+            parts[curve.part].compliance = 0.0;
+        }
+        let compensator = match special {
+            Some(compensator) => {
+                let part = &mut parts[index(compensator.joint)?];
+                Some(CompensatorConstants {
+                    part: index(compensator.joint)?,
+                    compliance: std::mem::take(&mut part.compliance),
+                    uncertainty: std::mem::take(&mut part.uncertainty),
+                    reference: there(compensator.joint).0,
+                    compensator: *compensator,
+                    weighs: model.gravity.is_some(),
+                })
+            }
+            None => None,
+        };
         if backlash.len() > MOST_GAPS {
             return None;
         }
@@ -160,7 +203,7 @@ impl ModelConstants {
             flange_from_tool: Displacement::of(arm.flange_from_tool),
             groups: groups(&parts),
             parts,
-            reference,
+            reference: at_reference.iter().map(|(displacement, _)| displacement).sum(),
             masses: gravity.map_or(Vec::new(), |_| {
                 let masses = structure.masses.iter();
                 masses
@@ -174,6 +217,13 @@ impl ModelConstants {
             acceleration: gravity.map(|gravity| gravity.acceleration),
             covariance: covariance.map_or(Some(Vec::new()), |form| rows(form, index))?,
             backlash,
+            curves,
+            compensator,
+            weight_on_tool: gravity.map_or_else(Vector3::zeros, |gravity| {
+                let on_tool = |mass: &&Mass| mass.attachment == Attachment::Tool;
+                let masses = structure.masses.iter().filter(on_tool);
+                gravity.acceleration * masses.map(|mass| mass.mass).sum::<f64>()
+            }),
             actual: actual.map(ChainConstants::of),
             growth: thermal.map(|thermal| [thermal.growth, thermal.standard_uncertainty]),
             model_error: structure.model_error,
@@ -235,20 +285,18 @@ fn rows(form: &DMatrix<f64>, index: impl Fn(usize) -> Option<usize>) -> Option<V
     Some(rows)
 }
 
-/// Displacement by gravity at tool setting, m, and part by part per unit of compliance; empty without gravity.
-fn reference(arm: &Arm<'_>) -> (Vector3<f64>, Vec<Vector3<f64>>) {
+/// Displacement by gravity at tool setting, m, part by part, and the same per unit of compliance; empty without gravity,
+/// none where the arm has no equilibrium there.
+fn reference(arm: &Arm<'_>) -> Option<Vec<(Vector3<f64>, Vector3<f64>)>> {
     let Some(gravity) = arm.model.gravity.as_ref() else {
-        return (Vector3::zeros(), Vec::new());
+        return Some(Vec::new());
     };
     let mut there = ArmState::new(*arm);
     there.set_joints(&gravity.reference);
-    let each = there.screws().iter().zip(there.gravity_torques());
-    let per_unit: Vec<Vector3<f64>> = each.map(|(screw, torque)| screw.linear * *torque).collect();
-    let compliances = arm.compliances();
-    let sum = per_unit
-        .iter()
-        .zip(&compliances)
-        .map(|(part, c)| part * c.value)
-        .sum();
-    (sum, per_unit)
+    let parts = there.sagging()?.into_iter();
+    Some(
+        parts
+            .map(|(displacement, per_unit)| (displacement.linear, per_unit))
+            .collect(),
+    )
 }

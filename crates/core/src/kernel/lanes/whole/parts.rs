@@ -269,7 +269,7 @@ fn general<R: Real, const MOMENTS: bool>(
 }
 
 /// The response of one lane.
-struct Sum<R> {
+pub(super) struct Sum<R> {
     by_force: [R; 6],
     by_moment: [Vector<R>; 3],
     by_gravity: Vector<R>,
@@ -277,7 +277,7 @@ struct Sum<R> {
 
 impl<R: Real> Sum<R> {
     #[inline(always)]
-    fn load<const MOMENTS: bool>(from: &ResponsePlanes<R::Float>, i: usize) -> Sum<R> {
+    pub fn load<const MOMENTS: bool>(from: &ResponsePlanes<R::Float>, i: usize) -> Sum<R> {
         let zero = R::of(0.0);
         let mut sum = Sum {
             by_force: [zero; 6],
@@ -300,7 +300,7 @@ impl<R: Real> Sum<R> {
     }
 
     #[inline(always)]
-    fn store<const MOMENTS: bool>(&self, to: &mut ResponsePlanes<R::Float>, i: usize) {
+    pub fn store<const MOMENTS: bool>(&self, to: &mut ResponsePlanes<R::Float>, i: usize) {
         let mut k = 0;
         while k < 6 {
             to.by_force[k][i] = self.by_force[k].store();
@@ -318,7 +318,7 @@ impl<R: Real> Sum<R> {
 
     /// Adds a part with this screw and compliance that carries this weight.
     #[inline(always)]
-    fn add<const MOMENTS: bool>(&mut self, v: Vector<R>, angular: Vector<R>, c: R, weight: R) {
+    pub fn add<const MOMENTS: bool>(&mut self, v: Vector<R>, angular: Vector<R>, c: R, weight: R) {
         let w = v.scaled(c);
         let a = &mut self.by_force;
         a[0] = w.x.mul_add(v.x, a[0]);

@@ -112,11 +112,11 @@ impl<T: Float> Work<T> for AddStill<'_, T> {
     }
 }
 
-/// Fills the displacement of the tool (m, base) under one wrench at the TCP (base) by all but backlash; its moment acts
-/// only if `MOMENTS`.
+/// Fills the displacement of the tool (m, base) under one wrench at the TCP (base) by all but backlash: the response to it, and
+/// the `rest`; its moment acts only if `MOMENTS`.
 pub(in crate::kernel::lanes) struct OneWrench<'a, T, const MOMENTS: bool> {
     pub response: &'a ResponsePlanes<T>,
-    pub still: &'a StillPlanes<T>,
+    pub rest: &'a Planes<T, 3>,
     pub wrench: &'a Wrench,
     pub deviation: &'a mut Planes<T, 3>,
 }
@@ -128,13 +128,13 @@ impl<T: Float, const MOMENTS: bool> Work<T> for OneWrench<'_, T, MOMENTS> {
             Vector::<R>::of(&self.wrench.force),
             Vector::<R>::of(&self.wrench.moment),
         );
-        let (response, still, deviation) = (self.response, self.still, self.deviation);
+        let (response, rest, deviation) = (self.response, self.rest, self.deviation);
         for i in 0..BLOCK {
             R::step();
             put(
                 deviation,
                 i,
-                under::<R, MOMENTS>(response, still, force, moment, i),
+                under::<R, MOMENTS>(response, rest, force, moment, i),
             );
         }
     }
@@ -143,7 +143,7 @@ impl<T: Float, const MOMENTS: bool> Work<T> for OneWrench<'_, T, MOMENTS> {
 /// [`OneWrench`], taken into the worst so far.
 pub(in crate::kernel::lanes) struct OneCase<'a, T, const MOMENTS: bool> {
     pub response: &'a ResponsePlanes<T>,
-    pub still: &'a StillPlanes<T>,
+    pub rest: &'a Planes<T, 3>,
     /// Index of the case and of those that follow.
     pub cases: Range<usize>,
     pub wrench: &'a Wrench,
@@ -158,25 +158,26 @@ impl<T: Float, const MOMENTS: bool> Work<T> for OneCase<'_, T, MOMENTS> {
     fn run<R: Real<Float = T>>(self) {
         let Wrench { force, moment } = self.wrench;
         let case = CaseLanes::<R>::new(self.cases, force, moment, self.plane);
-        let (response, still, deviation) = (self.response, self.still, self.deviation);
+        let (response, rest, deviation) = (self.response, self.rest, self.deviation);
         for i in 0..BLOCK {
             R::step();
-            let delta = under::<R, MOMENTS>(response, still, case.force, case.moment, i);
+            let delta = under::<R, MOMENTS>(response, rest, case.force, case.moment, i);
             put(deviation, i, delta);
             case.take::<MOMENTS>(delta, i, self.worst);
         }
     }
 }
 
+/// Displacement of point `i` under a wrench, m, base: the response to it and the `rest`.
 #[inline(always)]
 pub(in crate::kernel::lanes) fn under<R: Real, const MOMENTS: bool>(
     response: &ResponsePlanes<R::Float>,
-    still: &StillPlanes<R::Float>,
+    rest: &Planes<R::Float, 3>,
     force: Vector<R>,
     moment: Vector<R>,
     i: usize,
 ) -> Vector<R> {
-    let mut delta = response.by::<R>(force, i) + vector::<R>(&still.sum, i);
+    let mut delta = response.by::<R>(force, i) + vector::<R>(rest, i);
     if MOMENTS {
         let by_moment = &response.by_moment;
         delta = delta

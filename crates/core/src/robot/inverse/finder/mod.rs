@@ -19,7 +19,7 @@ use std::f64::consts::TAU;
 use nalgebra::Point3;
 
 use super::super::branch::{Branch, BranchPattern};
-use super::super::chain::{Amount, Chain, Motion};
+use super::super::chain::{Chain, Motion};
 use super::super::forward::{Frames, forward_into, tool_at};
 use super::super::jacobian::screws_at;
 use super::super::model::Robot;
@@ -28,7 +28,7 @@ use super::super::unreachable::Unreachable;
 use super::closed_form::ClosedForm;
 use super::descent::Descent;
 use super::descents::Descents;
-use super::kind::Inverse;
+use super::kind::{Inverse, end_of};
 use super::starts::Starts;
 use super::verify::{Requested, verify};
 use crate::frame::Isometry;
@@ -228,15 +228,7 @@ impl<'r> Finder<'r> {
 
     /// Frame of the rail's end.
     fn base_from_arm(&self) -> Isometry {
-        let mut base_from_arm = Isometry::identity();
-        for motion in self.arm.rail {
-            let distance = match motion.amount() {
-                Amount::Constant(value) => value,
-                Amount::Joint(joint) => self.robot.theta(joint, &self.home),
-            };
-            base_from_arm *= motion.displacement(distance);
-        }
-        base_from_arm
+        end_of(self.arm.rail, |joint| self.robot.theta(joint, &self.home))
     }
 
     /// Chain positions of the arm for joint positions of the robot.

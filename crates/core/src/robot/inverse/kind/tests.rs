@@ -103,7 +103,7 @@ fn a_rail_consists_of_the_first_prismatic_joints_that_are_redundant() {
     let mut motions = railed.chain().motions().to_vec();
     let last = motions
         .iter()
-        .rposition(|motion| matches!(motion, Motion::About(_, super::super::super::Amount::Joint(_))))
+        .rposition(|motion| matches!(motion, Motion::About(_, Amount::Joint(_))))
         .unwrap();
     motions.truncate(last);
     let six = Robot::new("six", motions, railed.joints()[..6].to_vec()).unwrap();

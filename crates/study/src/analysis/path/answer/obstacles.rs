@@ -24,8 +24,10 @@ pub struct ObstacleAnswer {
     /// Line of the largest.
     pub line: u32,
     /// Distance from the limit (negative outside), angle of the jump, or required speed at the largest, in `unit`.
+    // unit: that of `unit`
     pub value: Option<f64>,
     /// Smallest permitted distance from the limit, or largest speed, in `unit`.
+    // unit: that of `unit`
     pub limit: Option<f64>,
     /// deg, mm, deg/s or mm/s.
     pub unit: Option<String>,
