@@ -60,7 +60,7 @@ fn summary(answer: &StudyAnswer) -> String {
             .followed_branch
             .as_deref()
             .map_or(String::new(), |branch| format!(" in {branch}"));
-        Some(format!("{}:{branch} {}.", path.name, search.sentence()))
+        Some(format!("{}{branch}: {}.", path.name, search.sentence()))
     });
     of_paths.collect::<Vec<_>>().join("\n")
 }

@@ -27,7 +27,7 @@ fn before_and_after_are_in_one_sentence_and_the_table_has_the_spins() {
         .armill(&["posture", "study.toml", "--step-deg", "15", "--no-pictures"])
         .fine();
     assert!(
-        said.out.starts_with("ring: in ") && said.out.contains("µm in the largest deviation (u = "),
+        said.out.starts_with("ring in ") && said.out.contains("µm in the largest deviation (u = "),
         "{}",
         said.out
     );

@@ -23,7 +23,7 @@ pub enum AnalysisKind {
     Volume,
     /// The deviation along a path: a shape on the plane, or a tool path program.
     Path,
-    /// The deviation at holes in any order, each with its best posture.
+    /// The deviation at holes in any order, each with a posture of its own.
     Holes,
 }
 

@@ -1,4 +1,4 @@
-//! The deviation at holes in any order, each with its best posture.
+//! The deviation at holes in any order, each with a posture of its own.
 //!
 //! [`table`] the key `holes`; [`resolve`](mod@resolve) their positions, directions and load; [`answer`], [`sentence`]
 //! and [`warnings`](mod@warnings); [`columns`](mod@columns), [`pictures`](mod@pictures) and [`report`].

@@ -19,7 +19,7 @@ pub fn sentence(robot: &Robot, holes: &HolesAnswer) -> String {
     };
     let good = (holes.fraction_within * holes.holes as f64).round();
     format!(
-        "{}: {} of {} holes are within {} µm, each in its best posture; hole {} deviates by {} µm (u = {} µm) from its position; largest contribution: {}; holes are up to {} µm too deep or too shallow{lost}.",
+        "{}: {} of {} holes are within {} µm; hole {} deviates by {} µm (u = {} µm) from its position; largest contribution: {}; holes are up to {} µm too deep or too shallow{lost}.",
         holes.name,
         good,
         holes.holes,
