@@ -6,9 +6,9 @@
 //! and its twin), the one farthest from its joint limits is used, then the smallest spin. The points are independent:
 //! any order gives the same result.
 //!
-//! The nominal posture has no additional spin and the branch that suits most points ([`one_branch`]), so that the arm
-//! need not change it between them. It is kept at every point where it is usable and the gain of the best posture is not
-//! significant ([`LeastGain`]).
+//! The nominal posture has no additional spin and the branch that suits most points, as along a path
+//! ([`along_path`](crate::map::along_path)), so that the arm need not change it between them. It is kept at every point
+//! where it is usable and the gain of the best posture is not significant ([`LeastGain`]).
 //!
 //! A point without a usable posture is answered without additional spin, in the best of the open branches, so that the
 //! reason and the amount are reported.

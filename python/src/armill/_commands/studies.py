@@ -28,6 +28,7 @@ def posture(
     step_deg: float | None = None,
     turn_deg_per_mm: float | None = None,
     least_wrist_deg: float | None = None,
+    margin_deg: float | None = None,
     reversal_um_mm: float | None = None,
     threads: int | None = None,
     progress: Progress | None = None,
