@@ -4,7 +4,8 @@ use armill_core::frame::Isometry;
 use armill_formats::document::{Problem, Problems};
 use armill_formats::language::Language;
 
-use crate::draft::{Draft, DraftError, Written};
+use crate::draft::{Draft, Written};
+use crate::draft_check::DraftError;
 use crate::program::RobotProgram;
 use crate::spelling::Respelling;
 use crate::text::ProgramText;

@@ -17,7 +17,8 @@
 //!
 //! In reading order: `languages` (each [`Language`] with its reader and writer), `program` (the data of a program),
 //! `text` (files as bytes and as characters), `rewrite` (the same program with other poses), `followed` (a program as
-//! the moves of a path), `draft` (programs to write), `posture` and `number` (postures and numbers of controllers),
+//! the moves of a path), `controller` (how a cell writes its programs), `draft` (programs to write), `draft_check`
+//! (their limits in each language), `posture` and `number` (postures and numbers of controllers),
 //! `messages` (problems and notes), `tokens` (tokens of KRL, RAPID and URScript), `spelling` (lines and numbers of the
 //! other languages, and their replacement), `arc_row` (arcs given point by point).
 
@@ -29,7 +30,9 @@ pub mod urscript;
 pub mod val3;
 
 mod arc_row;
+mod controller;
 mod draft;
+mod draft_check;
 mod followed;
 mod languages;
 mod messages;
@@ -42,7 +45,9 @@ mod text;
 mod tokens;
 
 pub use armill_formats::language::Language;
-pub use draft::{Draft, DraftError, DraftPoint, Written};
+pub use controller::{Controller, FrameData};
+pub use draft::{Draft, DraftPoint, DraftStep, Written};
+pub use draft_check::DraftError;
 pub use followed::{Cell, FollowError, Followed, FollowedMove, follow};
 pub use languages::{language_of, read, read_as, write};
 pub use program::{Frame, Motion, RobotMove, RobotProgram, Speed, Spelled, Target};

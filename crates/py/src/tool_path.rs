@@ -77,6 +77,7 @@ pub(crate) fn read_path(
             &requested,
             &mut |step| match step {
                 Step::Operation(begun) => operations.push(begun),
+                Step::Command(_) => {}
                 Step::Move(given) => {
                     moves.push(given);
                     operation.push(operations.len() as i64 - 1);

@@ -63,7 +63,7 @@ impl Clock {
         let mut now = 0.0;
         for (index, point) in points.iter().enumerate() {
             if path.begins(index) {
-                let length = path.rapids.get(starts.len()).copied().unwrap_or(0.0);
+                let length = path.rapids.get(starts.len()).map_or(0.0, |rapids| rapids.length);
                 if index > 0 && length > 0.0 {
                     let line = point.line;
                     let speed = speeds.rapid.filter(|speed| *speed > 0.0);
@@ -144,6 +144,7 @@ mod tests {
     use nalgebra::Point3;
 
     use super::super::program::{Course, Move};
+    use super::super::sampled::Rapids;
     use super::super::sampler::{Sampler, Sampling};
     use super::*;
 
@@ -162,7 +163,12 @@ mod tests {
             line: x as u32 + 1,
         };
         let mut path = SampledPath {
-            rapids: vec![0.3, 0.005],
+            rapids: [0.3, 0.005]
+                .map(|length| Rapids {
+                    length,
+                    ..Rapids::default()
+                })
+                .to_vec(),
             ..SampledPath::default()
         };
         for next in [
@@ -208,7 +214,7 @@ mod tests {
         assert_eq!(found.unwrap_err(), NoTime::NoFeed { line: 11 });
         // A rapid of zero length takes no time and needs no speed.
         let path = SampledPath {
-            rapids: vec![0.0; 2],
+            rapids: vec![Rapids::default(); 2],
             ..path
         };
         assert!(Clock::of(&path, no_rapid).is_ok());

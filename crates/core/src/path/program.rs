@@ -10,8 +10,21 @@ use nalgebra::{Point3, Unit, UnitQuaternion, Vector3};
 pub enum Step {
     /// A new tool or spindle speed.
     Operation(Operation),
+    /// A command between two moves.
+    Command(Command),
     /// The tip moves.
     Move(Move),
+}
+
+/// A command of the program between two moves, other than those of tool and spindle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Command {
+    /// Coolant on or off, flood or mist.
+    Coolant(bool),
+    /// The tool rests, s.
+    Dwell(f64),
+    /// The program stops until the operator continues it.
+    Stop,
 }
 
 /// A stretch of the program with one tool, one spindle speed and one depth of cut.

@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use nalgebra::Point3;
 
-use super::program::{Operation, Pace, Step};
+use super::program::{Command, Move, Operation, Pace, Step};
 use super::sampler::{PathPoint, Sampler, Sampling};
 
 /// A path, cut into points.
@@ -17,12 +17,25 @@ pub struct SampledPath {
     pub points: Vec<PathPoint>,
     /// Its operations, each with the index of its first point.
     pub operations: Vec<(usize, Operation)>,
-    /// Length of the rapid that leads to each stretch of cuts, m.
-    pub rapids: Vec<f64>,
+    /// Its commands, each with the number of points before it.
+    pub commands: Vec<(usize, Command)>,
+    /// The rapids that lead to each stretch of cuts.
+    pub rapids: Vec<Rapids>,
+    /// The rapids after the last cut.
+    pub last_rapids: Rapids,
     /// Moves, rapids included.
     pub moves: usize,
     /// Time of all cuts with a given feed, s.
     pub cutting_time: f64,
+}
+
+/// Consecutive rapids.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Rapids {
+    /// Their moves; a rapid from an unknown position included.
+    pub moves: Vec<Move>,
+    /// Their length from the first known position, m.
+    pub length: f64,
 }
 
 impl SampledPath {
@@ -85,8 +98,8 @@ pub struct PathBuilder {
     path: SampledPath,
     most: usize,
     too_many: bool,
-    /// Length of the rapids since the last cut, m.
-    since: f64,
+    /// The rapids since the last cut.
+    since: Rapids,
     position: Option<Point3<f64>>,
 }
 
@@ -98,7 +111,7 @@ impl PathBuilder {
             path: SampledPath::default(),
             most,
             too_many: false,
-            since: 0.0,
+            since: Rapids::default(),
             position: None,
         }
     }
@@ -113,6 +126,10 @@ impl PathBuilder {
         let next = match step {
             Step::Operation(operation) => {
                 self.path.operations.push((self.path.points.len(), operation));
+                return;
+            }
+            Step::Command(command) => {
+                self.path.commands.push((self.path.points.len(), command));
                 return;
             }
             Step::Move(next) => next,
@@ -131,12 +148,13 @@ impl PathBuilder {
             path.cutting_time += (path.length() - before) / speed;
         }
         if !next.pace.cuts() {
-            self.since += self.position.map_or(0.0, |from| (next.end - from).norm());
+            self.since.length += self.position.map_or(0.0, |from| (next.end - from).norm());
+            self.since.moves.push(next);
         } else if first < path.points.len() {
+            let since = std::mem::take(&mut self.since);
             if path.begins(first) {
-                path.rapids.push(self.since);
+                path.rapids.push(since);
             }
-            self.since = 0.0;
         }
         self.position = Some(next.end);
     }
@@ -145,10 +163,11 @@ impl PathBuilder {
     ///
     /// # Errors
     /// [`TooManyPoints`].
-    pub fn finish(self) -> Result<SampledPath, TooManyPoints> {
+    pub fn finish(mut self) -> Result<SampledPath, TooManyPoints> {
         if self.too_many {
             return Err(TooManyPoints { most: self.most });
         }
+        self.path.last_rapids = self.since;
         Ok(self.path)
     }
 }
@@ -184,6 +203,7 @@ mod tests {
                 tool: Some(2),
                 ..Operation::default()
             }),
+            Step::Command(Command::Coolant(true)),
             to(0.03, 0.0, feed),
         ]
     }
@@ -205,7 +225,15 @@ mod tests {
         assert_eq!(stretches, [0..11, 11..22]);
         assert!((path.length() - 0.02).abs() < 1e-15 && (path.cutting_time - 1.0).abs() < 1e-12);
         assert_eq!((path.moves, path.rapids.len()), (6, 2));
-        assert!(path.rapids[0] == 0.0 && (path.rapids[1] - 0.03).abs() < 1e-15);
+        assert!(path.rapids[0].length == 0.0 && (path.rapids[1].length - 0.03).abs() < 1e-15);
+        let ends: Vec<_> = path.rapids[1]
+            .moves
+            .iter()
+            .map(|rapid| [rapid.end.x, rapid.end.z])
+            .collect();
+        assert_eq!(ends, [[0.01, 0.01], [0.02, 0.01], [0.02, 0.0]]);
+        assert_eq!(path.commands, [(11, Command::Coolant(true))]);
+        assert!(path.last_rapids.moves.is_empty());
         for (index, point, operation) in path.with_operations() {
             let begun = usize::from(index >= 11);
             assert_eq!(

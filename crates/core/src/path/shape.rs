@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 use nalgebra::{Point2, Point3, Unit, Vector2, Vector3};
 
 use super::program::Pace;
-use super::sampled::SampledPath;
+use super::sampled::{Rapids, SampledPath};
 use super::sampler::PathPoint;
 
 /// A shape on the plane.
@@ -57,7 +57,7 @@ impl Shape {
         };
         SampledPath {
             moves: points.last().map_or(0, |point| point.line as usize),
-            rapids: vec![0.0; usize::from(!points.is_empty())],
+            rapids: vec![Rapids::default(); usize::from(!points.is_empty())],
             points,
             ..SampledPath::default()
         }

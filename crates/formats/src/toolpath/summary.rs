@@ -54,6 +54,7 @@ impl Summary {
     pub(super) fn count(&mut self, step: &Step) {
         match step {
             Step::Operation(_) => self.operations += 1,
+            Step::Command(_) => {}
             Step::Move(Move { course, pace, .. }) => {
                 self.cuts += u64::from(self.moves > 0 && pace.cuts());
                 self.moves += 1;

@@ -55,7 +55,7 @@ impl Part {
     fn moves(&self) -> Vec<Move> {
         let moves = self.steps.iter().filter_map(|step| match step {
             Step::Move(next) => Some(*next),
-            Step::Operation(_) => None,
+            Step::Operation(_) | Step::Command(_) => None,
         });
         moves.collect()
     }

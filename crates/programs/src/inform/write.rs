@@ -4,13 +4,15 @@ use armill_core::frame::Isometry;
 use armill_core::units::{to_deg, to_mm};
 use armill_formats::convention::Convention;
 
-use crate::draft::{Bounds, Draft, DraftError, DraftPoint, Written};
+use crate::controller::Controller;
+use crate::draft::{Blend, Draft, DraftPoint, DraftStep, Written, points};
+use crate::draft_check::{Bounds, DraftError};
 use crate::number::fixed;
 use crate::posture::Configuration;
 use crate::spelling::in_pieces;
 
-/// Maximum number of positions in one job; posts write 2000 to 9500. Source: posts.
-const MOST_POSITIONS: usize = 2000;
+/// Maximum number of statements in one job; posts write 2000 to 9500 positions. Source: posts.
+const MOST_STEPS: usize = 2000;
 
 /// Maximum length of a remark. `[recalled]`
 const LONGEST_REMARK: usize = 32;
@@ -18,8 +20,8 @@ const LONGEST_REMARK: usize = 32;
 /// Maximum length of a name: 8 on NX100, 32 later; three characters number the parts of a long program.
 const LONGEST_NAME: [usize; 3] = [8, 32, 29];
 
-/// Joint speed in percent of the maximum: slow, for a first approach.
-const JOINT_SPEED: &str = "VJ=10.00";
+/// Decimals of a dwell, s.
+const DWELL: usize = 2;
 
 /// Range of the tip speed, mm/s. `[recalled]`
 const SPEEDS: [f64; 2] = [0.1, 1500.0];
@@ -31,26 +33,30 @@ const END: &str = "\r\n";
 /// # Errors
 /// Values outside the ranges of the language or its controllers.
 pub fn write(draft: &Draft) -> Result<Written, DraftError> {
-    let split = draft.points.len() > MOST_POSITIONS;
+    let split = draft.steps.len() > MOST_STEPS;
     draft.check(&Bounds {
         language: "Yaskawa INFORM",
         longest_name: if split { LONGEST_NAME[2] } else { LONGEST_NAME[1] },
         names: "a letter, then letters, digits and underscores, at most 32 characters; 29 if the program is split \
             into several jobs",
-        joints: 6..=6,
+        // Those of a base axis or station are positions of another group, in pulses.
+        external: 0,
         frames: 1..=63,
         tools: 0..=63,
     })?;
     draft.check_speeds(|speed| to_mm(speed) >= SPEEDS[0] / 2.0)?;
-    let parts: Vec<(String, &[DraftPoint])> = draft.parts(MOST_POSITIONS, "").collect();
+    let parts: Vec<(String, &[DraftStep])> = draft.parts(MOST_STEPS, "").collect();
+    let blends = draft.blends();
+    let mut ahead = blends.iter();
     let main = split.then(|| file(&draft.name, main(draft, &parts)));
-    let jobs = parts
+    let jobs: Vec<(String, Vec<u8>)> = parts
         .iter()
-        .map(|(name, points)| file(name, job(draft, name, points)));
+        .map(|(name, steps)| file(name, job(draft, name, steps, !split, &mut ahead)))
+        .collect();
     let files = main.into_iter().chain(jobs).collect();
     Ok(Written {
         files,
-        notes: notes(draft, split),
+        notes: notes(draft, split, &blends),
     })
 }
 
@@ -58,36 +64,40 @@ fn file(name: &str, text: String) -> (String, Vec<u8>) {
     (format!("{name}.JBI"), text.into_bytes())
 }
 
-fn notes(draft: &Draft, split: bool) -> Vec<String> {
+fn notes(draft: &Draft, split: bool, blends: &[Blend]) -> Vec<String> {
     let mut notes = vec![
         format!(
             "user frame {} on the controller must be, relative to the robot base: {}",
-            draft.frame_number,
+            draft.controller.frame_number,
             numbers(&draft.base_from_frame).join(" ")
         ),
         format!(
             "tool {} on the controller must be: {}",
-            draft.tool_number,
+            draft.controller.tool_number,
             numbers(&draft.flange_from_tool).join(" ")
         ),
         "the job is a relative job (ATTR RJ); some controllers need an option to load it".to_owned(),
-        "the first move is MOVJ to a position with its RCONF, because pulses differ between robots: \
-         test it at low speed"
+        "MOVJ moves to a position with its RCONF, because pulses differ between robots: test these moves at low \
+         speed"
             .to_owned(),
         "V= is in mm/s if the controller's parameter for it is set so".to_owned(),
     ];
-    if draft.points.iter().any(|point| point.blend > 0.0) {
+    if blends.iter().any(|blend| blend.distance > 0.0) {
         notes.push(
-            "moves without exact stop have PL=1: the blend distance is a parameter of the controller"
+            "moves along the path have PL=1: how far it rounds a corner is a parameter of the controller"
                 .to_owned(),
         );
     }
-    if draft.points.iter().any(|point| point.branch.is_none()) {
+    if draft.controller.acceleration.is_some() || draft.controller.joint_acceleration.is_some() {
+        notes.push(
+            "accelerations are not written: INFORM has percentages of the maximum (ACC=, DEC=)".to_owned(),
+        );
+    }
+    if draft.points().any(|point| point.branch.is_none()) {
         notes.push("where no posture is given, RCONF says no flip, upper arm, front".to_owned());
     }
     if draft
-        .points
-        .iter()
+        .points()
         .any(|point| point.speed.is_some_and(|speed| to_mm(speed) > SPEEDS[1]))
     {
         notes.push(format!(
@@ -128,18 +138,14 @@ fn instructions(draft: &Draft, attributes: &[&str], out: &mut String) {
     }
     line(out, "///GROUP1 RB1");
     line(out, "NOP");
-    for remark in &draft.remarks {
-        for piece in in_pieces(remark, LONGEST_REMARK) {
-            line(out, &format!("'{piece}"));
-        }
-    }
+    draft.remarks.iter().for_each(|remark| remarks(remark, out));
     let given = [
         (
-            format!("USER {} from the base:", draft.frame_number),
+            format!("USER {} from the base:", draft.controller.frame_number),
             &draft.base_from_frame,
         ),
         (
-            format!("TOOL {} from the flange:", draft.tool_number),
+            format!("TOOL {} from the flange:", draft.controller.tool_number),
             &draft.flange_from_tool,
         ),
     ];
@@ -150,34 +156,48 @@ fn instructions(draft: &Draft, attributes: &[&str], out: &mut String) {
     }
 }
 
+/// Statements of the cell.
+fn statements(lines: &[String], out: &mut String) {
+    lines.iter().for_each(|statement| line(out, statement));
+}
+
 /// The job that calls the parts of a long program.
-fn main(draft: &Draft, parts: &[(String, &[DraftPoint])]) -> String {
+fn main(draft: &Draft, parts: &[(String, &[DraftStep])]) -> String {
     let mut out = String::new();
     line(&mut out, "/JOB");
     line(&mut out, &format!("//NAME {}", draft.name));
     line(&mut out, "//POS");
     line(&mut out, "///NPOS 0,0,0,0,0,0");
     instructions(draft, &["///ATTR SC,RW"], &mut out);
+    statements(&draft.controller.header, &mut out);
     for (name, _) in parts {
         line(&mut out, &format!("CALL JOB:{name}"));
     }
+    statements(&draft.controller.footer, &mut out);
     line(&mut out, "END");
     out
 }
 
-/// A job with these points.
-fn job(draft: &Draft, name: &str, points: &[DraftPoint]) -> String {
+/// A job with these steps; a single one also has the header and the footer of the cell.
+fn job(
+    draft: &Draft,
+    name: &str,
+    steps: &[DraftStep],
+    is_single: bool,
+    blends: &mut std::slice::Iter<'_, Blend>,
+) -> String {
     let mut out = String::new();
+    let controller = &draft.controller;
     line(&mut out, "/JOB");
     line(&mut out, &format!("//NAME {name}"));
     line(&mut out, "//POS");
-    line(&mut out, &format!("///NPOS {},0,0,0,0,0", points.len()));
-    line(&mut out, &format!("///USER {}", draft.frame_number));
-    line(&mut out, &format!("///TOOL {}", draft.tool_number));
+    line(&mut out, &format!("///NPOS {},0,0,0,0,0", points(steps).count()));
+    line(&mut out, &format!("///USER {}", controller.frame_number));
+    line(&mut out, &format!("///TOOL {}", controller.tool_number));
     line(&mut out, "///POSTYPE USER");
     line(&mut out, "///RECTAN");
     let mut last = String::new();
-    for (at, point) in points.iter().enumerate() {
+    for (at, point) in points(steps).enumerate() {
         let rconf = rconf(point);
         if rconf != last {
             line(&mut out, &rconf);
@@ -191,18 +211,50 @@ fn job(draft: &Draft, name: &str, points: &[DraftPoint]) -> String {
             .collect();
         line(&mut out, &format!("C{at:05}={}", numbers.join(",")));
     }
-    let frame = format!("////FRAME USER {}", draft.frame_number);
+    let frame = format!("////FRAME USER {}", controller.frame_number);
     instructions(draft, &["///ATTR SC,RW,RJ", &frame], &mut out);
-    for (at, point) in points.iter().enumerate() {
-        let level = if draft.blend(point) > 0.0 { 1 } else { 0 };
-        let said = match draft.tip_speed(point) {
-            Some(speed) => format!("MOVL C{at:05} V={} PL={level}", fixed(to_mm(speed), 1)),
-            None => format!("MOVJ C{at:05} {JOINT_SPEED} PL={level}"),
-        };
-        line(&mut out, &said);
+    if is_single {
+        statements(&controller.header, &mut out);
+    }
+    let mut at = 0;
+    for step in steps {
+        match step {
+            DraftStep::Move(point) => {
+                let level = u32::from(blends.next().is_some_and(|blend| blend.distance > 0.0));
+                let said = match point.speed {
+                    Some(speed) => format!("MOVL C{at:05} V={} PL={level}", fixed(to_mm(speed), 1)),
+                    None => {
+                        let percent = Controller::percent(controller.joint_speed);
+                        format!("MOVJ C{at:05} VJ={percent}.00 PL={level}")
+                    }
+                };
+                line(&mut out, &said);
+                at += 1;
+            }
+            DraftStep::Comment(text) => remarks(text, &mut out),
+            DraftStep::Stop(text) => {
+                remarks(text, &mut out);
+                line(&mut out, "PAUSE");
+            }
+            DraftStep::Dwell(seconds) => {
+                // Less than a hundredth of a second is not written as none.
+                line(&mut out, &format!("TIMER T={}", fixed(seconds.max(0.01), DWELL)));
+            }
+            DraftStep::Statement(text) => line(&mut out, text),
+        }
+    }
+    if is_single {
+        statements(&controller.footer, &mut out);
     }
     line(&mut out, "END");
     out
+}
+
+/// A text as remarks.
+fn remarks(text: &str, out: &mut String) {
+    for piece in in_pieces(text, LONGEST_REMARK) {
+        line(out, &format!("'{piece}"));
+    }
 }
 
 /// Configuration: flip, elbow, shoulder, then whether axes R, T, S are rotated beyond 180 deg.

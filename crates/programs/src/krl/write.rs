@@ -10,23 +10,28 @@ use armill_core::units::{to_deg, to_mm};
 use armill_formats::convention::Convention;
 
 use super::aggregate::whole;
-use crate::draft::{Bounds, Draft, DraftError, DraftPoint, Written};
+use crate::controller::Controller;
+use crate::draft::{Blend, Draft, DraftPoint, DraftStep, Written, text_lines};
+use crate::draft_check::{Bounds, DraftError};
 use crate::number::fixed;
-use crate::posture::Configuration;
 use crate::text::latin1;
 
 /// `[recalled]` Longest name of a module; number of frames and tools of newer systems, older ones have 32 and 16.
 const LONGEST_NAME: usize = 24;
 const MOST_FRAMES: u32 = 128;
-/// Maximum number of moves in a module: larger modules load slowly and are refused by older systems `[recalled]`.
-const MOST_MOVES: usize = 5000;
+/// Maximum number of statements in a module: larger modules load slowly and are refused by older systems `[recalled]`.
+const MOST_STEPS: usize = 5000;
+/// E1 to E6.
+const MOST_EXTERNAL: usize = 6;
 /// The name of a part is that of the main program, an underscore and up to four digits.
 const PART: usize = 5;
-/// Decimals of axes, deg; of a frame or tool, mm and deg; of speeds, m/s; of blends, mm.
+/// Decimals of axes, deg and mm; of a frame or tool, mm and deg; of speeds, m/s; of blends, mm.
 const AXIS: usize = 5;
 const FRAME: [usize; 2] = [4, 6];
 const SPEED: usize = 6;
 const BLEND: usize = 3;
+/// Decimals of a dwell, s.
+const DWELL: usize = 3;
 /// Reserved words `[recalled]`.
 const WORDS: &[&str] = &[
     "AND",
@@ -104,7 +109,7 @@ const WORDS: &[&str] = &[
 /// # Errors
 /// Values outside the ranges of the language or its controllers.
 pub fn write(draft: &Draft) -> Result<Written, DraftError> {
-    let is_split = draft.points.len() > MOST_MOVES;
+    let is_split = draft.steps.len() > MOST_STEPS;
     let bounds = Bounds {
         language: "KUKA KRL",
         longest_name: LONGEST_NAME - if is_split { PART } else { 0 },
@@ -116,7 +121,7 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
                 "a letter, then letters, digits and underscores, at most 24 characters, and not a reserved word"
             }
         },
-        joints: 6..=6,
+        external: MOST_EXTERNAL,
         frames: 0..=MOST_FRAMES,
         tools: 0..=MOST_FRAMES,
     };
@@ -124,25 +129,21 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
     draft.avoid(&bounds, WORDS)?;
     let mut main = head(draft);
     let mut parts = Vec::new();
-    let mut modal = Modal::default();
-    for (name, points) in draft.parts(MOST_MOVES, "_") {
-        let mut body = String::new();
-        for point in points {
-            match draft.is_first(point) {
-                // The first move is given in axes: its posture is unique.
-                true => _ = write!(main, "PTP {}\r\n", axes(&point.joints)),
-                false => modal.take(point, draft.blend(point), &mut body),
-            }
-        }
+    let mut body = Body::new(draft);
+    for (name, steps) in draft.parts(MOST_STEPS, "_") {
+        let text = body.of(steps);
         if is_split {
             _ = write!(main, "{name}()\r\n");
             parts.push((
                 format!("{name}.src"),
-                latin1(&format!("&ACCESS RVP\r\n&REL 1\r\nDEF {name}()\r\n{body}END\r\n")),
+                latin1(&format!("&ACCESS RVP\r\n&REL 1\r\nDEF {name}()\r\n{text}END\r\n")),
             ));
         } else {
-            main.push_str(&body);
+            main.push_str(&text);
         }
+    }
+    for line in &draft.controller.footer {
+        _ = write!(main, "{line}\r\n");
     }
     main.push_str("END\r\n");
     parts.insert(0, (format!("{}.src", draft.name), latin1(&main)));
@@ -152,22 +153,43 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
     })
 }
 
+/// The start-up fold of the controller: it checks stops (interrupt 3) and sets the defaults of motion. Source: the fold
+/// that KUKA's editor writes; the samples of the post processors have the same.
+const START: &str = ";FOLD INI\r\n;FOLD BASISTECH INI\r\n\
+     GLOBAL INTERRUPT DECL 3 WHEN $STOPMESS==TRUE DO IR_STOPM ( )\r\nINTERRUPT ON 3\r\nBAS (#INITMOV,0 )\r\n\
+     ;ENDFOLD (BASISTECH INI)\r\n;ENDFOLD (INI)\r\n$ADVANCE=3\r\n";
+
 fn head(draft: &Draft) -> String {
-    let name = &draft.name;
+    let (name, controller) = (&draft.name, &draft.controller);
     let mut out = format!("&ACCESS RVP\r\n&REL 1\r\nDEF {name}()\r\n");
     for line in draft.remark_lines() {
         _ = write!(out, "; {line}\r\n");
     }
-    let (frame, tool) = (draft.frame_number, draft.tool_number);
+    out.push_str(START);
+    let (frame, tool) = (controller.frame_number, controller.tool_number);
+    _ = write!(out, "BAS(#BASE,{frame})\r\nBAS(#TOOL,{tool})\r\n");
+    if controller.sets_data() {
+        _ = write!(
+            out,
+            "; base {frame} and tool {tool} as this program was made with them\r\n$BASE={}\r\n$TOOL={}\r\n",
+            set(&draft.base_from_frame),
+            set(&draft.flange_from_tool)
+        );
+    }
     _ = write!(
         out,
-        ";FOLD INI\r\nBAS(#INITMOV,0)\r\n;ENDFOLD (INI)\r\n$ADVANCE=3\r\n\
-         BAS(#BASE,{frame})\r\nBAS(#TOOL,{tool})\r\n\
-         ; base {frame} and tool {tool} as this program was made with them\r\n\
-         $BASE={}\r\n$TOOL={}\r\n",
-        set(&draft.base_from_frame),
-        set(&draft.flange_from_tool)
+        "BAS(#VEL_PTP,{})\r\n",
+        Controller::percent(controller.joint_speed)
     );
+    if let Some(part) = controller.joint_acceleration {
+        _ = write!(out, "BAS(#ACC_PTP,{})\r\n", Controller::percent(part));
+    }
+    if let Some(acceleration) = controller.acceleration {
+        _ = write!(out, "$ACC.CP={}\r\n", fixed(acceleration, SPEED));
+    }
+    for line in &controller.header {
+        _ = write!(out, "{line}\r\n");
+    }
     out
 }
 
@@ -183,117 +205,116 @@ fn set(pose: &Isometry) -> String {
     format!("{{FRAME: {}}}", numbers.join(","))
 }
 
-fn axes(joints: &[f64]) -> String {
-    let axes: Vec<String> = joints
-        .iter()
-        .zip(super::aggregate::AXES)
-        .map(|(joint, name)| format!("{name} {}", fixed(to_deg(joint), AXIS)))
-        .collect();
-    format!("{{AXIS: {}}}", axes.join(","))
+fn axes(draft: &Draft, point: &DraftPoint) -> String {
+    let arm = point.joints.iter().zip(super::aggregate::AXES);
+    let arm = arm.map(|(joint, name)| format!("{name} {}", fixed(to_deg(joint), AXIS)));
+    let all: Vec<String> = arm.chain(external(draft, point)).collect();
+    let kind = if point.external.is_empty() {
+        "AXIS"
+    } else {
+        "E6AXIS"
+    };
+    format!("{{{kind}: {}}}", all.join(","))
 }
 
-/// Last written speed and blend.
-#[derive(Default)]
-struct Modal {
+/// E1 to E6, deg or mm.
+fn external<'a>(draft: &'a Draft, point: &'a DraftPoint) -> impl Iterator<Item = String> + 'a {
+    let axes = point.external.iter().zip(&draft.external_slides).enumerate();
+    axes.map(|(index, (value, slides))| {
+        let value = if *slides { to_mm(*value) } else { to_deg(value) };
+        format!("E{} {}", index + 1, fixed(value, AXIS))
+    })
+}
+
+/// Writes steps; remembers the last speed and blend.
+struct Body<'a> {
+    draft: &'a Draft,
+    blends: std::vec::IntoIter<Blend>,
     speed: Option<String>,
     blend: Option<String>,
 }
 
-impl Modal {
-    fn take(&mut self, point: &DraftPoint, blend: f64, out: &mut String) {
-        let mut pose = String::new();
-        whole(&Convention::Kuka.numbers_of(&point.frame_from_tool), &mut pose);
+impl<'a> Body<'a> {
+    fn new(draft: &'a Draft) -> Body<'a> {
+        Body {
+            draft,
+            blends: draft.blends().into_iter(),
+            speed: None,
+            blend: None,
+        }
+    }
+
+    fn of(&mut self, steps: &[DraftStep]) -> String {
+        let mut out = String::new();
+        for step in steps {
+            _ = match step {
+                DraftStep::Move(point) => {
+                    self.take(point, &mut out);
+                    Ok(())
+                }
+                DraftStep::Comment(text) => text_lines(text).try_for_each(|line| write!(out, "; {line}\r\n")),
+                DraftStep::Stop(text) => text_lines(text)
+                    .try_for_each(|line| write!(out, "; STOP: {line}\r\n"))
+                    .and_then(|()| out.write_str("HALT\r\n")),
+                DraftStep::Dwell(seconds) => write!(out, "WAIT SEC {}\r\n", fixed(*seconds, DWELL)),
+                DraftStep::Statement(line) => write!(out, "{line}\r\n"),
+            };
+        }
+        out
+    }
+
+    fn take(&mut self, point: &DraftPoint, out: &mut String) {
+        let blend = self.blends.next().map_or(0.0, |blend| blend.distance);
+        // A joint move is given in axes: its posture and its turns are unique.
         let Some(speed) = point.speed else {
-            let posture = point.branch.map_or(String::new(), |branch| {
-                let (status, turn) = (status(Configuration::of(branch)), turn(&point.joints));
-                format!(",S {status},T {turn}")
-            });
-            pose.insert_str(pose.len() - 1, &posture);
-            _ = write!(out, "PTP {pose}\r\n");
+            _ = write!(out, "PTP {}\r\n", axes(self.draft, point));
             return;
         };
+        let mut pose = String::new();
+        whole(&Convention::Kuka.numbers_of(&point.frame_from_tool), &mut pose);
+        let external: String = external(self.draft, point)
+            .map(|axis| format!(",{axis}"))
+            .collect();
+        pose.insert_str(pose.len() - 1, &external);
         let speed = fixed(speed, SPEED);
         if self.speed.as_ref() != Some(&speed) {
             _ = write!(out, "$VEL.CP={speed}\r\n");
             self.speed = Some(speed);
         }
-        let mut approximated = "";
-        if blend > 0.0 {
-            let blend = fixed(to_mm(blend), BLEND);
-            if self.blend.as_ref() != Some(&blend) {
-                _ = write!(out, "$APO.CDIS={blend}\r\n");
-                self.blend = Some(blend);
-            }
-            approximated = " C_DIS";
+        let blend = fixed(to_mm(blend), BLEND);
+        let is_exact = !blend.bytes().any(|digit| matches!(digit, b'1'..=b'9'));
+        if !is_exact && self.blend.as_ref() != Some(&blend) {
+            _ = write!(out, "$APO.CDIS={blend}\r\n");
+            self.blend = Some(blend);
         }
-        _ = write!(out, "LIN {pose}{approximated}\r\n");
+        _ = write!(out, "LIN {pose}{}\r\n", if is_exact { "" } else { " C_DIS" });
     }
 }
 
-/// S: bit 0 rear, bit 1 not lower, bit 2 flip.
-fn status(configuration: Configuration) -> u32 {
-    u32::from(configuration.rear == Some(true))
-        + 2 * u32::from(configuration.lower == Some(false))
-        + 4 * u32::from(configuration.flip == Some(true))
-}
-
-/// T: bit i where axis i + 1 is below zero.
-fn turn(joints: &[f64]) -> u32 {
-    joints
-        .iter()
-        .enumerate()
-        .map(|(axis, joint)| u32::from(*joint < 0.0) << axis)
-        .sum()
-}
-
 fn notes(draft: &Draft) -> Vec<String> {
-    let (frame, tool) = (draft.frame_number, draft.tool_number);
-    let mut notes = vec![
-        format!(
+    let (frame, tool) = (draft.controller.frame_number, draft.controller.tool_number);
+    let data = match draft.controller.sets_data() {
+        true => format!(
             "$BASE and $TOOL are set to the values of this program, relative to $ROBROOT; BASE_DATA[{frame}] and \
              TOOL_DATA[{tool}] of the controller are not changed: compare them"
         ),
+        false => format!(
+            "BASE_DATA[{frame}] must be {} and TOOL_DATA[{tool}] {} on the controller, for which this program was made",
+            set(&draft.base_from_frame),
+            set(&draft.flange_from_tool)
+        ),
+    };
+    let mut notes = vec![
+        data,
         format!("the load is that of tool {tool} on the controller: check it"),
         "the first move goes to its axis positions from the robot's current posture: check for collisions"
             .to_owned(),
     ];
-    let unsaid = draft
-        .points
-        .iter()
-        .skip(1)
-        .any(|point| point.speed.is_none() && point.branch.is_none());
-    if unsaid {
+    if !draft.external_slides.is_empty() {
         notes.push(
-            "joint moves are written without S and T, because the postures of this arm have no names"
+            "E1 and further axes are the external axes in the order of the robot file: check their order and zero"
                 .to_owned(),
         );
     }
     notes
-}
-
-#[cfg(test)]
-mod tests {
-    use armill_core::robot::Branch;
-
-    use super::*;
-
-    #[test]
-    fn status_and_turn_are_those_of_the_sample() {
-        // Siemens_Sinumerik.mpf of the six languages gives STAT=2 TU=57 for these axes, deg; 57 is T with its six bits
-        // the other way round.
-        let joints = [-46.18419, -6.77518, -20.54925, 71.38674, 49.58727, -302.54752].map(f64::to_radians);
-        assert_eq!(turn(&joints), 0b10_0111);
-        assert_eq!(turn(&joints).reverse_bits() >> 26, 57);
-        assert_eq!(status(Configuration::of(Branch::ALL[0])), 2);
-    }
-
-    #[test]
-    fn every_posture_has_its_own_status() {
-        let mut all: Vec<u32> = Branch::ALL
-            .iter()
-            .map(|branch| status(Configuration::of(*branch)))
-            .collect();
-        all.sort_unstable();
-        assert_eq!(all, (0..8).collect::<Vec<_>>());
-    }
 }

@@ -3,13 +3,16 @@
 //! Tool and work object are data of the module, named by their numbers (`tool_2`, `wobj_1`): the data stored on the
 //! controller under other names are not changed.
 
-use armill_core::units::{from_mm, to_deg, to_mm};
+use armill_core::units::{from_mm, to_deg, to_mm, to_um};
 use std::fmt::Write;
 
 use super::spell::whole;
-use crate::draft::{Bounds, Draft, DraftError, DraftPoint, Written};
+use crate::controller::Controller;
+use crate::draft::{Blend, Draft, DraftPoint, DraftStep, Written, text_lines};
+use crate::draft_check::{Bounds, DraftError};
 use crate::number::fixed;
 use crate::posture::Configuration;
+use crate::spelling::in_pieces;
 
 /// `[recalled]` Longest identifier; `MOD_` precedes the name of a module, up to six characters follow that of a part.
 const LONGEST_NAME: usize = 32;
@@ -17,36 +20,38 @@ const BEFORE_MODULE: usize = 4;
 const PART: usize = 6;
 /// Range of the numbers of tools and work objects, which appear only in names.
 const MOST_FRAMES: u32 = 999;
-/// Maximum number of moves in a module: larger modules load slowly [formats.md: 10 to 30 thousand lines].
-const MOST_MOVES: usize = 10_000;
-/// Decimals of joints, deg, and of speeds, mm/s.
+/// Maximum number of statements in a module: larger modules load slowly; post processors write 10 to 30 thousand lines.
+const MOST_STEPS: usize = 10_000;
+/// Decimals of joints, deg, of speeds, mm/s, of dwells, s, and of accelerations, m/s^2.
 const JOINT: usize = 5;
 const SPEED: usize = 3;
+const DWELL: usize = 3;
+const ACCELERATION: usize = 3;
 /// Predefined speeds, mm/s `[recalled]`.
 const SPEEDS: [u32; 24] = [
     5, 10, 20, 30, 40, 50, 60, 80, 100, 150, 200, 300, 400, 500, 600, 800, 1000, 1500, 2000, 2500, 3000,
     4000, 5000, 6000,
 ];
-/// Predefined zones: name and maximum distance of the path from the target, mm `[recalled]`.
-const ZONES: [(&str, f64); 15] = [
-    ("z200", 200.0),
-    ("z150", 150.0),
-    ("z100", 100.0),
-    ("z80", 80.0),
-    ("z60", 60.0),
-    ("z50", 50.0),
-    ("z40", 40.0),
-    ("z30", 30.0),
-    ("z20", 20.0),
-    ("z15", 15.0),
-    ("z10", 10.0),
-    ("z5", 5.0),
-    ("z1", 1.0),
-    ("z0", 0.3),
-    ("fine", 0.0),
+/// Distances of the zones of these programs, mm, in descending order. A zone never exceeds the requested distance, except
+/// below the smallest one: a cut has no exact stops.
+const ZONES: [f64; 20] = [
+    200.0, 150.0, 100.0, 80.0, 60.0, 50.0, 40.0, 30.0, 20.0, 15.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05,
+    0.02, 0.01,
 ];
-/// Values of absent external axes.
-const ABSENT: &str = "[9E9,9E9,9E9,9E9,9E9,9E9]";
+/// Those with the name `z` and their distance `[recalled]`.
+const PREDEFINED: [f64; 13] = [
+    200.0, 150.0, 100.0, 80.0, 60.0, 50.0, 40.0, 30.0, 20.0, 15.0, 10.0, 5.0, 1.0,
+];
+/// Reorientation in a zone per distance, deg/mm, as in the predefined zones `[recalled]`.
+const ZONE_DEG_PER_MM: f64 = 0.1;
+/// Speed of joint moves at full joint speed, mm/s: joint moves of this language have the speed of the TCP.
+const JOINT_MOVE_MM_S: f64 = 2000.0;
+/// Longest line that the pendant shows `[recalled]`, characters.
+const LONGEST_TEXT: usize = 40;
+/// Value of an absent external axis.
+const ABSENT: &str = "9E9";
+/// Largest number of external axes.
+const MOST_EXTERNAL: usize = 6;
 /// Reserved words `[recalled]`.
 const WORDS: &[&str] = &[
     "ALIAS",
@@ -136,7 +141,7 @@ const WORDS: &[&str] = &[
 /// # Errors
 /// Values outside the ranges of the language or its controllers.
 pub fn write(draft: &Draft) -> Result<Written, DraftError> {
-    let is_split = draft.points.len() > MOST_MOVES;
+    let is_split = draft.steps.len() > MOST_STEPS;
     let bounds = Bounds {
         language: "ABB RAPID",
         longest_name: LONGEST_NAME - BEFORE_MODULE - if is_split { PART } else { 0 },
@@ -148,39 +153,41 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
                 "a letter, then letters, digits and underscores, at most 28 characters, and not a reserved word"
             }
         },
-        joints: 6..=6,
+        external: MOST_EXTERNAL,
         frames: 0..=MOST_FRAMES,
         tools: 0..=MOST_FRAMES,
     };
     draft.check(&bounds)?;
     draft.avoid(&bounds, WORDS)?;
-    let kept = format!("tool_{}\\WObj:=wobj_{}", draft.tool_number, draft.frame_number);
-    let mut main = head(draft, &draft.name);
+    let blends = draft.blends();
+    let mut main = head(draft, &draft.name, &blends);
     main.push_str("    ConfJ\\On;\r\n    ConfL\\Off;\r\n    SingArea\\Wrist;\r\n");
+    if let Some(acceleration) = draft.controller.acceleration {
+        let limit = fixed(acceleration, ACCELERATION);
+        _ = write!(
+            main,
+            "    PathAccLim TRUE\\AccMax:={limit},TRUE\\DecelMax:={limit};\r\n"
+        );
+    }
+    for line in &draft.controller.header {
+        _ = write!(main, "    {line}\r\n");
+    }
     let mut files = Vec::new();
-    for (name, points) in draft.parts(MOST_MOVES, "_") {
-        let mut body = String::new();
-        for point in points {
-            match draft.is_first(point) {
-                // The first move is given in joints: its posture is unique.
-                true => {
-                    _ = write!(
-                        main,
-                        "    MoveAbsJ [{},{ABSENT}]\\NoEOffs,v200,fine,{kept};\r\n",
-                        joints(point)
-                    );
-                }
-                false => body.push_str(&line(point, draft.blend(point), &kept)),
-            }
-        }
+    let mut ahead = blends.iter();
+    for (name, steps) in draft.parts(MOST_STEPS, "_") {
+        let body = body(draft, steps, &mut ahead);
         match is_split {
             true => {
                 _ = write!(main, "    {name};\r\n");
-                let part = format!("{}{body}  ENDPROC\r\nENDMODULE\r\n", head(draft, &name));
+                let head = head(draft, &name, &blends);
+                let part = format!("{head}{body}  ENDPROC\r\nENDMODULE\r\n");
                 files.push((format!("{name}.mod"), ascii(&part)));
             }
             false => main.push_str(&body),
         }
+    }
+    for line in &draft.controller.footer {
+        _ = write!(main, "    {line}\r\n");
     }
     main.push_str("  ENDPROC\r\nENDMODULE\r\n");
     files.insert(0, (format!("{}.mod", draft.name), ascii(&main)));
@@ -190,37 +197,122 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
     })
 }
 
+/// Names of tool and work object.
+fn names(controller: &Controller) -> [String; 2] {
+    let given = |name: &Option<String>, otherwise: String| name.clone().unwrap_or(otherwise);
+    [
+        given(&controller.tool_name, format!("tool_{}", controller.tool_number)),
+        given(
+            &controller.frame_name,
+            format!("wobj_{}", controller.frame_number),
+        ),
+    ]
+}
+
 /// A module up to the head of its routine.
-fn head(draft: &Draft, name: &str) -> String {
+fn head(draft: &Draft, name: &str, blends: &[Blend]) -> String {
     let mut out = format!("MODULE MOD_{name}\r\n");
     for line in draft.remark_lines() {
         _ = write!(out, "  ! {line}\r\n");
     }
-    let (mut tool, mut frame) = (String::new(), String::new());
-    whole(&draft.flange_from_tool, &mut tool);
-    whole(&draft.base_from_frame, &mut frame);
-    _ = write!(
-        out,
-        "  LOCAL PERS tooldata tool_{}:=[TRUE,[{tool}],[1,[0,0,1],[1,0,0,0],0,0,0]];\r\n  \
-         LOCAL PERS wobjdata wobj_{}:=[FALSE,TRUE,\"\",[{frame}],[[0,0,0],[1,0,0,0]]];\r\n  \
-         PROC {name}()\r\n",
-        draft.tool_number, draft.frame_number
-    );
+    if draft.controller.sets_data() {
+        let [tool_name, frame_name] = names(&draft.controller);
+        let (mut tool, mut frame) = (String::new(), String::new());
+        whole(&draft.flange_from_tool, &mut tool);
+        whole(&draft.base_from_frame, &mut frame);
+        _ = write!(
+            out,
+            "  LOCAL PERS tooldata {tool_name}:=[TRUE,[{tool}],[1,[0,0,1],[1,0,0,0],0,0,0]];\r\n  \
+             LOCAL PERS wobjdata {frame_name}:=[FALSE,TRUE,\"\",[{frame}],[[0,0,0],[1,0,0,0]]];\r\n"
+        );
+    }
+    let used = |zone: &f64| blends.iter().any(|blend| zone_of(blend.distance) == Some(*zone));
+    for zone in ZONES
+        .iter()
+        .filter(|zone| !PREDEFINED.contains(zone) && used(zone))
+    {
+        let deg = fixed(zone * ZONE_DEG_PER_MM, SPEED);
+        _ = write!(
+            out,
+            "  LOCAL PERS zonedata {}:=[FALSE,{zone},{zone},{zone},{deg},{zone},{deg}];\r\n",
+            zone_name(*zone)
+        );
+    }
+    _ = write!(out, "  PROC {name}()\r\n");
     out
 }
 
-fn line(point: &DraftPoint, blend: f64, kept: &str) -> String {
+/// The largest zone, mm, within this distance, m; the smallest one if all are larger; none for an exact stop.
+fn zone_of(distance: f64) -> Option<f64> {
+    let within = |zone: &&f64| distance >= from_mm(**zone * (1.0 - 1e-12));
+    (distance > 0.0).then(|| {
+        ZONES
+            .iter()
+            .find(within)
+            .copied()
+            .unwrap_or(ZONES[ZONES.len() - 1])
+    })
+}
+
+fn zone_name(zone: f64) -> String {
+    match PREDEFINED.contains(&zone) {
+        true => format!("z{zone}"),
+        false => format!("zone_{}um", to_um(from_mm(zone)).round()),
+    }
+}
+
+fn body(draft: &Draft, steps: &[DraftStep], blends: &mut std::slice::Iter<'_, Blend>) -> String {
+    let [tool, frame] = names(&draft.controller);
+    let kept = format!("{tool}\\WObj:={frame}");
+    let mut out = String::new();
+    for step in steps {
+        _ = match step {
+            DraftStep::Move(point) => {
+                let blend = blends.next().map_or(0.0, |blend| blend.distance);
+                out.write_str(&line(draft, point, blend, &kept))
+            }
+            DraftStep::Comment(text) => text_lines(text).try_for_each(|line| write!(out, "    ! {line}\r\n")),
+            DraftStep::Stop(text) => in_pieces(&text.replace('"', "'"), LONGEST_TEXT)
+                .iter()
+                .try_for_each(|line| write!(out, "    TPWrite \"{line}\";\r\n"))
+                .and_then(|()| out.write_str("    Stop;\r\n")),
+            DraftStep::Dwell(seconds) => {
+                write!(out, "    WaitTime\\InPos,{};\r\n", fixed(*seconds, DWELL))
+            }
+            DraftStep::Statement(line) => write!(out, "    {line}\r\n"),
+        };
+    }
+    out
+}
+
+fn line(draft: &Draft, point: &DraftPoint, blend: f64, kept: &str) -> String {
+    let zone = zone_of(blend).map_or_else(|| "fine".to_owned(), zone_name);
+    let external = external(draft, point);
+    let Some(speed) = point.speed else {
+        // A joint move is given in axes: its posture and its turns are unique.
+        let speed = speed_of((draft.controller.joint_speed * JOINT_MOVE_MM_S).max(1.0));
+        let joints = joints(point);
+        return format!("    MoveAbsJ [{joints},{external}]\\NoEOffs,{speed},{zone},{kept};\r\n");
+    };
     let mut target = String::new();
     whole(&point.frame_from_tool, &mut target);
-    let target = format!("[{target},{},{ABSENT}]", confdata(point));
-    let zone = ZONES
-        .iter()
-        .find(|(_, radius)| blend >= from_mm(radius * (1.0 - 1e-12)));
-    let zone = zone.map_or("fine", |(name, _)| name);
-    match point.speed {
-        Some(speed) => format!("    MoveL {target},{},{zone},{kept};\r\n", speed_of(to_mm(speed))),
-        None => format!("    MoveJ {target},v200,{zone},{kept};\r\n"),
-    }
+    let confdata = confdata(point);
+    let speed = speed_of(to_mm(speed));
+    format!("    MoveL [{target},{confdata},{external}],{speed},{zone},{kept};\r\n")
+}
+
+/// The six external axes, deg or mm.
+fn external(draft: &Draft, point: &DraftPoint) -> String {
+    let given = point.external.iter().zip(&draft.external_slides);
+    let given = given.map(|(value, slides)| {
+        let value = if *slides { to_mm(*value) } else { to_deg(value) };
+        fixed(value, JOINT)
+    });
+    let all: Vec<String> = given
+        .chain(std::iter::repeat(ABSENT.to_owned()))
+        .take(MOST_EXTERNAL)
+        .collect();
+    format!("[{}]", all.join(","))
 }
 
 /// A speeddata: a predefined one, or one with the predefined rotation speed, deg/s `[recalled]`.
@@ -262,19 +354,42 @@ fn ascii(text: &str) -> Vec<u8> {
 }
 
 fn notes(draft: &Draft) -> Vec<String> {
-    let (frame, tool) = (draft.frame_number, draft.tool_number);
-    let mut notes = vec![
-        format!(
-            "tool_{tool} and wobj_{frame} are data of this module, relative to flange and robot base: compare them \
-             with those of the controller"
-        ),
-        format!("the load of tool_{tool} is written as 1 kg: set mass, centre of gravity and inertia"),
+    let [tool, frame] = names(&draft.controller);
+    let mut notes = match draft.controller.sets_data() {
+        true => vec![
+            format!(
+                "{tool} and {frame} are data of this module, relative to flange and robot base: compare them with those \
+                 of the controller"
+            ),
+            format!("the load of {tool} is written as 1 kg: set mass, centre of gravity and inertia"),
+        ],
+        false => {
+            let (mut tool_values, mut frame_values) = (String::new(), String::new());
+            whole(&draft.flange_from_tool, &mut tool_values);
+            whole(&draft.base_from_frame, &mut frame_values);
+            vec![format!(
+                "{tool} must be [{tool_values}] and {frame} [{frame_values}] on the controller, for which this program \
+                 was made"
+            )]
+        }
+    };
+    notes.push(
         "SingArea\\Wrist lets the tool tilt where axes 4 and 6 are aligned; ConfL\\Off does not check postures along \
-         the path".to_owned(),
-        "the first move goes to its joint positions from the robot's current posture: check for collisions".to_owned(),
-    ];
-    if draft.points.iter().any(|point| point.branch.is_none()) {
+         the path"
+            .to_owned(),
+    );
+    notes.push(
+        "the first move goes to its joint positions from the robot's current posture: check for collisions"
+            .to_owned(),
+    );
+    if draft.points().any(|point| point.branch.is_none()) {
         notes.push("cfx is written as 0, because the postures of this arm have no names".to_owned());
+    }
+    if !draft.external_slides.is_empty() {
+        notes.push(
+            "eax_a and further axes are the external axes in the order of the robot file: check their order and zero"
+                .to_owned(),
+        );
     }
     notes
 }
@@ -290,6 +405,7 @@ mod tests {
         DraftPoint {
             frame_from_tool: Isometry3::identity(),
             joints: joints_deg.map(f64::to_radians).to_vec(),
+            external: Vec::new(),
             branch: Some(branch),
             speed: None,
             blend: 0.0,
@@ -317,20 +433,25 @@ mod tests {
     }
 
     #[test]
-    fn predefined_speeds_are_used_and_zones_never_exceed_the_blend() {
+    fn predefined_speeds_are_used() {
         assert_eq!(speed_of(100.0), "v100");
         assert_eq!(speed_of(123.4567), "[123.457,500,5000,1000]");
+    }
+
+    #[test]
+    fn zones_never_exceed_the_blend_and_only_a_stop_is_fine() {
         for (blend_mm, zone) in [
-            (0.0, "fine"),
-            (0.2, "fine"),
-            (0.3, "z0"),
-            (0.99, "z0"),
-            (4.0, "z1"),
-            (500.0, "z200"),
+            (0.0, None),
+            (0.001, Some("zone_10um")),
+            (0.3, Some("zone_200um")),
+            (0.99, Some("zone_500um")),
+            (4.0, Some("zone_2000um")),
+            (5.0, Some("z5")),
+            (500.0, Some("z200")),
         ] {
-            let point = point([0.0; 6], Branch::ALL[0]);
-            assert!(
-                line(&point, blend_mm * 1e-3, "tool").contains(&format!(",v200,{zone},")),
+            assert_eq!(
+                zone_of(blend_mm * 1e-3).map(zone_name).as_deref(),
+                zone,
                 "{blend_mm}"
             );
         }

@@ -6,8 +6,10 @@
 use std::fmt::Write;
 
 use super::spell::whole;
-use crate::draft::{Bounds, Draft, DraftError, DraftPoint, Written};
+use crate::draft::{Draft, DraftStep, Written, text_lines};
+use crate::draft_check::{Bounds, DraftError};
 use crate::number::fixed;
+use crate::spelling::in_pieces;
 
 /// Range of the numbers of frames and tools, which appear only in remarks.
 const MOST_FRAMES: u32 = 999;
@@ -15,11 +17,18 @@ const MOST_FRAMES: u32 = 999;
 const JOINT: usize = 6;
 const SPEED: usize = 6;
 const BLEND: usize = 6;
-/// Parameters of moves, below the defaults in the manufacturer's manual `[recalled]`: m/s^2, rad/s^2, rad/s.
-const ACCELERATION: &str = "a=1.2";
-const JOINT_PACE: &str = "a=1.4, v=0.5";
-/// A blend radius is less than half of the distance to either neighbour: controllers refuse overlapping blends.
-const PART_OF_WAY: f64 = 0.45;
+/// Decimals of dwells, s.
+const DWELL: usize = 3;
+/// Acceleration of linear moves, m/s^2, unless the cell gives one; the default of the manufacturer's manual `[recalled]`.
+const ACCELERATION: f64 = 1.2;
+/// Greatest speed, rad/s, of the slowest joints of these arms, and the greatest acceleration of joint moves that is
+/// written, rad/s^2 `[recalled]`.
+const JOINT_SPEED: f64 = 2.09;
+const JOINT_ACCELERATION: f64 = 14.0;
+/// Joint acceleration relative to the maximum, unless the cell gives one: 1.4 rad/s^2, the manual's default `[recalled]`.
+const JOINT_ACCELERATION_PART: f64 = 0.1;
+/// Longest text of a message.
+const LONGEST_TEXT: usize = 120;
 /// Reserved words.
 const WORDS: &[&str] = &[
     "and",
@@ -66,12 +75,20 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
         language: "URScript",
         longest_name: 64,
         names: "a letter, then letters, digits and underscores, at most 64 characters, and not a reserved word",
-        joints: 6..=6,
+        external: 0,
         frames: 0..=MOST_FRAMES,
         tools: 0..=MOST_FRAMES,
     };
     draft.check(&bounds)?;
     draft.avoid(&bounds, WORDS)?;
+    let controller = &draft.controller;
+    let is_named = controller.frame_name.is_some();
+    if !controller.sets_data() && !is_named {
+        return Err(DraftError::Data {
+            language: "URScript",
+            reason: "frames have no numbers: give the name of the feature in the installation (frame_name)",
+        });
+    }
     let name = &draft.name;
     let mut out = format!("def {name}():\n");
     for line in draft.remark_lines() {
@@ -80,34 +97,47 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
     _ = writeln!(
         out,
         "  # frame {} and tool {} for which this program was made",
-        draft.frame_number, draft.tool_number
+        controller.frame_number, controller.tool_number
     );
-    out.push_str("  armill_frame = ");
-    whole(&draft.base_from_frame, &mut out);
-    out.push_str("\n  set_tcp(");
-    whole(&draft.flange_from_tool, &mut out);
-    out.push_str(")\n");
-    for (index, point) in draft.points.iter().enumerate() {
-        let mut pose = "pose_trans(armill_frame, ".to_owned();
-        whole(&point.frame_from_tool, &mut pose);
-        pose.push(')');
-        let joints: Vec<String> = point.joints.iter().map(|joint| fixed(*joint, JOINT)).collect();
-        let joints = joints.join(", ");
-        _ = match point.speed {
-            // The first move is given in joints: its posture is unique.
-            _ if index == 0 => writeln!(out, "  movej([{joints}], {JOINT_PACE})"),
-            None => writeln!(out, "  movej(get_inverse_kin({pose}, [{joints}]), {JOINT_PACE})"),
-            Some(speed) => {
-                let (speed, blend) = (fixed(speed, SPEED), blend(&draft.points, index));
-                writeln!(out, "  movel({pose}, {ACCELERATION}, v={speed}{blend})")
-            }
-        };
+    let frame = match &controller.frame_name {
+        Some(name) if !controller.sets_data() => name.as_str(),
+        _ => {
+            out.push_str("  armill_frame = ");
+            whole(&draft.base_from_frame, &mut out);
+            out.push('\n');
+            "armill_frame"
+        }
+    };
+    if controller.sets_data() {
+        out.push_str("  set_tcp(");
+        whole(&draft.flange_from_tool, &mut out);
+        out.push_str(")\n");
     }
+    controller
+        .header
+        .iter()
+        .for_each(|line| _ = writeln!(out, "  {line}"));
+    out.push_str(&body(draft, frame));
+    controller
+        .footer
+        .iter()
+        .for_each(|line| _ = writeln!(out, "  {line}"));
     _ = write!(out, "end\n{name}()\n");
     Ok(Written {
         files: vec![(format!("{name}.script"), out.into_bytes())],
         notes: vec![
-            "this program sets the tool but not its load: check the payload of the installation".to_owned(),
+            match controller.sets_data() {
+                true => "this program sets the tool but not its load: check the payload of the installation".to_owned(),
+                false => {
+                    let (mut tool, mut frame) = (String::new(), String::new());
+                    whole(&draft.flange_from_tool, &mut tool);
+                    whole(&draft.base_from_frame, &mut frame);
+                    format!(
+                        "the TCP of the installation must be {tool} and the feature {frame}, for which this program \
+                         was made"
+                    )
+                }
+            },
             "the first move goes to its joint positions from the robot's current posture: check for \
              collisions".to_owned(),
             "blends are limited to 0.45 of the distance to the next point, because controllers refuse larger \
@@ -116,22 +146,53 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
     })
 }
 
-/// The blend of a point; none for an exact stop, at the ends, and if neighbours are too close.
-fn blend(points: &[DraftPoint], index: usize) -> String {
-    let place = |index: usize| {
-        points
-            .get(index)
-            .map(|point| point.frame_from_tool.translation.vector)
-    };
-    let (Some(before), Some(here), Some(next)) =
-        (place(index.wrapping_sub(1)), place(index), place(index + 1))
-    else {
-        return String::new();
-    };
-    let nearest = (here - before).norm().min((next - here).norm());
-    let blend = fixed(points[index].blend.min(PART_OF_WAY * nearest), BLEND);
-    match blend.bytes().any(|byte| matches!(byte, b'1'..=b'9')) {
-        true => format!(", r={blend}"),
-        false => String::new(),
+/// The statements of the moves, and between them.
+fn body(draft: &Draft, frame: &str) -> String {
+    let controller = &draft.controller;
+    let acceleration = fixed(controller.acceleration.unwrap_or(ACCELERATION), SPEED);
+    let joint_pace = format!(
+        "a={}, v={}",
+        fixed(
+            controller.joint_acceleration.unwrap_or(JOINT_ACCELERATION_PART) * JOINT_ACCELERATION,
+            SPEED
+        ),
+        fixed(controller.joint_speed * JOINT_SPEED, SPEED)
+    );
+    let mut out = String::new();
+    let mut blends = draft.blends().into_iter();
+    for step in &draft.steps {
+        _ = match step {
+            DraftStep::Move(point) => {
+                let blend = fixed(blends.next().map_or(0.0, |blend| blend.distance), BLEND);
+                let is_exact = !blend.bytes().any(|byte| matches!(byte, b'1'..=b'9'));
+                let blend = if is_exact {
+                    String::new()
+                } else {
+                    format!(", r={blend}")
+                };
+                match point.speed {
+                    // A joint move is given in joints: its posture and its turns are unique.
+                    None => {
+                        let joints: Vec<String> =
+                            point.joints.iter().map(|joint| fixed(*joint, JOINT)).collect();
+                        writeln!(out, "  movej([{}], {joint_pace}{blend})", joints.join(", "))
+                    }
+                    Some(speed) => {
+                        let mut pose = format!("pose_trans({frame}, ");
+                        whole(&point.frame_from_tool, &mut pose);
+                        let speed = fixed(speed, SPEED);
+                        writeln!(out, "  movel({pose}), a={acceleration}, v={speed}{blend})")
+                    }
+                }
+            }
+            DraftStep::Comment(text) => text_lines(text).try_for_each(|line| writeln!(out, "  # {line}")),
+            DraftStep::Stop(text) => {
+                let text = in_pieces(&text.replace('"', "'"), LONGEST_TEXT).join(" ");
+                writeln!(out, "  popup(\"{text}\", title=\"armill\", blocking=True)")
+            }
+            DraftStep::Dwell(seconds) => writeln!(out, "  sleep({})", fixed(*seconds, DWELL)),
+            DraftStep::Statement(line) => writeln!(out, "  {line}"),
+        };
     }
+    out
 }

@@ -4,15 +4,22 @@ use armill_core::frame::Isometry;
 use armill_core::units::{to_deg, to_mm};
 use armill_formats::convention::Convention;
 
-use crate::draft::{Bounds, Draft, DraftError, DraftPoint, Written};
+use crate::controller::Controller;
+use crate::draft::{Blend, Draft, DraftPoint, DraftStep, Written, text_lines};
+use crate::draft_check::{Bounds, DraftError};
 use crate::number::fixed;
 use crate::posture::Configuration;
 use crate::spelling::in_pieces;
 
-/// Maximum number of moves in one program. `[recalled]`
-const MOST_MOVES: usize = 2000;
+/// Maximum number of lines in one program. `[recalled]`
+const MOST_LINES: usize = 2000;
 
+/// Longest remark, and line of a message.
 const LONGEST_REMARK: usize = 100;
+const LONGEST_MESSAGE: usize = 40;
+
+/// Decimals of a dwell, s.
+const DWELL: usize = 3;
 
 /// Minimum speed that is not written as zero, mm/s.
 const SLOWEST: f64 = 0.0005;
@@ -34,24 +41,30 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
         language: "Staubli VAL3",
         longest_name: 31,
         names: "a letter, then letters, digits and underscores, at most 31 characters",
-        joints: 6..=6,
+        external: 0,
         frames: 0..=99,
         tools: 0..=99,
     })?;
     draft.check_speeds(|speed| to_mm(speed) >= SLOWEST)?;
-    let speeds = speeds(draft);
-    let moves = moves(draft, &speeds);
+    if !draft.controller.sets_data() {
+        return Err(DraftError::Data {
+            language: "Staubli VAL3",
+            reason: "a project contains its own frame and tool: data = \"program\"",
+        });
+    }
+    let moves = Moves::of(draft);
+    let lines = body(draft, &moves);
     let mut programs = Vec::new();
-    if moves.len() > MOST_MOVES {
+    if lines.len() > MOST_LINES {
         let parts: Vec<(String, &[String])> = (1..)
             .map(|number| format!("part{number:03}"))
-            .zip(moves.chunks(MOST_MOVES))
+            .zip(lines.chunks(MOST_LINES))
             .collect();
         let calls: Vec<String> = parts.iter().map(|(name, _)| format!("call {name}()")).collect();
         programs.push(("start".to_owned(), started(draft, &calls)));
-        programs.extend(parts.into_iter().map(|(name, moves)| (name, moves.to_vec())));
+        programs.extend(parts.into_iter().map(|(name, lines)| (name, lines.to_vec())));
     } else {
-        programs.push(("start".to_owned(), started(draft, &moves)));
+        programs.push(("start".to_owned(), started(draft, &lines)));
     }
     programs.push(("stop".to_owned(), vec!["resetMotion()".to_owned()]));
     let mut files = vec![
@@ -59,7 +72,7 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
             format!("{}.pjx", draft.name),
             project(draft, &programs).into_bytes(),
         ),
-        (format!("{}.dtx", draft.name), data(draft, &speeds).into_bytes()),
+        (format!("{}.dtx", draft.name), data(draft, &moves).into_bytes()),
     ];
     files.extend(
         programs
@@ -77,13 +90,16 @@ fn notes(draft: &Draft) -> Vec<String> {
         format!(
             "frame fFrame[{}] and tool tTool[{}] are in the project's data as specified: check that they match the \
              cell",
-            draft.frame_number, draft.tool_number
+            draft.controller.frame_number, draft.controller.tool_number
         ),
         "copy the files to a folder with the project's name, for controllers with s7 or later".to_owned(),
-        "the first point is given in joints as this arm's controller reports them: test it at low speed"
+        "joint moves are given in joints as this arm's controller reports them: test them at low speed"
             .to_owned(),
     ];
-    if draft.points.iter().any(|point| point.branch.is_none()) {
+    if draft.controller.acceleration.is_some() {
+        notes.push("the acceleration is not written: VAL3 has percentages of the maximum".to_owned());
+    }
+    if draft.points().any(|point| point.branch.is_none()) {
         notes.push(
             "where no posture is given, points keep the posture of the previous point (ssame, esame, wsame)"
                 .to_owned(),
@@ -92,39 +108,87 @@ fn notes(draft: &Draft) -> Vec<String> {
     notes
 }
 
-/// Speed and blend as written in the data: mm/s, mm.
+/// Speed and blend as written in the data: mm/s, none for a joint move; mm.
 type Pace = (Option<String>, String);
 
-fn pace(draft: &Draft, point: &DraftPoint) -> Pace {
-    (
-        point.speed.map(|speed| fixed(to_mm(speed), 3)),
-        fixed(to_mm(draft.blend(point)), 3),
-    )
+/// The moves of a draft as data: each with the index of its target and of its pace.
+struct Moves<'a> {
+    /// Targets of joint moves.
+    joints: Vec<&'a DraftPoint>,
+    /// Targets of linear moves.
+    points: Vec<&'a DraftPoint>,
+    /// Every combination of speed and blend, once, in the order of first use.
+    paces: Vec<Pace>,
+    /// For each move the index of its target and of its pace.
+    indices: Vec<[usize; 2]>,
 }
 
-/// Every combination of speed and blend, once, in the order of first use.
-fn speeds(draft: &Draft) -> Vec<Pace> {
-    let mut found: Vec<Pace> = Vec::new();
-    let mut known = std::collections::BTreeSet::new();
-    for point in draft.points.iter().skip(1) {
-        let pace = pace(draft, point);
-        if known.insert(pace.clone()) {
-            found.push(pace);
+impl<'a> Moves<'a> {
+    fn of(draft: &'a Draft) -> Moves<'a> {
+        let mut moves = Moves {
+            joints: Vec::new(),
+            points: Vec::new(),
+            paces: Vec::new(),
+            indices: Vec::new(),
+        };
+        let mut known = std::collections::BTreeMap::new();
+        let blends: Vec<Blend> = draft.blends();
+        for (point, blend) in draft.points().zip(blends) {
+            let pace = (
+                point.speed.map(|speed| fixed(to_mm(speed), 3)),
+                fixed(to_mm(blend.distance), 3),
+            );
+            let at = *known.entry(pace.clone()).or_insert_with(|| {
+                moves.paces.push(pace);
+                moves.paces.len() - 1
+            });
+            let targets = match point.speed {
+                Some(_) => &mut moves.points,
+                None => &mut moves.joints,
+            };
+            targets.push(point);
+            moves.indices.push([targets.len() - 1, at]);
+        }
+        moves
+    }
+}
+
+/// The lines of all steps.
+fn body(draft: &Draft, moves: &Moves<'_>) -> Vec<String> {
+    let tool = format!("tTool[{}]", draft.controller.tool_number);
+    let mut indices = moves.indices.iter();
+    let mut lines = Vec::new();
+    for step in &draft.steps {
+        match step {
+            DraftStep::Move(point) => {
+                let [target, pace] = indices.next().copied().unwrap_or_default();
+                lines.push(match point.speed {
+                    Some(_) => format!("nTraj=movel(pPoint[{target}],{tool},mSpeed[{pace}])"),
+                    // A joint move is given in joints: its posture and its turns are unique.
+                    None => format!("nTraj=movej(jJoint[{target}],{tool},mSpeed[{pace}])"),
+                });
+            }
+            DraftStep::Comment(text) => lines.extend(text_lines(text).map(remark)),
+            DraftStep::Stop(text) => {
+                // A key of the pendant continues the program `[recalled]`.
+                lines.extend(["waitEndMove()", "userPage()", "cls()"].map(str::to_owned));
+                let pieces = in_pieces(&text.replace('"', "'"), LONGEST_MESSAGE);
+                lines.extend(pieces.iter().map(|piece| format!("putln(\"{piece}\")")));
+                lines.push("nTraj=get()".to_owned());
+            }
+            DraftStep::Dwell(seconds) => {
+                lines.push("waitEndMove()".to_owned());
+                lines.push(format!("delay({})", fixed(*seconds, DWELL)));
+            }
+            DraftStep::Statement(line) => lines.push(line.clone()),
         }
     }
-    found
+    lines
 }
 
-fn moves(draft: &Draft, speeds: &[Pace]) -> Vec<String> {
-    let places: std::collections::BTreeMap<&Pace, usize> = speeds.iter().zip(0..).collect();
-    let tool = format!("tTool[{}]", draft.tool_number);
-    let first = format!("nTraj=movej(jStart[0],{tool},mNomSpeed[0])");
-    let rest = draft.points.iter().skip(1).enumerate().map(|(at, point)| {
-        let word = if point.speed.is_some() { "movel" } else { "movej" };
-        let pace = places.get(&pace(draft, point)).copied().unwrap_or_default();
-        format!("nTraj={word}(pPoint[{at}],{tool},mSpeed[{pace}])")
-    });
-    std::iter::once(first).chain(rest).collect()
+/// A remark; text that would end the code is split.
+fn remark(text: &str) -> String {
+    format!("// {}", text.replace("]]>", "]] >"))
 }
 
 /// The lines of the main program of a project.
@@ -132,11 +196,15 @@ fn started(draft: &Draft, lines: &[String]) -> Vec<String> {
     let remarks = draft
         .remarks
         .iter()
-        .flat_map(|remark| in_pieces(remark, LONGEST_REMARK));
-    // Text that would end the code is split.
-    let remarks = remarks.map(|piece| format!("// {}", piece.replace("]]>", "]] >")));
-    let end = ["waitEndMove()".to_owned()];
-    remarks.chain(lines.iter().cloned()).chain(end).collect()
+        .flat_map(|text| in_pieces(text, LONGEST_REMARK))
+        .map(|piece| remark(&piece));
+    let controller = &draft.controller;
+    remarks
+        .chain(controller.header.iter().cloned())
+        .chain(lines.iter().cloned())
+        .chain(["waitEndMove()".to_owned()])
+        .chain(controller.footer.iter().cloned())
+        .collect()
 }
 
 fn joined(lines: &[String]) -> String {
@@ -185,7 +253,8 @@ fn program(name: &str, code: &[String]) -> String {
     joined(&lines)
 }
 
-fn data(draft: &Draft, speeds: &[Pace]) -> String {
+fn data(draft: &Draft, moves: &Moves<'_>) -> String {
+    let controller = &draft.controller;
     let frame = format!("{} fatherId=\"world[0]\"", attributes(&draft.base_from_frame));
     let tool = format!("{} fatherId=\"flange[0]\"", attributes(&draft.flange_from_tool));
     let mut lines = vec![
@@ -198,38 +267,25 @@ fn data(draft: &Draft, speeds: &[Pace]) -> String {
         &mut lines,
         "fFrame",
         "frame",
-        &[(draft.frame_number as usize, frame)],
+        &[(controller.frame_number as usize, frame)],
     );
-    let start: Vec<String> = draft.points.first().map_or_else(Vec::new, |point| {
+    let joints = moves.joints.iter().map(|point| {
         let deg = point
             .joints
             .iter()
             .map(|joint| fixed(to_deg(joint), JOINT_DECIMALS));
-        (1..)
+        let said: Vec<String> = (1..)
             .zip(deg)
             .map(|(axis, deg)| format!("j{axis}=\"{deg}\""))
-            .collect()
+            .collect();
+        said.join(" ")
     });
-    array(&mut lines, "jStart", "jointRx", &[(0, start.join(" "))]);
-    let described = |tip: &str, vel: u32, blend: &str| {
-        let kind = if blend == "0.000" { "off" } else { "cartesian" };
-        format!(
-            "accel=\"100\" vel=\"{vel}\" decel=\"100\" tmax=\"{tip}\" rmax=\"99999\" blend=\"{kind}\" \
-             leave=\"{blend}\" reach=\"{blend}\""
-        )
-    };
-    array(
-        &mut lines,
-        "mNomSpeed",
-        "mdesc",
-        &[(0, described("99999", 10, "0.000"))],
-    );
-    let paces: Vec<(usize, String)> = speeds
+    let joints: Vec<(usize, String)> = joints.enumerate().collect();
+    array(&mut lines, "jJoint", "jointRx", &joints);
+    let paces: Vec<(usize, String)> = moves
+        .paces
         .iter()
-        .map(|(tip, blend)| match tip {
-            Some(tip) => described(tip, 100, blend),
-            None => described("99999", 10, blend),
-        })
+        .map(|pace| described(controller, pace))
         .enumerate()
         .collect();
     array(&mut lines, "mSpeed", "mdesc", &paces);
@@ -237,24 +293,46 @@ fn data(draft: &Draft, speeds: &[Pace]) -> String {
         "    <Data name=\"nTraj\" access=\"private\" xsi:type=\"array\" type=\"num\" size=\"1\" />"
             .to_owned(),
     );
-    let points: Vec<(usize, String)> = draft
+    let points: Vec<(usize, String)> = moves
         .points
         .iter()
-        .skip(1)
         .map(|point| {
             format!(
                 "{} {} fatherId=\"fFrame[{}]\"",
                 attributes(&point.frame_from_tool),
                 posture(point),
-                draft.frame_number
+                controller.frame_number
             )
         })
         .enumerate()
         .collect();
     array(&mut lines, "pPoint", "pointRx", &points);
-    array(&mut lines, "tTool", "tool", &[(draft.tool_number as usize, tool)]);
+    array(
+        &mut lines,
+        "tTool",
+        "tool",
+        &[(controller.tool_number as usize, tool)],
+    );
     lines.extend(["  </Datas>", "</Database>"].map(str::to_owned));
     joined(&lines)
+}
+
+/// The attributes of a motion descriptor; 99999 is no limit of the speed of the tip.
+fn described(controller: &Controller, (tip, blend): &Pace) -> String {
+    let is_exact = !blend.bytes().any(|digit| matches!(digit, b'1'..=b'9'));
+    let kind = if is_exact { "off" } else { "cartesian" };
+    let (vel, accel, tip) = match tip {
+        Some(tip) => (100, 100, tip.as_str()),
+        None => (
+            Controller::percent(controller.joint_speed),
+            controller.joint_acceleration.map_or(100, Controller::percent),
+            "99999",
+        ),
+    };
+    format!(
+        "accel=\"{accel}\" vel=\"{vel}\" decel=\"{accel}\" tmax=\"{tip}\" rmax=\"99999\" blend=\"{kind}\" \
+         leave=\"{blend}\" reach=\"{blend}\""
+    )
 }
 
 /// An array of data, its values by their keys.

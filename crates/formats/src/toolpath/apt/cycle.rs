@@ -8,14 +8,14 @@
 //! | `MMPM,v`, `IPM`, `MMPR`, `IPR` | feed of the cycle; without it that of FEDRAT |
 //! | `INCR,q` (DEEP) | depth of a peck |
 //! | `1STPECK,q`, `SUBPECK,q` (DEEP2) | of the first, of each that follows |
-//! | `DWELL,t` | wait at the bottom: no move |
+//! | `DWELL,t` | dwell at the bottom, s |
 //!
 //! Pecks count from RAPTO; after each the tip goes back there and down again in rapid. What is cut is the same if a
 //! machine only breaks the chip. The cycles are DRILL, DEEP and DEEP2, and BORE, REAM and TAP, which cut on the way
 //! down as DRILL does; others are refused, since what they do depends on the machine.
 
 use armill_core::nalgebra::{Point3, Unit, Vector3};
-use armill_core::path::{Course, Move, Pace};
+use armill_core::path::{Command, Course, Move, Pace};
 
 use super::modal::Interpreter;
 use super::options::Dialect;
@@ -36,6 +36,7 @@ struct Parameters {
     first_peck: Option<f64>,
     /// SUBPECK.
     next_peck: Option<f64>,
+    dwell: Option<f64>,
     feed: Option<Feed>,
 }
 
@@ -97,7 +98,7 @@ impl Interpreter<'_> {
                 "INCR" if kind == "DEEP" => given.first_peck = Some(value * metres),
                 "1STPECK" if kind == "DEEP2" => given.first_peck = Some(value * metres),
                 "SUBPECK" if kind == "DEEP2" => given.next_peck = Some(value * metres),
-                "DWELL" => {}
+                "DWELL" => given.dwell = Some(value),
                 "MMPM" | "IPM" | "MMPR" | "IPR" => given.feed = self.feed_in(statement, &name, value),
                 _ => {
                     let message = format!("`{name}` is not supported in the cycle {kind}");
@@ -142,17 +143,15 @@ impl Interpreter<'_> {
         self.feed = cycle.feed.or(modal);
         let feed = self.pace(statement);
         self.feed = modal;
-        let mut go = |height: f64, pace: Pace| {
-            let next = Move {
-                end: top + up.into_inner() * height,
-                axis,
-                spin: None,
-                course: Course::Line,
-                pace,
-                line: statement.line(),
-            };
-            self.give(statement, next);
+        let to_height = |height: f64, pace: Pace| Move {
+            end: top + up.into_inner() * height,
+            axis,
+            spin: None,
+            course: Course::Line,
+            pace,
+            line: statement.line(),
         };
+        let mut go = |height: f64, pace: Pace| self.give(statement, to_height(height, pace));
         go(cycle.retract_to, Pace::Rapid);
         go(cycle.rapid_to, Pace::Rapid);
         let bottom = -cycle.depth;
@@ -174,6 +173,10 @@ impl Interpreter<'_> {
             reached = to;
         }
         go(bottom, feed);
+        if cycle.dwell > 0.0 {
+            self.command(Command::Dwell(cycle.dwell));
+        }
+        let mut go = |height: f64, pace: Pace| self.give(statement, to_height(height, pace));
         go(cycle.retract_to, Pace::Rapid);
     }
 }
@@ -233,5 +236,6 @@ fn made(given: &Parameters, kind: &str, dialect: Option<Dialect>) -> Result<Cycl
         retract_to,
         feed: given.feed,
         pecks,
+        dwell: given.dwell.unwrap_or_default(),
     })
 }

@@ -14,7 +14,7 @@ use std::ops::Range;
 
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::{Point3, Unit, UnitQuaternion, Vector3};
-use armill_core::path::{Move, Operation, Step};
+use armill_core::path::{Command, Move, Operation, Step};
 
 use super::options::{AptReadOptions, Dialect};
 use super::settings::{Circle, Cycle, Feed};
@@ -199,6 +199,11 @@ impl<'a> Interpreter<'a> {
         }
         self.at = Some(next.end);
         (self.out)(Step::Move(next));
+    }
+
+    /// Gives a command.
+    pub fn command(&mut self, command: Command) {
+        (self.out)(Step::Command(command));
     }
 
     /// Metres per unit of length. Reports a missing unit once.

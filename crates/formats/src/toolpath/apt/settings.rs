@@ -41,4 +41,6 @@ pub(super) struct Cycle {
     pub feed: Option<Feed>,
     /// First peck and those that follow.
     pub pecks: Option<[f64; 2]>,
+    /// At the bottom, s.
+    pub dwell: f64,
 }

@@ -26,6 +26,7 @@ fn read_all(text: &str) -> (Summary, Vec<Operation>, Vec<Move>) {
     for step in steps {
         match step {
             Step::Operation(operation) => operations.push(operation),
+            Step::Command(_) => {}
             Step::Move(next) => moves.push(next),
         }
     }

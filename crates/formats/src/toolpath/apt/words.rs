@@ -6,6 +6,9 @@
 //! | `FEDRAT` | the feed, until the next one; its mode if given |
 //! | `RAPID` | the pace of the next GOTO alone |
 //! | `SPINDL` | the speed of the spindle: a new operation |
+//! | `COOLNT` | coolant on or off |
+//! | `DELAY` | a dwell, in seconds or in revolutions of the spindle |
+//! | `STOP`, `OPSTOP` | a stop of the program |
 //! | `TOOL PATH` | the name of the operation (NX); forgets axis, feed, cycle and cutter, which a path writes again |
 //! | `INSERT` before `CUTTER` | the name of the operation (SolidWorks) |
 //! | `END-OF-PATH`, `FINI` | ends a cycle; ends the program |
@@ -16,6 +19,8 @@
 
 use std::f64::consts::TAU;
 
+use armill_core::path::Command;
+
 use super::modal::Interpreter;
 use super::options::Dialect;
 use super::settings::Feed;
@@ -24,9 +29,9 @@ use crate::toolpath::LengthUnit;
 
 /// Words that say nothing about where the tip goes and how fast.
 pub(super) const IGNORED: &[&str] = &[
-    "AUXFUN", "CHECK", "CLAMP", "CLEARP", "COOLNT", "CUTCOM", "DELAY", "DISPLY", "INTOL", "LETTER", "MACHIN",
-    "MODE", "MULTAX", "OPSKIP", "OPSTOP", "OUTTOL", "PAINT", "PPFUN", "PPRINT", "PREFUN", "REMARK", "RETRCT",
-    "SAFETY", "SELECT", "SELCTL", "SEQNO", "SETUP", "STOP", "THREAD", "TITLES", "TMARK", "TOLER", "UNLOAD",
+    "AUXFUN", "CHECK", "CLAMP", "CLEARP", "CUTCOM", "DISPLY", "INTOL", "LETTER", "MACHIN", "MODE", "MULTAX",
+    "OPSKIP", "OUTTOL", "PAINT", "PPFUN", "PPRINT", "PREFUN", "REMARK", "RETRCT", "SAFETY", "SELECT",
+    "SELCTL", "SEQNO", "SETUP", "THREAD", "TITLES", "TMARK", "TOLER", "UNLOAD",
 ];
 /// Words that move the tip, or the points themselves, in a way that is not understood here.
 pub(super) const REFUSED: &[&str] = &[
@@ -67,6 +72,12 @@ impl Interpreter<'_> {
             "CYCLE" => self.cycle(statement),
             "FEDRAT" => self.fedrat(statement),
             "SPINDL" => self.spindl(statement),
+            "COOLNT" => {
+                let on = statement.word_at(0) != "OFF";
+                self.command(Command::Coolant(on));
+            }
+            "DELAY" => self.delay(statement),
+            "STOP" | "OPSTOP" => self.command(Command::Stop),
             "UNIT" | "UNITS" => self.unit(statement),
             "LOAD" | "LOADTL" => self.load(statement),
             "CUTTER" => {
@@ -243,6 +254,33 @@ impl Interpreter<'_> {
         self.operation.spindle = Some(sign * speed_rpm * TAU / 60.0);
         if speed_rpm > 0.0 {
             self.last_spindle = self.operation.spindle;
+        }
+    }
+
+    /// DELAY: seconds; with REV revolutions of the spindle, which are noted where its speed is not known.
+    fn delay(&mut self, statement: &Statement) {
+        let (mut value, mut in_revolutions) = (None, false);
+        for parameter in statement.parameters() {
+            match parameter.text.to_uppercase().as_str() {
+                "REV" => in_revolutions = true,
+                "SEC" | "ON" => {}
+                _ => match self.number(statement, &parameter) {
+                    Some(number) => value = value.or(Some(number)),
+                    None => return,
+                },
+            }
+        }
+        let spindle = self.operation.spindle.map(f64::abs).filter(|speed| *speed > 0.0);
+        let seconds = match (value, in_revolutions, spindle) {
+            (Some(value), false, _) => value,
+            (Some(value), true, Some(speed)) => value * TAU / speed,
+            _ => {
+                self.warn(statement, "DELAY without a known time is not followed".to_owned());
+                return;
+            }
+        };
+        if seconds > 0.0 {
+            self.command(Command::Dwell(seconds));
         }
     }
 

@@ -12,7 +12,7 @@ fn moves(text: &str) -> Vec<Move> {
     let (_, steps) = steps(text).unwrap_or_else(|problems| panic!("{problems}"));
     let moves = steps.into_iter().filter_map(|step| match step {
         Step::Move(next) => Some(next),
-        Step::Operation(_) => None,
+        Step::Operation(_) | Step::Command(_) => None,
     });
     moves.collect()
 }
@@ -21,7 +21,7 @@ fn operations(text: &str) -> Vec<Operation> {
     let (_, steps) = steps(text).unwrap_or_else(|problems| panic!("{problems}"));
     let operations = steps.into_iter().filter_map(|step| match step {
         Step::Operation(operation) => Some(operation),
-        Step::Move(_) => None,
+        Step::Move(_) | Step::Command(_) => None,
     });
     operations.collect()
 }

@@ -145,6 +145,10 @@ pub enum Canonical {
     StopSpindleTurning,
     /// G97: turns a minute; also part of the end.
     SetSpindleMode,
+    /// M7, M8: mist or flood on; M9: both off. Not a call of NISTIR 6556, which has one for each.
+    Coolant {
+        on: bool,
+    },
     /// Seconds.
     Dwell(f64),
     /// What a comment says to the operator.
@@ -245,6 +249,7 @@ impl fmt::Display for Canonical {
             Canonical::StartSpindleCounterclockwise => f.write_str("START_SPINDLE_COUNTERCLOCKWISE(0)"),
             Canonical::StopSpindleTurning => f.write_str("STOP_SPINDLE_TURNING(0)"),
             Canonical::SetSpindleMode => f.write_str("SET_SPINDLE_MODE(0 0.0000)"),
+            Canonical::Coolant { on } => write!(f, "COOLANT({})", if *on { "ON" } else { "OFF" }),
             Canonical::Dwell(seconds) => write!(f, "DWELL({seconds:.4})"),
             Canonical::Message(text) => write!(f, "MESSAGE(\"{text}\")"),
             Canonical::ProgramStop => f.write_str("PROGRAM_STOP()"),

@@ -153,6 +153,9 @@ impl Machine {
             }),
             None => {}
         }
+        if let Some((code, _)) = block.m[groups::COOLANT] {
+            self.call(Canonical::Coolant { on: code != 9 }, out)?;
+        }
         if block.m[groups::OVERRIDE].is_some() {
             block.take(b'p');
         }

@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 use armill_core::nalgebra::{Point3, Rotation3, Unit, Vector2, Vector3};
-use armill_core::path::{Arc, Course, Move, Operation, Pace, Step};
+use armill_core::path::{Arc, Command, Course, Move, Operation, Pace, Step};
 use armill_core::units::from_deg;
 
 use super::canonical::{ArcFeed, Axes, Canonical};
@@ -205,6 +205,11 @@ impl<'a> Tracer<'a> {
             }
             Canonical::ToolAxis(axis) => self.vector = Some(Vector3::from(axis)),
             Canonical::MachineCoordinates => self.in_machine = true,
+            Canonical::Coolant { on } => (self.out)(Step::Command(Command::Coolant(on))),
+            Canonical::Dwell(seconds) if seconds > 0.0 => {
+                (self.out)(Step::Command(Command::Dwell(seconds)));
+            }
+            Canonical::ProgramStop => (self.out)(Step::Command(Command::Stop)),
             _ => {}
         }
         Ok(())

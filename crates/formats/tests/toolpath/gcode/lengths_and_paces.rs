@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 
-use armill_core::path::Pace;
+use armill_core::path::{Command, Pace};
 use armill_formats::toolpath::LengthUnit;
 use armill_formats::toolpath::gcode::{GcodeReadOptions, Tool, ToolTable, Warning};
 
@@ -164,4 +164,19 @@ fn blocks_with_a_slash_are_left_out_on_request() {
         ..GcodeReadOptions::default()
     };
     assert_eq!(read(program, &expected).unwrap().0.moves.len(), 2);
+}
+
+#[test]
+fn coolant_dwells_and_stops_are_commands_between_moves() {
+    let found = path("G21 G90 F100\nM8\nG0 X0 Y0 Z5\nG1 Z0\nG4 P0.3\nM7 M8\nG4 P0\nG1 X5\nM9\nM0\nM2\n");
+    assert_eq!(
+        found.commands,
+        [
+            (0, Command::Coolant(true)),
+            (2, Command::Dwell(0.3)),
+            (2, Command::Coolant(true)),
+            (3, Command::Coolant(false)),
+            (3, Command::Stop),
+        ]
+    );
 }

@@ -1,6 +1,6 @@
 //! A program read, and what its tests compare.
 
-use armill_core::path::{Arc, Course, Move, Operation, Step};
+use armill_core::path::{Arc, Command, Course, Move, Operation, Step};
 use armill_formats::document::Problems;
 use armill_formats::toolpath::Summary;
 use armill_formats::toolpath::gcode::{self, GcodeReadOptions, interpret};
@@ -12,6 +12,8 @@ pub struct Program {
     pub moves: Vec<Move>,
     /// Of each operation the index of its first move.
     pub starts: Vec<usize>,
+    /// Each with the number of moves before it.
+    pub commands: Vec<(usize, Command)>,
 }
 
 pub fn read(program: &str, expected: &GcodeReadOptions<'_>) -> Result<(Program, Summary), Problems> {
@@ -21,6 +23,7 @@ pub fn read(program: &str, expected: &GcodeReadOptions<'_>) -> Result<(Program, 
             path.operations.push(operation);
             path.starts.push(path.moves.len());
         }
+        Step::Command(command) => path.commands.push((path.moves.len(), command)),
         Step::Move(next) => path.moves.push(next),
     })?;
     Ok((path, summary))

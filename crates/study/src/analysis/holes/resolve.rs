@@ -322,6 +322,7 @@ fn in_file(
         &ToolpathReadOptions::default(),
         &mut |step| match step {
             Step::Operation(operation) => operations.push((holes.len(), operation)),
+            Step::Command(_) => {}
             Step::Move(_) if holes.len() >= MOST_HOLES => too_many = true,
             Step::Move(next) => {
                 paces.push(next.pace);

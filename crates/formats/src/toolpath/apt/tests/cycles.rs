@@ -2,7 +2,10 @@
 
 use armill_core::path::Pace;
 
-use super::{near, problems, read_all};
+use armill_core::path::{Command, Step};
+
+use super::{near, problems, read_all, steps};
+use crate::toolpath::apt::AptReadOptions;
 
 #[test]
 fn a_drilled_hole_goes_down_at_its_feed_and_back_in_rapid() {
@@ -20,6 +23,45 @@ fn a_drilled_hole_goes_down_at_its_feed_and_back_in_rapid() {
         moves[9].pace,
         Pace::Feed(0.099 / 60.0),
         "the feed of FEDRAT is back"
+    );
+}
+
+#[test]
+fn coolant_dwells_and_stops_are_commands_between_moves() {
+    let text = "UNIT/MM\nTRNTYP/WORLD\nSPINDL/600,RPM,CLW\nCOOLNT/FLOOD\nFEDRAT/99.,MMPM\nRAPID\nGOTO/0,0,25.,0,0,1.\n\
+                CYCLE/DRILL,FEDTO,5.,MMPM,120.,RAPTO,3.,RTRCTO,25.,DWELL,0.5\nGOTO/10.,0,0\nCYCLE/OFF\nDELAY/5,REV\n\
+                DELAY/0.2\nCOOLNT/OFF\nSTOP\nDELAY/REV\n";
+    let (summary, steps) = steps(text, &AptReadOptions::default()).unwrap();
+    let mut commands = Vec::new();
+    let mut moves = 0;
+    for step in &steps {
+        match step {
+            Step::Command(command) => commands.push((moves, *command)),
+            Step::Move(_) => moves += 1,
+            Step::Operation(_) => {}
+        }
+    }
+    let expected = [
+        (0, Command::Coolant(true)),
+        (4, Command::Dwell(0.5)),
+        (5, Command::Dwell(0.5)),
+        (5, Command::Dwell(0.2)),
+        (5, Command::Coolant(false)),
+        (5, Command::Stop),
+    ];
+    for ((at, found), (expected_at, expected)) in commands.iter().zip(&expected) {
+        assert_eq!(at, expected_at, "{commands:?}");
+        match (found, expected) {
+            (Command::Dwell(found), Command::Dwell(expected)) => assert!((found - expected).abs() < 1e-12),
+            _ => assert_eq!(found, expected),
+        }
+    }
+    assert_eq!(commands.len(), expected.len());
+    let unknown = "DELAY without a known time is not followed (once, first in line 15)";
+    assert!(
+        summary.notes.iter().any(|note| note == unknown),
+        "{:?}",
+        summary.notes
     );
 }
 
