@@ -3,6 +3,7 @@
 //! - [`document`]: a TOML file that is checked completely and reports all its problems at once,
 //!   each with its place, its limit and a hint.
 //! - [`robot`]: robot descriptions in, of six formats; readings of pendants.
+//! - [`controller`]: how a cell writes its robot programs.
 //! - [`convention`]: poses as six makers write them.
 //! - [`material`]: what materials take to cut: our material file.
 //! - [`sources`]: where the numbers of these files come from.
@@ -19,6 +20,7 @@
 //! Nothing in this crate prints, except the panic message of Rust if a fault of the crates `parquet` and `xacro-rs`
 //! is caught and reported as a problem of the file. Same input, same bytes.
 
+pub mod controller;
 pub mod convention;
 pub mod document;
 pub mod file;

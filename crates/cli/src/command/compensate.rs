@@ -9,7 +9,7 @@ use armill_core::optimize::Compensation;
 use armill_core::source::StiffnessModel;
 use armill_plan::compensate::in_place::allow_programs;
 use armill_plan::compensate::{CompensatedPath, CompensationAnswer, compensate};
-use armill_study::program_out::program;
+use armill_study::program_out::{PathToWrite, program};
 use armill_study::{StudyError, studies};
 
 use super::program::{requested, save};
@@ -66,7 +66,13 @@ pub(crate) fn run(arguments: &CompensateArguments) -> Result<Outcome, StudyError
             );
             return Err(StudyError::value(message, "select one: --analysis NAME"));
         };
-        let written = program(&study, one.setting, &one.path.0, &one.path.1, requested)?;
+        let path = PathToWrite {
+            setting: one.setting,
+            track: &one.path.0,
+            answers: &one.path.1,
+            spindle: one.spindle,
+        };
+        let written = program(&study, path, requested)?;
         save(&writer, folder, &written)?;
     }
     let any = |known: fn(&StiffnessModel) -> bool| commanded.iter().any(|one| known(&one.setting.model));

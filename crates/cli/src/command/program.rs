@@ -45,6 +45,7 @@ pub(super) fn requested(
         frame_number: options.frame,
         tool_number: options.tool,
         within: from_um(within("--within-um", options.within_um, [0.1, 1e6])?),
+        rounding: from_um(options.within_um),
         retract: from_mm(within("--retract-mm", options.retract_mm, [0.0, 1e4])?),
         blend: from_mm(within("--blend-mm", options.blend_mm, [0.0, 1e3])?),
         feed: match feed_mm_per_min {

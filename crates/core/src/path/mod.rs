@@ -34,7 +34,7 @@ pub use holes::{Hole, drilled_holes, path_of_holes};
 pub use pass::Pass;
 pub use placing::{Placing, Spin};
 pub use program::{Arc, Command, Course, DepthOfCut, GivenSpin, Move, Operation, Pace, Step};
-pub use sampled::{PathBuilder, Rapids, SampledPath, TooManyPoints};
+pub use sampled::{PathBuilder, PlacedCommand, Rapids, SampledPath, TooManyPoints};
 pub use sampler::{PathPoint, Sampler, Sampling};
 pub use shape::Shape;
 pub use stock::{Stock, StockError};

@@ -17,8 +17,8 @@ pub struct SampledPath {
     pub points: Vec<PathPoint>,
     /// Its operations, each with the index of its first point.
     pub operations: Vec<(usize, Operation)>,
-    /// Its commands, each with the number of points before it.
-    pub commands: Vec<(usize, Command)>,
+    /// Its commands.
+    pub commands: Vec<PlacedCommand>,
     /// The rapids that lead to each stretch of cuts.
     pub rapids: Vec<Rapids>,
     /// The rapids after the last cut.
@@ -27,6 +27,17 @@ pub struct SampledPath {
     pub moves: usize,
     /// Time of all cuts with a given feed, s.
     pub cutting_time: f64,
+}
+
+/// A command of a program and its place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlacedCommand {
+    /// Number of points before it.
+    pub points: usize,
+    /// Number of rapids between the last point and the command.
+    pub rapids: usize,
+    /// The command.
+    pub command: Command,
 }
 
 /// Consecutive rapids.
@@ -129,7 +140,11 @@ impl PathBuilder {
                 return;
             }
             Step::Command(command) => {
-                self.path.commands.push((self.path.points.len(), command));
+                self.path.commands.push(PlacedCommand {
+                    points: self.path.points.len(),
+                    rapids: self.since.moves.len(),
+                    command,
+                });
                 return;
             }
             Step::Move(next) => next,
@@ -232,7 +247,12 @@ mod tests {
             .map(|rapid| [rapid.end.x, rapid.end.z])
             .collect();
         assert_eq!(ends, [[0.01, 0.01], [0.02, 0.01], [0.02, 0.0]]);
-        assert_eq!(path.commands, [(11, Command::Coolant(true))]);
+        let coolant = PlacedCommand {
+            points: 11,
+            rapids: 3,
+            command: Command::Coolant(true),
+        };
+        assert_eq!(path.commands, [coolant]);
         assert!(path.last_rapids.moves.is_empty());
         for (index, point, operation) in path.with_operations() {
             let begun = usize::from(index >= 11);

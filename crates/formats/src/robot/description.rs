@@ -5,6 +5,7 @@
 
 use armill_core::robot::Robot;
 
+use crate::controller::ControllerTable;
 use crate::sources::Source;
 
 /// A robot and the origin of its numbers.
@@ -20,6 +21,8 @@ pub struct RobotDescription {
     pub remarks: Vec<String>,
     /// Payload, kg, if known.
     pub payload_kg: Option<f64>,
+    /// How robot programs are written for its cell.
+    pub controller: Option<ControllerTable>,
     /// Symbol of each elementary motion in its source, by index in the chain; empty where it has none.
     pub symbols: Vec<Symbol>,
     /// What else is known of each joint, in the order of the robot's.
@@ -69,6 +72,7 @@ impl RobotDescription {
             note: None,
             remarks: Vec::new(),
             payload_kg: None,
+            controller: None,
             symbols: vec![None; robot.chain().motions().len()],
             joint_notes: vec![note; robot.joints().len()],
             sources: vec![Source {

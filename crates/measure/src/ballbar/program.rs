@@ -28,7 +28,7 @@ use armill_study::analysis::runner::Runner;
 use armill_study::error::StudyError;
 use armill_study::file::resolve::Study;
 use armill_study::number::decimals;
-use armill_study::program_out::{ProgramSettings, program};
+use armill_study::program_out::{PathToWrite, ProgramSettings, program};
 
 use super::teach::TaughtCircle;
 
@@ -114,7 +114,13 @@ pub fn taught_program(
         within: ALL,
         ..expected.clone()
     };
-    let mut written = program(study, &analysis.setting, &track, &along.answers, &all_points)?;
+    let path = PathToWrite {
+        setting: &analysis.setting,
+        track: &track,
+        answers: &along.answers,
+        spindle: None,
+    };
+    let mut written = program(study, path, &all_points)?;
     let sagitta = sagitta(radius, count);
     if sagitta > expected.within {
         written.notes.push(format!(

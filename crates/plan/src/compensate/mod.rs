@@ -92,6 +92,8 @@ pub struct Commanded<'a> {
     pub setting: &'a Setting,
     /// The path to command, and its postures.
     pub path: (Track, Answers),
+    /// Speed of the spindle if the path does not specify it, rad/s.
+    pub spindle: Option<f64>,
     /// In numbers.
     pub given: CompensatedPath,
     /// The table, as CSV.
@@ -216,6 +218,7 @@ fn of_path<'a>(
         csv: csv::write(&table(name, &found.track)?),
         setting: &path.setting,
         path: (found.track, found.along.answers),
+        spindle: path.cut.as_ref().and_then(|cut| cut.cutting.spindle),
         given,
         program: in_place.map_or_else(Vec::new, |written| written.files),
     })

@@ -1,5 +1,6 @@
 //! The study file, format 1: TOML, every number with its unit in its name.
 
+use armill_formats::controller::ControllerTable;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -64,6 +65,8 @@ pub struct StudyFile {
     #[schemars(length(max = 200))]
     #[serde(default)]
     pub analysis: Vec<AnalysisTable>,
+    /// How robot programs are written; replaces values of the robot file.
+    pub controller: Option<ControllerTable>,
     /// Permitted placements of the part, for `armill place`.
     pub place: Option<PlaceTable>,
     /// Measurements of one circle, to compare with the prediction.

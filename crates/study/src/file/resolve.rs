@@ -6,6 +6,7 @@
 use std::borrow::Cow;
 use std::path::Path;
 
+use armill_formats::controller::ControllerTable;
 use armill_formats::document::{Document, Problem, Problems};
 use armill_formats::input::Inputs;
 use armill_formats::robot::RobotDescription;
@@ -41,6 +42,8 @@ pub struct Study {
     pub own_compliance: Option<OwnCompliance>,
     /// The analyses.
     pub analyses: Vec<Analysis>,
+    /// How robot programs are written, with the values of the robot file.
+    pub controller: ControllerTable,
     /// Permitted placements of the part.
     pub place: Option<PlaceTable>,
     /// Measurements of one circle.
@@ -211,6 +214,9 @@ impl Parsed {
             .filter_map(|(index, table)| MeasuredCircle::read(&mut log, index, table, folder, resolved))
             .collect();
         problems.append(&mut log.problems);
+        if let Some((table, robot)) = file.controller.as_ref().zip(robot.as_ref()) {
+            problems.extend(table.problems(document, robot.robot.joints().len()));
+        }
         problems.extend(unfit_names(document, file));
         Problems::from(without_repeats(problems)).into_result()?;
         let Some(mut robot) = robot else {
@@ -219,7 +225,10 @@ impl Parsed {
         robot
             .sources
             .extend(actual.into_iter().flat_map(|actual| actual.sources));
+        let of_robot = robot.controller.clone().unwrap_or_default();
+        let controller = file.controller.as_ref();
         Ok(Study {
+            controller: controller.map_or_else(|| of_robot.clone(), |table| table.or(&of_robot)),
             title: file
                 .title
                 .clone()

@@ -4,6 +4,7 @@ use armill_core::units::{from_deg, from_mm, from_um};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use crate::controller::ControllerTable;
 use crate::robot::spring_tables::{AxisName, MassTable, SpringTable};
 use crate::sources::SourceTable;
 
@@ -48,6 +49,8 @@ pub(super) struct RobotFile {
     pub model_error: Option<ModelErrorTable>,
     /// Greatest load at the flange.
     pub payload: Option<PayloadTable>,
+    /// How robot programs are written for this cell.
+    pub controller: Option<ControllerTable>,
     /// Sources of the numbers, by key.
     pub sources: SourceTable,
 }

@@ -13,7 +13,7 @@
 //! name = "Maker Type"
 //! [chain]       source, motions = [{ about = "z", joint = "S" }, { along = "z", length_mm = 450 }, ...]
 //! [[joint]]     name, sign, zero_offset_deg, limits_deg, max_speed_deg_per_s, compliance_rad_per_n_m, ...
-//! [[frame]] [[spring]] [[mass]] [compensator] [covariance] [repeatability] [model_error] [payload]    each may be left out
+//! [[frame]] [[spring]] [[mass]] [compensator] [covariance] [repeatability] [model_error] [payload] [controller]    each may be left out
 //! [sources.KEY] what, where, licence: every KEY that a `source` names, and no other
 //! ```
 //!
@@ -61,6 +61,9 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
     let compliance = checks.compliance(&file);
     let structure = checks.structure(&file);
     let nominal = checks.nominal(&file);
+    let of_controller = file.controller.iter();
+    let of_controller = of_controller.flat_map(|table| table.problems(&document, file.joint.len()));
+    checks.problems.extend(of_controller);
     Problems::from(std::mem::take(&mut checks.problems)).into_result()?;
 
     let refused = |error: armill_core::robot::RobotError| {
@@ -82,6 +85,7 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
         note: file.note.map(|note| note.trim().to_owned()),
         remarks: Vec::new(),
         payload_kg: file.payload.map(|payload| payload.mass_kg),
+        controller: file.controller,
         symbols: file
             .chain
             .motions

@@ -1,0 +1,161 @@
+//! A path of a study as a robot program: its cuts, the ways between them, and what tool, spindle and coolant do.
+//!
+//! ```text
+//! home -> joint move to the first rapid -> rapids of the program, straight -> the cut, in fewer points
+//!      -> rapids to the next cut, or by joint moves above the part -> ... -> home
+//! ```
+//!
+//! Targets are relative to the frame of the path: for a part placed elsewhere the frame is taught, and the program is
+//! not changed; compensation is only valid where it was computed. The frame is given relative to that of the controller
+//! (frame `controller` of the robot file, else `base_link`).
+//!
+//! `settings`: how the program is to be; `arm`: poses and joint positions, and whether a straight move can be
+//! followed; `cut`: the points of a cut and their approximate positioning; `way`: from one cut to the next;
+//! `tooling`: tool, spindle and coolant; `maker`: whether the language is that of the robot.
+
+mod arm;
+mod cut;
+mod maker;
+mod settings;
+mod tooling;
+mod way;
+
+pub use settings::ProgramSettings;
+
+use armill_core::kernel::Answers;
+use armill_core::path::Track;
+use armill_programs::{Draft, DraftStep, Written, write};
+
+use self::arm::Arm;
+use self::cut::Cuts;
+use self::tooling::Tooling;
+use self::way::{CutStart, Ways};
+use crate::analysis::path::answer::obstacles;
+use crate::error::StudyError;
+use crate::file::resolve::Study;
+use crate::input::setting::Setting;
+use crate::naming::base_from_controller;
+
+/// A path with its postures, to be written as a program.
+#[derive(Clone, Copy)]
+pub struct PathToWrite<'a> {
+    /// How its points are evaluated.
+    pub setting: &'a Setting,
+    /// Its points.
+    pub track: &'a Track,
+    /// Their postures.
+    pub answers: &'a Answers,
+    /// Speed of the spindle if the path does not specify it, rad/s, clockwise.
+    pub spindle: Option<f64>,
+}
+
+/// The program along a path.
+///
+/// # Errors
+/// An obstacle on the path (no posture, joint limits, a jump, the speed of a joint); no way to a cut; a path without
+/// feed if none is given; data that the language cannot express.
+pub fn program(
+    study: &Study,
+    path: PathToWrite<'_>,
+    requested: &ProgramSettings,
+) -> Result<Written, StudyError> {
+    let PathToWrite {
+        setting,
+        track,
+        answers,
+        spindle,
+    } = path;
+    check(study, path)?;
+    let arm = Arm {
+        robot: &study.robot.robot,
+        setting,
+        base_from_path: track.placing.base_from_path,
+    };
+    let mut tooling = Tooling::new(&study.controller, spindle, &requested.name);
+    let ways = Ways::new(arm, track, requested, &study.controller);
+    let cuts = Cuts {
+        arm,
+        track,
+        answers,
+        requested,
+    };
+    let stretches: Vec<_> = track.path.stretches().collect();
+    let mut steps: Vec<DraftStep> = Vec::new();
+    for (index, stretch) in stretches.iter().enumerate() {
+        let before = index.checked_sub(1).map(|before| stretches[before].end - 1);
+        let change = tooling.at(&track.path, before, stretch.start);
+        let start = CutStart {
+            at: cuts.arm_at(stretch.start),
+            feed: cuts.feed((stretch.start + 1).min(stretch.end - 1))?,
+            line: track.path.points[stretch.start].line,
+        };
+        let from = before.map(|at| cuts.arm_at(at));
+        steps.extend(ways.between(from.as_ref(), &start, track.path.rapids.get(index), change)?);
+        cuts.steps(stretch.clone(), &mut tooling, &mut steps)?;
+    }
+    if let Some(last) = stretches.last() {
+        let from = cuts.arm_at(last.end - 1);
+        let end = tooling.at_end(&track.path);
+        steps.extend(ways.home_from(
+            &from,
+            &track.path.last_rapids,
+            end,
+            track.path.points[last.end - 1].line,
+        )?);
+    }
+    let draft = Draft {
+        name: requested.name.clone(),
+        remarks: remarks(study),
+        base_from_frame: base_from_controller(&study.robot.robot).inverse() * track.placing.base_from_path,
+        flange_from_tool: setting.flange_from_tool,
+        controller: settings::controller(&study.controller, requested),
+        external_slides: arm.external_slides(),
+        steps,
+    };
+    let mut written =
+        write(requested.language, &draft).map_err(|error| StudyError::value(error.to_string(), HINT))?;
+    let questions = maker::question(&study.robot, requested.language);
+    let notes = questions.into_iter().chain(ways.notes()).chain(tooling.notes());
+    written.notes.splice(0..0, notes);
+    Ok(written)
+}
+
+/// What to do where a language refuses a program.
+const HINT: &str =
+    "the name of the file is that of the program; see [controller] of the study for frame and tool";
+
+/// Origin of the program, and what must be known before it is used.
+fn remarks(study: &Study) -> Vec<String> {
+    let mut remarks = vec![
+        format!("armill {}: {}", env!("CARGO_PKG_VERSION"), study.title),
+        format!("robot {}", study.robot.robot.name()),
+    ];
+    if study.compliance_is_assumed() {
+        remarks.push(
+            "CAUTION: computed with assumed joint compliances, not measured ones; do not use its corrections on a part"
+                .to_owned(),
+        );
+    }
+    remarks
+}
+
+/// The arm must be able to follow every cut at its feed without a stop.
+fn check(study: &Study, path: PathToWrite<'_>) -> Result<(), StudyError> {
+    let robot = &study.robot.robot;
+    let all = obstacles::found(robot, &path.track.path, path.answers, 0.0);
+    if all.is_empty() {
+        return Ok(());
+    }
+    let messages: Vec<&str> = all.iter().map(|obstacle| obstacle.message.as_str()).collect();
+    let slower = all.iter().all(|obstacle| obstacle.kind == "joint-speed");
+    Err(StudyError::value(
+        format!(
+            "no program can be written, for the robot cannot follow the path: {}",
+            messages.join("; ")
+        ),
+        match slower {
+            true => "reduce the feed there, or change the posture or the placement of the part",
+            false => "move the part, or let `posture.search` look for a posture",
+        },
+    ))
+}

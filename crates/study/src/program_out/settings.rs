@@ -1,0 +1,63 @@
+//! How a program is to be: from the command and the table `controller`.
+
+use armill_core::units::from_mm;
+use armill_formats::controller::{ControllerTable, FrameDataName};
+use armill_programs::{Controller, FrameData, Language};
+
+/// How the program is to be.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ProgramSettings {
+    /// In which language.
+    pub language: Language,
+    /// What it is called.
+    pub name: String,
+    /// Number of the user frame on the controller; that of `controller` if not given.
+    pub frame_number: Option<u32>,
+    /// Number of the tool on the controller; that of `controller` if not given.
+    pub tool_number: Option<u32>,
+    /// Greatest distance of linear moves between their points from the path, m.
+    pub within: f64,
+    /// Greatest distance of rounded corners from the linear moves, m.
+    pub rounding: f64,
+    /// Height above the part to which the tool retracts where the path has no rapids, m.
+    pub retract: f64,
+    /// Greatest distance from a point at which approximate positioning begins, m.
+    pub blend: f64,
+    /// Feed if the path does not specify it, m/s.
+    pub feed: Option<f64>,
+}
+
+/// Speed of linear moves that do not cut, mm/s.
+const RAPID_MM_S: f64 = 100.0;
+
+/// Speed of linear moves that do not cut, m/s.
+pub(super) fn rapid_speed(table: &ControllerTable) -> f64 {
+    from_mm(table.rapid_mm_per_s.unwrap_or(RAPID_MM_S))
+}
+
+/// The controller of the cell; numbers of the command replace those of the table.
+pub(super) fn controller(table: &ControllerTable, requested: &ProgramSettings) -> Controller {
+    let default = Controller::default();
+    let percent = |value: f64| value / 100.0;
+    Controller {
+        frame_number: requested
+            .frame_number
+            .or(table.frame)
+            .unwrap_or(default.frame_number),
+        tool_number: requested
+            .tool_number
+            .or(table.tool)
+            .unwrap_or(default.tool_number),
+        frame_name: table.frame_name.clone(),
+        tool_name: table.tool_name.clone(),
+        data: match table.data {
+            Some(FrameDataName::Controller) => FrameData::Controller,
+            Some(FrameDataName::Program) | None => FrameData::Program,
+        },
+        joint_speed: table.joint_speed_percent.map_or(default.joint_speed, percent),
+        joint_acceleration: table.joint_acceleration_percent.map(percent),
+        acceleration: table.acceleration_m_per_s2,
+        header: table.header.clone().unwrap_or_default(),
+        footer: table.footer.clone().unwrap_or_default(),
+    }
+}

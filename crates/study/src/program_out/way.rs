@@ -1,0 +1,463 @@
+//! The ways of a program that do not cut: from home to the first cut, from cut to cut, and home.
+//!
+//! The rapids of the path are followed as straight moves, at their heights. Where the path has none, the tool retracts
+//! along its axis above the part. Where the arm cannot follow in one posture, and to change the tool, it goes by a joint
+//! move from the highest place after a cut to the highest before the next, over the home position if there is one. A
+//! joint move must not pass through the space of the part below its top.
+
+use std::cell::Cell;
+
+use armill_core::frame::Isometry;
+use armill_core::nalgebra::{Point3, Translation3, UnitQuaternion, Vector3};
+use armill_core::path::{Move, Rapids, Track};
+use armill_core::units::{from_deg, from_mm, to_mm};
+use armill_formats::controller::ControllerTable;
+use armill_programs::DraftStep;
+
+use super::arm::{Arm, ArmAt};
+use super::settings::{ProgramSettings, rapid_speed};
+use super::tooling::Change;
+use crate::error::StudyError;
+
+/// Joint positions that differ by less are the same, rad (m).
+const SAME_JOINTS: f64 = 1e-3;
+/// Distance around the path, m, in which a joint move must stay above the part.
+const AROUND: f64 = 0.02;
+/// A joint move may pass this far below the top of the part, m.
+const BELOW: f64 = 1e-4;
+
+/// Ways between the cuts of a path.
+pub(super) struct Ways<'a> {
+    arm: Arm<'a>,
+    track: &'a Track,
+    /// Away from the part, in the frame of the path.
+    up: Vector3<f64>,
+    /// Largest height of a cut, m.
+    top: f64,
+    corners: [Point3<f64>; 2],
+    retract: f64,
+    rapid: f64,
+    home: Option<Vec<f64>>,
+    /// Rapids of the path that are not followed.
+    left_out: Cell<usize>,
+}
+
+/// Where a cut starts.
+pub(super) struct CutStart {
+    /// The arm there.
+    pub at: ArmAt,
+    /// Feed of the cut, m/s: the tool goes down to it at this speed where the path has no rapids.
+    pub feed: f64,
+    /// Line of the path.
+    pub line: u32,
+}
+
+/// Straight moves from a cut, or to one.
+struct Leg {
+    /// The arm at the far end.
+    end: ArmAt,
+    /// The moves in the order in which they are driven.
+    steps: Vec<DraftStep>,
+}
+
+impl<'a> Ways<'a> {
+    pub fn new(
+        arm: Arm<'a>,
+        track: &'a Track,
+        requested: &ProgramSettings,
+        controller: &ControllerTable,
+    ) -> Ways<'a> {
+        let up = track.placing.axis.into_inner();
+        let heights = track.path.points.iter().map(|point| point.at.coords.dot(&up));
+        let home = controller.home_deg.as_ref().map(|home| {
+            let si = |(joint, value): (usize, &f64)| match arm.robot.slides(joint) {
+                true => from_mm(*value),
+                false => from_deg(*value),
+            };
+            home.iter().enumerate().map(si).collect()
+        });
+        Ways {
+            arm,
+            track,
+            up,
+            top: heights.fold(f64::NEG_INFINITY, f64::max),
+            corners: track.path.corners(),
+            retract: requested.retract,
+            rapid: rapid_speed(controller),
+            home,
+            left_out: Cell::new(0),
+        }
+    }
+
+    /// What must be known of these ways, one sentence each.
+    pub fn notes(&self) -> Vec<String> {
+        let mut notes = Vec::new();
+        let left_out = self.left_out.get();
+        if left_out > 0 {
+            notes.push(format!(
+                "{left_out} rapids of the path are not followed, because the arm cannot follow them in one posture: the \
+                 tool retracts along its axis instead"
+            ));
+        }
+        if self.home.is_none() {
+            notes.push(
+                "the program has no home position: it begins above the first cut and ends above the last; `home_deg` of \
+                 [controller] gives one"
+                    .to_owned(),
+            );
+        }
+        notes
+    }
+
+    /// The way to the start of a cut: from the end `from` of the cut before, or from home.
+    ///
+    /// # Errors
+    /// The tool cannot retract, or a joint move would pass through the space of the part.
+    pub fn between(
+        &self,
+        from: Option<&ArmAt>,
+        start: &CutStart,
+        rapids: Option<&Rapids>,
+        change: Change,
+    ) -> Result<Vec<DraftStep>, StudyError> {
+        let (to, line) = (&start.at, start.line);
+        let moves = rapids.map_or(&[][..], |rapids| &rapids.moves);
+        // The last rapid ends where the cut begins.
+        let moves = &moves[..moves.len().saturating_sub(1)];
+        let Some(from) = from else {
+            let arriving = self.arriving(start, &self.poses_to(to, moves))?;
+            let mut steps = self.home_move();
+            steps.extend(change.above);
+            steps.extend(self.joint_move(self.home.as_deref(), &arriving.end, line)?);
+            steps.extend(arriving.steps);
+            return Ok(steps);
+        };
+        let mut steps = change.at_cut;
+        let poses = self.poses_between(from, to, moves);
+        if !change.changes_tool
+            && let Some(way) = self.straight_through(from, start, &poses, &change.above)
+        {
+            steps.extend(way);
+            return Ok(steps);
+        }
+        let highest = self.highest(&poses);
+        let leaving = self.leaving(from, &poses[..highest], line)?;
+        let arriving = self.arriving(start, &poses[highest.saturating_sub(1)..])?;
+        steps.extend(leaving.steps);
+        let over_home = self.home.is_some() && (change.changes_tool || !is_same(&leaving.end, &arriving.end));
+        let mut at = Some(leaving.end.joints);
+        if over_home {
+            self.check_joint_move(at.as_deref(), self.home.as_deref(), line)?;
+            steps.extend(self.home_move());
+            at = self.home.clone();
+        }
+        steps.extend(change.above);
+        steps.extend(self.joint_move(at.as_deref(), &arriving.end, line)?);
+        steps.extend(arriving.steps);
+        Ok(steps)
+    }
+
+    /// The way home from the end `from` of the last cut.
+    ///
+    /// # Errors
+    /// As [`Ways::between`].
+    pub fn home_from(
+        &self,
+        from: &ArmAt,
+        rapids: &Rapids,
+        change: Change,
+        line: u32,
+    ) -> Result<Vec<DraftStep>, StudyError> {
+        let poses = self.poses_from(from, &rapids.moves);
+        let highest = self.highest(&poses);
+        let leaving = self.leaving(from, &poses[..highest], line)?;
+        let mut steps = change.at_cut;
+        steps.extend(leaving.steps);
+        steps.extend(change.above);
+        if self.home.is_some() {
+            self.check_joint_move(Some(&leaving.end.joints), self.home.as_deref(), line)?;
+        }
+        steps.extend(self.home_move());
+        Ok(steps)
+    }
+
+    fn home_move(&self) -> Vec<DraftStep> {
+        let pose = |joints: &Vec<f64>| self.arm.at_joints(joints);
+        let target = self
+            .home
+            .as_ref()
+            .map(|home| self.arm.target(&pose(home), None, 0.0));
+        target.map(DraftStep::Move).into_iter().collect()
+    }
+
+    fn joint_move(
+        &self,
+        from: Option<&[f64]>,
+        to: &ArmAt,
+        line: u32,
+    ) -> Result<Option<DraftStep>, StudyError> {
+        if from.is_some_and(|from| same_joints(from, &to.joints)) {
+            return Ok(None);
+        }
+        self.check_joint_move(from, Some(&to.joints), line)?;
+        Ok(Some(DraftStep::Move(self.arm.target(to, None, 0.0))))
+    }
+
+    /// A joint move must not pass through the space of the part below its top.
+    fn check_joint_move(
+        &self,
+        from: Option<&[f64]>,
+        to: Option<&[f64]>,
+        line: u32,
+    ) -> Result<(), StudyError> {
+        let Some((from, to)) = from.zip(to) else {
+            return Ok(());
+        };
+        let [low, high] = self.corners;
+        let is_near = |tip: &Point3<f64>| {
+            let part = |axis: usize| (low[axis] - AROUND..=high[axis] + AROUND).contains(&tip[axis]);
+            // Across the direction away from the part.
+            let across = (0..3).filter(|axis| self.up[*axis].abs() < 0.7);
+            across.into_iter().all(part)
+        };
+        let lowest = self
+            .arm
+            .tips(from, to)
+            .filter(is_near)
+            .map(|tip| tip.coords.dot(&self.up))
+            .fold(f64::INFINITY, f64::min);
+        if lowest >= self.top - BELOW {
+            return Ok(());
+        }
+        Err(StudyError::value(
+            format!(
+                "line {line}: the joint move to or from the cut there would take the tip {:.1} mm below the top of the \
+                 part",
+                to_mm(self.top - lowest)
+            ),
+            "give a home position above the part ([controller] home_deg), or a larger --retract-mm",
+        ))
+    }
+
+    /// The way from cut to cut by straight moves alone, with `above` at its highest place; `None` if the arm cannot
+    /// follow it.
+    fn straight_through(
+        &self,
+        from: &ArmAt,
+        start: &CutStart,
+        poses: &[Isometry],
+        above: &[DraftStep],
+    ) -> Option<Vec<DraftStep>> {
+        let to = &start.at;
+        let last_speed = self.last_speed(start, poses);
+        let lifted;
+        let poses = match poses {
+            [] => {
+                lifted = [self.lifted(from), self.lifted(to)];
+                &lifted[..]
+            }
+            poses => poses,
+        };
+        let highest = self.highest(poses).saturating_sub(1);
+        let (mut steps, mut at) = (Vec::new(), from.clone());
+        for (index, pose) in poses.iter().chain([&to.base_from_tool]).enumerate() {
+            let straight = self.arm.straight(&at, pose)?;
+            let speed = if index == poses.len() {
+                last_speed
+            } else {
+                self.rapid
+            };
+            let speed = speed.min(straight.fastest);
+            at = straight.end;
+            steps.push(DraftStep::Move(self.arm.target(&at, Some(speed), 0.0)));
+            if index == highest {
+                steps.extend(above.iter().cloned());
+            }
+        }
+        is_same(&at, to).then_some(steps)
+    }
+
+    /// From the end of a cut through these poses, as far as the arm can follow; else along the tool axis.
+    fn leaving(&self, from: &ArmAt, poses: &[Isometry], line: u32) -> Result<Leg, StudyError> {
+        let (mut steps, mut at) = (Vec::new(), from.clone());
+        for (index, pose) in poses.iter().enumerate() {
+            let Some(straight) = self.arm.straight(&at, pose) else {
+                self.left_out.set(self.left_out.get() + poses.len() - index);
+                break;
+            };
+            let speed = self.rapid.min(straight.fastest);
+            at = straight.end;
+            steps.push(DraftStep::Move(self.arm.target(&at, Some(speed), 0.0)));
+        }
+        if self.is_above(&at) && !steps.is_empty() {
+            return Ok(Leg { end: at, steps });
+        }
+        let straight = self.retracted(&at, line)?;
+        steps.push(DraftStep::Move(self.arm.target(
+            &straight.0,
+            Some(straight.1),
+            0.0,
+        )));
+        Ok(Leg {
+            end: straight.0,
+            steps,
+        })
+    }
+
+    /// Through these poses to the start of a cut, from as far as the arm can follow; else along the tool axis.
+    fn arriving(&self, start: &CutStart, poses: &[Isometry]) -> Result<Leg, StudyError> {
+        let to = &start.at;
+        // Backwards: the arm must end in the posture of the cut.
+        let mut way = vec![(to.clone(), self.last_speed(start, poses))];
+        let mut at = to.clone();
+        for (index, pose) in poses.iter().rev().enumerate() {
+            let Some(straight) = self.arm.straight(&at, pose) else {
+                self.left_out.set(self.left_out.get() + poses.len() - index);
+                break;
+            };
+            at = straight.end;
+            if let Some(last) = way.last_mut() {
+                last.1 = last.1.min(straight.fastest);
+            }
+            way.push((at.clone(), self.rapid));
+        }
+        if way.len() == 1 || !self.is_above(&at) {
+            let (end, fastest) = self.retracted(&at, start.line)?;
+            if let Some(last) = way.last_mut() {
+                last.1 = last.1.min(fastest);
+            }
+            way.push((end, self.rapid));
+        }
+        let end = way.pop().map_or_else(|| to.clone(), |(end, _)| end);
+        let moves = way.iter().rev();
+        let steps = moves.map(|(at, speed)| DraftStep::Move(self.arm.target(at, Some(*speed), 0.0)));
+        Ok(Leg {
+            steps: steps.collect(),
+            end,
+        })
+    }
+
+    /// Speed of the last move to a cut: of a rapid of the path, or its feed where the path has none.
+    fn last_speed(&self, start: &CutStart, poses: &[Isometry]) -> f64 {
+        if poses.is_empty() { start.feed } else { self.rapid }
+    }
+
+    /// The arm above the part, along the tool axis from `at`, and the speed there.
+    fn retracted(&self, at: &ArmAt, line: u32) -> Result<(ArmAt, f64), StudyError> {
+        let lifted = self.lifted(at);
+        let straight = self.arm.straight(at, &lifted).ok_or_else(|| {
+            let mm = to_mm((lifted.translation.vector - at.base_from_tool.translation.vector).norm());
+            let message = format!("line {line}: the robot cannot retract by {mm:.1} mm here in its posture");
+            StudyError::value(message, "a shorter --retract-mm")
+        })?;
+        Ok((straight.end, self.rapid.min(straight.fastest)))
+    }
+
+    /// Height of a pose, m.
+    fn height(&self, pose: &Isometry) -> f64 {
+        let tip = self.arm.base_from_path.inverse() * Point3::from(pose.translation.vector);
+        tip.coords.dot(&self.up)
+    }
+
+    /// Whether the tip is at the top of the part or above.
+    fn is_above(&self, at: &ArmAt) -> bool {
+        self.height(&at.base_from_tool) >= self.top - BELOW
+    }
+
+    /// The pose above the part, along the tool axis.
+    fn lifted(&self, at: &ArmAt) -> Isometry {
+        let spindle = -(self.arm.base_from_path.inverse() * at.base_from_tool * Vector3::z());
+        let rises = spindle.dot(&self.up);
+        let needed = self.top + self.retract - self.height(&at.base_from_tool);
+        // A tool that leans far would have to retract very far.
+        let by = if rises > LEAST_RISE {
+            (needed / rises).max(self.retract)
+        } else {
+            self.retract
+        };
+        at.base_from_tool * Translation3::new(0.0, 0.0, -by)
+    }
+
+    /// Number of poses up to the highest, the first of equals.
+    fn highest(&self, poses: &[Isometry]) -> usize {
+        let mut highest = (f64::NEG_INFINITY, 0);
+        for (index, pose) in poses.iter().enumerate() {
+            let height = self.height(pose);
+            if height > highest.0 + BELOW {
+                highest = (height, index + 1);
+            }
+        }
+        highest.1
+    }
+
+    /// The poses of rapids after a cut: the tool has their axes, and turns about itself as little as possible.
+    fn poses_from(&self, from: &ArmAt, moves: &[Move]) -> Vec<Isometry> {
+        let mut rotation = from.base_from_tool.rotation;
+        let pose = |next: &Move| {
+            rotation = self.with_axis(rotation, next);
+            self.at(next, rotation)
+        };
+        moves.iter().map(pose).collect()
+    }
+
+    /// The poses of rapids before a cut.
+    fn poses_to(&self, to: &ArmAt, moves: &[Move]) -> Vec<Isometry> {
+        let mut rotation = to.base_from_tool.rotation;
+        let pose = |next: &Move| {
+            rotation = self.with_axis(rotation, next);
+            self.at(next, rotation)
+        };
+        let mut poses: Vec<Isometry> = moves.iter().rev().map(pose).collect();
+        poses.reverse();
+        poses
+    }
+
+    /// The poses of rapids between two cuts: the turn about the tool axis that is left is distributed over them.
+    fn poses_between(&self, from: &ArmAt, to: &ArmAt, moves: &[Move]) -> Vec<Isometry> {
+        let mut poses = self.poses_from(from, moves);
+        let Some(last) = poses.last() else {
+            return poses;
+        };
+        let axis = to.base_from_tool.rotation * Vector3::z();
+        let arrived = turned_to(last.rotation, &axis);
+        let left = arrived.inverse() * to.base_from_tool.rotation;
+        let spin = 2.0 * left.k.atan2(left.w);
+        let spin = spin - std::f64::consts::TAU * (spin / std::f64::consts::TAU).round();
+        let count = poses.len() as f64;
+        for (index, pose) in poses.iter_mut().enumerate() {
+            let part = spin * (index + 1) as f64 / count;
+            pose.rotation *= UnitQuaternion::from_axis_angle(&Vector3::z_axis(), part);
+        }
+        poses
+    }
+
+    fn with_axis(&self, rotation: UnitQuaternion<f64>, next: &Move) -> UnitQuaternion<f64> {
+        let placing = &self.track.placing;
+        match next.axis.filter(|_| !placing.keeps_axis) {
+            Some(axis) => turned_to(rotation, &-(placing.base_from_path.rotation * axis.into_inner())),
+            None => rotation,
+        }
+    }
+
+    fn at(&self, next: &Move, rotation: UnitQuaternion<f64>) -> Isometry {
+        let tip = self.arm.base_from_path * next.end;
+        Isometry::from_parts(tip.coords.into(), rotation)
+    }
+}
+
+/// Least rise of the tool axis per length along which the tool retracts to the top of the part.
+const LEAST_RISE: f64 = 0.2;
+
+/// The orientation with z of the tool along `axis`, by the shortest rotation.
+fn turned_to(rotation: UnitQuaternion<f64>, axis: &Vector3<f64>) -> UnitQuaternion<f64> {
+    let z = rotation * Vector3::z();
+    UnitQuaternion::rotation_between(&z, axis).map_or(rotation, |turn| turn * rotation)
+}
+
+fn same_joints(a: &[f64], b: &[f64]) -> bool {
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() < SAME_JOINTS)
+}
+
+fn is_same(a: &ArmAt, b: &ArmAt) -> bool {
+    same_joints(&a.joints, &b.joints)
+}
