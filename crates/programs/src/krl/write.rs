@@ -12,7 +12,7 @@ use armill_formats::convention::Convention;
 use super::aggregate::whole;
 use crate::controller::Controller;
 use crate::draft::{Blend, Draft, DraftPoint, DraftStep, Written, text_lines};
-use crate::draft_check::{Bounds, DraftError};
+use crate::draft_check::{Bounds, DraftError, LEAST_ACCELERATION, LONGEST_DWELL, avoid};
 use crate::number::fixed;
 use crate::text::latin1;
 
@@ -124,9 +124,11 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
         external: MOST_EXTERNAL,
         frames: 0..=MOST_FRAMES,
         tools: 0..=MOST_FRAMES,
+        longest_dwell: LONGEST_DWELL,
+        least_acceleration: LEAST_ACCELERATION,
     };
     draft.check(&bounds)?;
-    draft.avoid(&bounds, WORDS)?;
+    avoid(&draft.name, &bounds, WORDS)?;
     let mut main = head(draft);
     let mut parts = Vec::new();
     let mut body = Body::new(draft);

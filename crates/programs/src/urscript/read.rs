@@ -179,9 +179,13 @@ impl<'a> Reader<'a> {
             }
             "set_tcp" => {
                 let arguments = self.arguments(&mut cursor, 0);
-                self.tool = match arguments.first().map(|argument| &argument.value) {
-                    Some(Value::Pose(tool)) => Frame::Given(tool.in_base()),
-                    _ => {
+                let tool = match arguments.first().map(|argument| &argument.value) {
+                    Some(Value::Pose(tool)) => tool.in_base(),
+                    _ => None,
+                };
+                self.tool = match tool {
+                    Some(tool) => Frame::Given(tool),
+                    None => {
                         let sentence = "the tool is computed on the controller: it is not known";
                         self.messages.note(at.line, sentence);
                         Frame::Unknown
