@@ -34,6 +34,7 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
         tool: Frame::Unknown,
         routines: HashSet::new(),
         name: None,
+        is_started: false,
         moves: Vec::new(),
     };
     let found: Vec<Vec<Token>> = texts
@@ -117,6 +118,8 @@ pub(super) struct Reader<'a> {
     pub tool: Frame,
     routines: HashSet<&'a str>,
     name: Option<&'a str>,
+    /// Whether the main routine has been called.
+    is_started: bool,
     pub moves: Vec<RobotMove>,
 }
 
@@ -192,6 +195,8 @@ impl<'a> Reader<'a> {
                     }
                 };
             }
+            // The program calls its main routine after its definition.
+            _ if self.name == Some(word) && !self.is_started => self.is_started = true,
             _ if self.routines.contains(word) => {
                 let sentence = format!("`{word}` is called: its moves are read once, where it is defined");
                 self.messages.note(at.line, sentence);
