@@ -160,3 +160,86 @@ pub struct Written {
     /// Warnings to read before running it, one sentence each.
     pub notes: Vec<String>,
 }
+
+#[cfg(test)]
+mod tests {
+    use armill_core::nalgebra::Isometry3;
+
+    use super::*;
+
+    /// A move to this x, m; with a speed a straight one.
+    fn to(x: f64, speed: Option<f64>) -> DraftStep {
+        DraftStep::Move(DraftPoint {
+            frame_from_tool: Isometry3::translation(x, 0.0, 0.0),
+            joints: vec![0.0; 6],
+            external: Vec::new(),
+            branch: None,
+            speed,
+            blend: 1.0,
+        })
+    }
+
+    /// The blends of these steps, m, and whether they are full.
+    fn blends(steps: Vec<DraftStep>) -> Vec<(f64, bool)> {
+        let draft = Draft {
+            name: String::new(),
+            remarks: Vec::new(),
+            base_from_frame: Isometry::identity(),
+            flange_from_tool: Isometry::identity(),
+            controller: Controller::default(),
+            external_slides: Vec::new(),
+            steps,
+        };
+        let all = draft.blends().into_iter();
+        all.map(|blend| (blend.distance, blend.is_full)).collect()
+    }
+
+    #[test]
+    fn blends_end_before_those_of_both_neighbours_and_the_approach_is_not_full() {
+        let path = Some(0.1);
+        let steps = vec![
+            to(0.0, None),
+            to(1.0, path),
+            to(3.0, path),
+            to(3.5, path),
+            to(9.0, None),
+            to(9.0, None),
+        ];
+        let found = blends(steps);
+        let expected = [
+            (0.45, false),
+            (0.45, true),
+            (0.225, true),
+            (0.225, false),
+            // The next move only turns the tool or the arm.
+            (0.0, false),
+            (0.0, false),
+        ];
+        assert_eq!(found, expected);
+    }
+
+    #[test]
+    fn comments_do_not_stop_the_robot_and_other_steps_do() {
+        let with = |step: Option<DraftStep>| {
+            let path = Some(0.1);
+            let steps = [
+                Some(to(0.0, None)),
+                Some(to(1.0, path)),
+                step,
+                Some(to(2.0, path)),
+            ];
+            blends(steps.into_iter().flatten().collect())[1]
+        };
+        let text = || "text".to_owned();
+        assert_eq!(with(None), (0.45, true));
+        assert_eq!(with(Some(DraftStep::Comment(text()))), (0.45, true));
+        for step in [
+            DraftStep::Stop(text()),
+            DraftStep::Dwell(0.5),
+            DraftStep::Statement(text()),
+        ] {
+            assert_eq!(with(Some(step.clone())), (0.0, false), "{step:?}");
+        }
+        assert!(blends(vec![DraftStep::Comment(text()), DraftStep::Dwell(1.0)]).is_empty());
+    }
+}

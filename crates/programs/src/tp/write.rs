@@ -205,7 +205,7 @@ fn body(draft: &Draft, steps: &[DraftStep], blends: &mut std::slice::Iter<'_, Bl
                 lines.push(line(draft, point, position, blends.next()));
             }
             DraftStep::Comment(text) => {
-                lines.extend(remarks(text, LONGEST_REMARK, |piece| format!("  !{piece} ;")))
+                lines.extend(remarks(text, LONGEST_REMARK, |piece| format!("  !{piece} ;")));
             }
             DraftStep::Stop(text) => {
                 let text = text.replace(['[', ']'], " ");
