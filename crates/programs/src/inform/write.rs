@@ -20,7 +20,7 @@ const LONGEST_REMARK: usize = 32;
 /// Maximum length of a name: 8 on NX100, 32 later; three characters number the parts of a long program.
 const LONGEST_NAME: [usize; 3] = [8, 32, 29];
 
-/// Maximum length of a message on the pendant. Source: the RoboDK post.
+/// Maximum length of a message on the pendant. Source: the RoboDK post, also for `MSG` and `PAUSE`.
 const LONGEST_MESSAGE: usize = 25;
 
 /// Decimals of a dwell, and the longest one, s. Source: the RoboDK post writes `TIMER T=1.00`; range `[recalled]`.

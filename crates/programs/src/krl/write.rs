@@ -155,8 +155,9 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
     })
 }
 
-/// The start-up fold of the controller: it checks stops (interrupt 3) and sets the defaults of motion. Source: the fold
-/// that KUKA's editor writes; the samples of the post processors have the same.
+/// The start-up fold of the controller: it checks stops (interrupt 3) and sets the defaults of motion. Source: public
+/// programs and posts, which also have `BAS(#VEL_PTP,n)` and `BAS(#ACC_PTP,n)` in per cent, `$ACC.CP` in m/s^2,
+/// `$APO.CDIS` in mm with `C_DIS`, `WAIT SEC` and `HALT`.
 const START: &str = ";FOLD INI\r\n;FOLD BASISTECH INI\r\n\
      GLOBAL INTERRUPT DECL 3 WHEN $STOPMESS==TRUE DO IR_STOPM ( )\r\nINTERRUPT ON 3\r\nBAS (#INITMOV,0 )\r\n\
      ;ENDFOLD (BASISTECH INI)\r\n;ENDFOLD (INI)\r\n$ADVANCE=3\r\n";

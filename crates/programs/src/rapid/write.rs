@@ -22,7 +22,8 @@ const PART: usize = 6;
 const MOST_FRAMES: u32 = 999;
 /// Maximum number of statements in a module: larger modules load slowly; post processors write 10 to 30 thousand lines.
 const MOST_STEPS: usize = 10_000;
-/// Minimum acceleration along a path, m/s^2 `[recalled]`.
+/// Minimum acceleration along a path, m/s^2 `[recalled]`: below it `PathAccLim` raises ERR_ACC_TOO_LOW. Source of the
+/// syntax of `PathAccLim` and of `WaitTime\InPos`: public RAPID code.
 const LEAST_ACCELERATION: f64 = 0.1;
 /// Decimals of joints, deg, of speeds, mm/s, of dwells, s, and of accelerations, m/s^2.
 const JOINT: usize = 5;

@@ -16,10 +16,12 @@ use crate::spelling::in_pieces;
 /// Maximum number of statements in one program. `[recalled]`
 const MOST_STEPS: usize = 5000;
 
-/// Largest number of extended axes of the group of the arm. `[recalled]`
+/// Largest number of extended axes of the group of the arm. `[recalled]` Source of their spelling, `E1=   0.000  mm`: the
+/// RoboDK post.
 const MOST_EXTERNAL: usize = 3;
 
-/// Maximum length of a remark, of a message, and of the comment in the header. `[recalled]`
+/// Maximum length of a remark, of a message, and of the comment in the header. `[recalled]` Source of `MESSAGE[..]` and
+/// `PAUSE`: the RoboDK post.
 const LONGEST_REMARK: usize = 30;
 const LONGEST_MESSAGE: usize = 24;
 const LONGEST_COMMENT: usize = 16;

