@@ -210,6 +210,59 @@ fn texts_for_people_do_not_begin_statements() {
     }
 }
 
+#[test]
+fn written_texts_have_no_marks_that_end_them_or_begin_escapes() {
+    for (language, file, statement, [opens, closes]) in [
+        (Language::Rapid, 0, "TPWrite \"", ["\"", "\";"]),
+        (Language::Inform, 0, "MSG \"", ["\"", "\""]),
+        (Language::Tp, 0, "MESSAGE[", ["[", "] ;"]),
+        (
+            Language::UrScript,
+            0,
+            "popup(\"",
+            ["\"", "\", \"armill\", False, False, blocking=True)"],
+        ),
+        (Language::Val3, 2, "putln(\"", ["\"", "\")"]),
+    ] {
+        for text in HOSTILE {
+            let mut draft = every_step("");
+            draft.steps[8] = DraftStep::Stop((*text).to_owned());
+            let bytes = write(language, &draft).unwrap().files.remove(file).1;
+            let written = String::from_utf8(bytes).unwrap();
+            let mut messages = written.lines().filter(|line| line.contains(statement)).peekable();
+            assert!(messages.peek().is_some(), "{language:?} {text:?}\n{written}");
+            for line in messages {
+                let said = line
+                    .split_once(opens)
+                    .and_then(|(_, rest)| rest.strip_suffix(closes));
+                let said = said.unwrap_or_else(|| panic!("{language:?} {line}"));
+                let marks = if language == Language::Tp { "[];" } else { "\"\\" };
+                let is_plain = |c: char| c.is_ascii() && !c.is_ascii_control() && !marks.contains(c);
+                assert!(said.chars().all(is_plain), "{language:?} {line}");
+            }
+        }
+    }
+}
+
+#[test]
+fn every_line_of_a_listing_is_one_statement() {
+    for text in HOSTILE.iter().chain(&["a;b", ";", "! ; ;"]) {
+        let mut draft = every_step("");
+        draft.remarks = vec![(*text).to_owned()];
+        draft.steps[0] = DraftStep::Comment((*text).to_owned());
+        draft.steps[8] = DraftStep::Stop((*text).to_owned());
+        let written = String::from_utf8(write(Language::Tp, &draft).unwrap().files.remove(0).1).unwrap();
+        let (_, rest) = written.split_once("/MN\r\n").unwrap();
+        let (body, _) = rest.split_once("/POS\r\n").unwrap();
+        for line in body.lines() {
+            assert!(
+                line.ends_with(" ;") && line.matches(';').count() == 1,
+                "{text:?} {line}"
+            );
+        }
+    }
+}
+
 /// That the files have no control characters but line ends and tabs, and no other line separators.
 fn only_line_ends(files: &[(String, Vec<u8>)]) {
     for (name, bytes) in files {
