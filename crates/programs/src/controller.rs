@@ -23,13 +23,13 @@ pub struct Controller {
     pub tool_name: Option<String>,
     /// Where the values of frame and tool come from.
     pub data: FrameData,
-    /// Speed of joint moves relative to the maximum, 0 to 1.
+    /// Speed of joint moves relative to the maximum, 0.01 to 1.
     pub joint_speed: f64,
-    /// Acceleration of joint moves relative to the maximum, 0 to 1; that of the controller if not given.
+    /// Acceleration of joint moves relative to the maximum, 0.01 to 1; that of the controller if not given.
     pub joint_acceleration: Option<f64>,
     /// Acceleration of linear moves, m/s^2; that of the controller if not given.
     pub acceleration: Option<f64>,
-    /// Statements before the first move, in the language of the program.
+    /// Statements before the first move, in the language of the program, each one line of ASCII characters.
     pub header: Vec<String>,
     /// Statements after the last move.
     pub footer: Vec<String>,

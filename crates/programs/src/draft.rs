@@ -36,7 +36,7 @@ pub enum DraftStep {
     Stop(String),
     /// The robot rests, s.
     Dwell(f64),
-    /// A statement in the language of the program, written as it is.
+    /// A statement in the language of the program, written as it is: one line of ASCII characters.
     Statement(String),
 }
 
@@ -84,41 +84,53 @@ impl Draft {
         })
     }
 
-    /// Each move with its blend distance (m), at most 0.45 of the distance to its neighbours, and whether it is as
+    /// All statements of the cell: its header, those among the steps, and its footer.
+    pub(super) fn statements(&self) -> impl Iterator<Item = &str> {
+        let steps = self.steps.iter().filter_map(|step| match step {
+            DraftStep::Statement(line) => Some(line),
+            _ => None,
+        });
+        let controller = &self.controller;
+        let all = controller.header.iter().chain(steps).chain(&controller.footer);
+        all.map(String::as_str)
+    }
+
+    /// Each move with its blend distance (m), at most 0.45 of the distance to each neighbour, and whether it is as
     /// large as they permit: the tool then need not slow down. The last move is an exact stop, and so is a move before
-    /// a statement.
+    /// a stop, a dwell or a statement of the cell. A comment does not stop the robot.
     pub(super) fn blends(&self) -> Vec<Blend> {
-        let mut blends: Vec<Blend> = Vec::with_capacity(self.steps.len());
-        let mut before: Option<&DraftPoint> = None;
-        for (index, step) in self.steps.iter().enumerate() {
-            let DraftStep::Move(point) = step else { continue };
-            let next = match self.steps.get(index + 1) {
-                Some(DraftStep::Move(next)) => Some(next),
-                _ => None,
-            };
-            let distance = |other: &DraftPoint| {
-                (other.frame_from_tool.translation.vector - point.frame_from_tool.translation.vector).norm()
-            };
-            let both_linear = next.is_some_and(|next| next.speed.is_some()) && point.speed.is_some();
-            let room = match (before, next) {
-                (Some(before), Some(next)) if both_linear => {
-                    distance(before).min(distance(next)) * PART_OF_WAY
-                }
-                (_, Some(_)) => f64::INFINITY,
-                (_, None) => 0.0,
-            };
-            blends.push(Blend {
-                distance: point.blend.min(room),
-                is_full: point.blend >= room && room > 0.0,
-            });
-            before = Some(point);
+        let mut moves: Vec<(&DraftPoint, bool)> = Vec::with_capacity(self.steps.len());
+        for step in &self.steps {
+            match (step, moves.last_mut()) {
+                (DraftStep::Move(point), _) => moves.push((point, true)),
+                (DraftStep::Comment(_), _) | (_, None) => {}
+                (_, Some((_, continues))) => *continues = false,
+            }
         }
-        blends
+        let blend = |index: usize| {
+            let (point, continues) = moves[index];
+            let next = moves.get(index + 1).map(|(next, _)| *next);
+            let (Some(next), true) = (next, continues) else {
+                return Blend::default();
+            };
+            let before = index.checked_sub(1).map(|before| moves[before].0);
+            let way = |other: &DraftPoint| {
+                let [one, other] = [point, other].map(|point| point.frame_from_tool.translation.vector);
+                (one - other).norm() * PART_OF_WAY
+            };
+            let room = before.map_or(f64::INFINITY, way).min(way(next));
+            let is_path = before.is_some() && point.speed.is_some() && next.speed.is_some();
+            Blend {
+                distance: point.blend.min(room),
+                is_full: is_path && point.blend >= room && room > 0.0,
+            }
+        };
+        (0..moves.len()).map(blend).collect()
     }
 }
 
 /// Approximate positioning at a point.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Blend {
     /// Distance from the point at which the blend begins, m; zero is an exact stop.
     pub distance: f64,
@@ -147,4 +159,87 @@ pub struct Written {
     pub files: Vec<(String, Vec<u8>)>,
     /// Warnings to read before running it, one sentence each.
     pub notes: Vec<String>,
+}
+
+#[cfg(test)]
+mod tests {
+    use armill_core::nalgebra::Isometry3;
+
+    use super::*;
+
+    /// A move to this x, m; with a speed a straight one.
+    fn to(x: f64, speed: Option<f64>) -> DraftStep {
+        DraftStep::Move(DraftPoint {
+            frame_from_tool: Isometry3::translation(x, 0.0, 0.0),
+            joints: vec![0.0; 6],
+            external: Vec::new(),
+            branch: None,
+            speed,
+            blend: 1.0,
+        })
+    }
+
+    /// The blends of these steps, m, and whether they are full.
+    fn blends(steps: Vec<DraftStep>) -> Vec<(f64, bool)> {
+        let draft = Draft {
+            name: String::new(),
+            remarks: Vec::new(),
+            base_from_frame: Isometry::identity(),
+            flange_from_tool: Isometry::identity(),
+            controller: Controller::default(),
+            external_slides: Vec::new(),
+            steps,
+        };
+        let all = draft.blends().into_iter();
+        all.map(|blend| (blend.distance, blend.is_full)).collect()
+    }
+
+    #[test]
+    fn blends_end_before_those_of_both_neighbours_and_the_approach_is_not_full() {
+        let path = Some(0.1);
+        let steps = vec![
+            to(0.0, None),
+            to(1.0, path),
+            to(3.0, path),
+            to(3.5, path),
+            to(9.0, None),
+            to(9.0, None),
+        ];
+        let found = blends(steps);
+        let expected = [
+            (0.45, false),
+            (0.45, true),
+            (0.225, true),
+            (0.225, false),
+            // The next move only turns the tool or the arm.
+            (0.0, false),
+            (0.0, false),
+        ];
+        assert_eq!(found, expected);
+    }
+
+    #[test]
+    fn comments_do_not_stop_the_robot_and_other_steps_do() {
+        let with = |step: Option<DraftStep>| {
+            let path = Some(0.1);
+            let steps = [
+                Some(to(0.0, None)),
+                Some(to(1.0, path)),
+                step,
+                Some(to(2.0, path)),
+            ];
+            blends(steps.into_iter().flatten().collect())[1]
+        };
+        let text = || "text".to_owned();
+        assert_eq!(with(None), (0.45, true));
+        assert_eq!(with(Some(DraftStep::Comment(text()))), (0.45, true));
+        for step in [
+            DraftStep::Stop(text()),
+            DraftStep::Dwell(0.5),
+            DraftStep::Statement(text()),
+        ] {
+            assert_eq!(with(Some(step.clone())), (0.0, false), "{step:?}");
+        }
+        assert!(blends(vec![DraftStep::Comment(text()), DraftStep::Dwell(1.0)]).is_empty());
+    }
 }

@@ -18,6 +18,10 @@ pub(super) struct Bounds {
     pub frames: RangeInclusive<u32>,
     /// Numbers of tools.
     pub tools: RangeInclusive<u32>,
+    /// Longest dwell in one statement, s.
+    pub longest_dwell: f64,
+    /// Minimum acceleration along the path, m/s^2.
+    pub least_acceleration: f64,
 }
 
 /// Joints of an arm that these languages are written for.
@@ -26,17 +30,70 @@ const JOINTS: usize = 6;
 const LARGEST: f64 = 1e4;
 /// Minimum speed that can be written with the decimals of controllers, m/s.
 const SLOWEST: f64 = 1e-5;
-/// Longest dwell, s.
-const LONGEST_DWELL: f64 = 3600.0;
+/// Longest dwell in languages without a limit of their own, s.
+pub(super) const LONGEST_DWELL: f64 = 3600.0;
+/// Greatest acceleration along a path that is written, m/s^2.
+const GREATEST_ACCELERATION: f64 = 1e3;
+/// Minimum acceleration that can be written with the decimals of controllers, m/s^2.
+pub(super) const LEAST_ACCELERATION: f64 = 1e-3;
+/// Minimum speed or acceleration of joint moves, relative to the maximum: controllers have whole percentages.
+const LEAST_PART: f64 = 0.01;
+/// Longest name of a frame or tool, characters, and the rule for it.
+const LONGEST_NAME: usize = 32;
+const NAMES: &str = "a letter, then letters, digits and underscores, at most 32 characters";
 
 impl Draft {
-    /// Checks that the program can be written within these ranges: its name, its numbers, the number of joints, that
-    /// its first move is a joint move, and that every value is finite and in range.
+    /// Checks that the program can be written within these ranges: its names and numbers, the settings of the cell, the
+    /// number of joints, that its first move is a joint move, that every value is finite and in range, and that every
+    /// statement is one line.
     pub(super) fn check(&self, bounds: &Bounds) -> Result<(), DraftError> {
-        self.check_name(bounds)?;
+        check_name(&self.name, bounds.longest_name, bounds.language, bounds.names)?;
+        self.check_controller(bounds)?;
+        let first = self.points().next().ok_or(DraftError::Empty)?;
+        if first.speed.is_some() {
+            return Err(DraftError::FirstMove);
+        }
+        for (at, point) in self.points().enumerate() {
+            self.check_point(bounds, at + 1, point)?;
+        }
+        for step in &self.steps {
+            match step {
+                DraftStep::Dwell(value) if !(0.0..=bounds.longest_dwell).contains(value) => {
+                    return Err(DraftError::Dwell {
+                        value: *value,
+                        language: bounds.language,
+                        most: bounds.longest_dwell,
+                    });
+                }
+                _ => {}
+            }
+        }
+        let is_one_line = |line: &str| line.chars().all(|c| c.is_ascii() && !c.is_ascii_control());
+        self.check_statements(bounds, is_one_line, "it must be one line of ASCII characters")
+    }
+
+    /// Checks every statement of the cell; the reason says what a statement must be.
+    pub(super) fn check_statements(
+        &self,
+        bounds: &Bounds,
+        is_valid: impl Fn(&str) -> bool,
+        reason: &'static str,
+    ) -> Result<(), DraftError> {
+        match self.statements().find(|line| !is_valid(line)) {
+            Some(line) => Err(DraftError::Statement {
+                statement: line.to_owned(),
+                language: bounds.language,
+                reason,
+            }),
+            None => Ok(()),
+        }
+    }
+
+    fn check_controller(&self, bounds: &Bounds) -> Result<(), DraftError> {
+        let controller = &self.controller;
         let numbers = [
-            ("frame", self.controller.frame_number, &bounds.frames),
-            ("tool", self.controller.tool_number, &bounds.tools),
+            ("frame", controller.frame_number, &bounds.frames),
+            ("tool", controller.tool_number, &bounds.tools),
         ];
         for (what, number, range) in numbers {
             if !range.contains(&number) {
@@ -49,33 +106,41 @@ impl Draft {
                 });
             }
         }
-        let first = self.points().next().ok_or(DraftError::Empty)?;
-        if first.speed.is_some() {
-            return Err(DraftError::FirstMove);
+        for name in [&controller.frame_name, &controller.tool_name]
+            .into_iter()
+            .flatten()
+        {
+            check_name(name, LONGEST_NAME, bounds.language, NAMES)?;
         }
-        for (at, point) in self.points().enumerate() {
-            self.check_point(bounds, at + 1, point)?;
-        }
-        for step in &self.steps {
-            match step {
-                DraftStep::Dwell(value) if !(0.0..=LONGEST_DWELL).contains(value) => {
-                    return Err(DraftError::Dwell { value: *value });
-                }
-                _ => {}
+        let settings = [
+            (
+                "joint speed relative to the maximum",
+                Some(controller.joint_speed),
+                LEAST_PART,
+                1.0,
+            ),
+            (
+                "joint acceleration relative to the maximum",
+                controller.joint_acceleration,
+                LEAST_PART,
+                1.0,
+            ),
+            (
+                "acceleration in m/s^2",
+                controller.acceleration,
+                bounds.least_acceleration,
+                GREATEST_ACCELERATION,
+            ),
+        ];
+        for (what, value, least, most) in settings {
+            if let Some(value) = value.filter(|value| !(least..=most).contains(value)) {
+                return Err(DraftError::Setting {
+                    what,
+                    value,
+                    least,
+                    most,
+                });
             }
-        }
-        Ok(())
-    }
-
-    fn check_name(&self, bounds: &Bounds) -> Result<(), DraftError> {
-        let letters = |c: char| c.is_ascii_alphanumeric() || c == '_';
-        let begins = self.name.starts_with(|c: char| c.is_ascii_alphabetic());
-        if !begins || !self.name.chars().all(letters) || self.name.len() > bounds.longest_name {
-            return Err(DraftError::Name {
-                name: self.name.clone(),
-                language: bounds.language,
-                rule: bounds.names,
-            });
         }
         Ok(())
     }
@@ -116,17 +181,6 @@ impl Draft {
         Ok(())
     }
 
-    /// Refuses names that are reserved words; not case-sensitive.
-    pub(super) fn avoid(&self, bounds: &Bounds, words: &[&str]) -> Result<(), DraftError> {
-        let is_word = words.iter().any(|word| word.eq_ignore_ascii_case(&self.name));
-        let refused = || DraftError::Name {
-            name: self.name.clone(),
-            language: bounds.language,
-            rule: bounds.names,
-        };
-        if is_word { Err(refused()) } else { Ok(()) }
-    }
-
     /// Checks that the language can write all tip speeds, m/s.
     pub(super) fn check_speeds(&self, is_writable: impl Fn(f64) -> bool) -> Result<(), DraftError> {
         let mut speeds = (1..)
@@ -141,6 +195,37 @@ impl Draft {
             None => Ok(()),
         }
     }
+}
+
+/// Checks that a name is a letter, then letters, digits and underscores, at most `longest` characters.
+fn check_name(
+    name: &str,
+    longest: usize,
+    language: &'static str,
+    rule: &'static str,
+) -> Result<(), DraftError> {
+    let letters = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let begins = name.starts_with(|c: char| c.is_ascii_alphabetic());
+    if begins && name.chars().all(letters) && name.len() <= longest {
+        return Ok(());
+    }
+    Err(DraftError::Name {
+        name: name.to_owned(),
+        language,
+        rule,
+    })
+}
+
+/// Refuses a name that is a reserved word; not case-sensitive.
+pub(super) fn avoid(name: &str, bounds: &Bounds, words: &[&str]) -> Result<(), DraftError> {
+    if words.iter().any(|word| word.eq_ignore_ascii_case(name)) {
+        return Err(DraftError::Name {
+            name: name.to_owned(),
+            language: bounds.language,
+            rule: bounds.names,
+        });
+    }
+    Ok(())
 }
 
 /// Why a draft cannot be written in a language.
@@ -212,10 +297,36 @@ pub enum DraftError {
         /// Its value.
         value: f64,
     },
-    /// A dwell that is negative or longer than an hour.
-    #[error("a dwell of {value} s is not between 0 and 3600 s")]
+    /// A speed or acceleration of the cell that is not finite or out of range.
+    #[error("the {what} is {value}: it must be between {least} and {most}")]
+    Setting {
+        /// The setting, with its unit if it has one.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+        /// Its minimum.
+        least: f64,
+        /// Its maximum.
+        most: f64,
+    },
+    /// A dwell that is negative or too long for a statement of the language.
+    #[error("a dwell of {value} s is not between 0 and {most} s of {language}")]
     Dwell {
         /// s
         value: f64,
+        /// The language.
+        language: &'static str,
+        /// Longest dwell, s.
+        most: f64,
+    },
+    /// A statement of the cell that is not one statement on one line.
+    #[error("the statement {statement:?} cannot be written in {language}: {reason}")]
+    Statement {
+        /// The statement.
+        statement: String,
+        /// The language.
+        language: &'static str,
+        /// What it must be.
+        reason: &'static str,
     },
 }

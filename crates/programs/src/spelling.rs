@@ -187,6 +187,11 @@ pub(super) fn in_pieces(text: &str, longest: usize) -> Vec<String> {
     pieces
 }
 
+/// A text in pieces for quoted texts: without quotation marks and without backslashes, which begin escapes.
+pub(super) fn in_quoted_pieces(text: &str, longest: usize) -> Vec<String> {
+    in_pieces(&text.replace('"', "'").replace('\\', "/"), longest)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -245,5 +250,6 @@ mod tests {
         );
         assert_eq!(in_pieces("dunkelblau", 4), ["dunk", "elbl", "au"]);
         assert!(in_pieces("", 8).is_empty());
+        assert_eq!(in_quoted_pieces("say \"go\\\"", 40), ["say 'go/'"]);
     }
 }

@@ -6,10 +6,10 @@ use armill_formats::convention::Convention;
 
 use crate::controller::Controller;
 use crate::draft::{Blend, Draft, DraftPoint, DraftStep, Written, points};
-use crate::draft_check::{Bounds, DraftError};
+use crate::draft_check::{Bounds, DraftError, LEAST_ACCELERATION};
 use crate::number::fixed;
 use crate::posture::Configuration;
-use crate::spelling::in_pieces;
+use crate::spelling::{in_pieces, in_quoted_pieces};
 
 /// Maximum number of statements in one job; posts write 2000 to 9500 positions. Source: posts.
 const MOST_STEPS: usize = 2000;
@@ -20,8 +20,12 @@ const LONGEST_REMARK: usize = 32;
 /// Maximum length of a name: 8 on NX100, 32 later; three characters number the parts of a long program.
 const LONGEST_NAME: [usize; 3] = [8, 32, 29];
 
-/// Decimals of a dwell, s.
+/// Maximum length of a message on the pendant. Source: the RoboDK post, also for `MSG` and `PAUSE`.
+const LONGEST_MESSAGE: usize = 25;
+
+/// Decimals of a dwell, and the longest one, s. Source: the RoboDK post writes `TIMER T=1.00`; range `[recalled]`.
 const DWELL: usize = 2;
+const LONGEST_DWELL: f64 = 655.35;
 
 /// Range of the tip speed, mm/s. `[recalled]`
 const SPEEDS: [f64; 2] = [0.1, 1500.0];
@@ -43,6 +47,8 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
         external: 0,
         frames: 1..=63,
         tools: 0..=63,
+        longest_dwell: LONGEST_DWELL,
+        least_acceleration: LEAST_ACCELERATION,
     })?;
     draft.check_speeds(|speed| to_mm(speed) >= SPEEDS[0] / 2.0)?;
     let parts: Vec<(String, &[DraftStep])> = draft.parts(MOST_STEPS, "").collect();
@@ -234,6 +240,10 @@ fn job(
             DraftStep::Comment(text) => remarks(text, &mut out),
             DraftStep::Stop(text) => {
                 remarks(text, &mut out);
+                // A further message would replace this one.
+                for piece in in_quoted_pieces(text, LONGEST_MESSAGE).iter().take(1) {
+                    line(&mut out, &format!("MSG \"{piece}\""));
+                }
                 line(&mut out, "PAUSE");
             }
             DraftStep::Dwell(seconds) => {

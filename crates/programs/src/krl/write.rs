@@ -12,7 +12,7 @@ use armill_formats::convention::Convention;
 use super::aggregate::whole;
 use crate::controller::Controller;
 use crate::draft::{Blend, Draft, DraftPoint, DraftStep, Written, text_lines};
-use crate::draft_check::{Bounds, DraftError};
+use crate::draft_check::{Bounds, DraftError, LEAST_ACCELERATION, LONGEST_DWELL, avoid};
 use crate::number::fixed;
 use crate::text::latin1;
 
@@ -124,9 +124,11 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
         external: MOST_EXTERNAL,
         frames: 0..=MOST_FRAMES,
         tools: 0..=MOST_FRAMES,
+        longest_dwell: LONGEST_DWELL,
+        least_acceleration: LEAST_ACCELERATION,
     };
     draft.check(&bounds)?;
-    draft.avoid(&bounds, WORDS)?;
+    avoid(&draft.name, &bounds, WORDS)?;
     let mut main = head(draft);
     let mut parts = Vec::new();
     let mut body = Body::new(draft);
@@ -153,8 +155,9 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
     })
 }
 
-/// The start-up fold of the controller: it checks stops (interrupt 3) and sets the defaults of motion. Source: the fold
-/// that KUKA's editor writes; the samples of the post processors have the same.
+/// The start-up fold of the controller: it checks stops (interrupt 3) and sets the defaults of motion. Source: public
+/// programs and posts, which also have `BAS(#VEL_PTP,n)` and `BAS(#ACC_PTP,n)` in per cent, `$ACC.CP` in m/s^2,
+/// `$APO.CDIS` in mm with `C_DIS`, `WAIT SEC` and `HALT`.
 const START: &str = ";FOLD INI\r\n;FOLD BASISTECH INI\r\n\
      GLOBAL INTERRUPT DECL 3 WHEN $STOPMESS==TRUE DO IR_STOPM ( )\r\nINTERRUPT ON 3\r\nBAS (#INITMOV,0 )\r\n\
      ;ENDFOLD (BASISTECH INI)\r\n;ENDFOLD (INI)\r\n$ADVANCE=3\r\n";

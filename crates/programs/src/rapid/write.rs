@@ -9,10 +9,10 @@ use std::fmt::Write;
 use super::spell::whole;
 use crate::controller::Controller;
 use crate::draft::{Blend, Draft, DraftPoint, DraftStep, Written, text_lines};
-use crate::draft_check::{Bounds, DraftError};
+use crate::draft_check::{Bounds, DraftError, LONGEST_DWELL, avoid};
 use crate::number::fixed;
 use crate::posture::Configuration;
-use crate::spelling::in_pieces;
+use crate::spelling::in_quoted_pieces;
 
 /// `[recalled]` Longest identifier; `MOD_` precedes the name of a module, up to six characters follow that of a part.
 const LONGEST_NAME: usize = 32;
@@ -22,6 +22,9 @@ const PART: usize = 6;
 const MOST_FRAMES: u32 = 999;
 /// Maximum number of statements in a module: larger modules load slowly; post processors write 10 to 30 thousand lines.
 const MOST_STEPS: usize = 10_000;
+/// Minimum acceleration along a path, m/s^2 `[recalled]`: below it `PathAccLim` raises ERR_ACC_TOO_LOW. Source of the
+/// syntax of `PathAccLim` and of `WaitTime\InPos`: public RAPID code.
+const LEAST_ACCELERATION: f64 = 0.1;
 /// Decimals of joints, deg, of speeds, mm/s, of dwells, s, and of accelerations, m/s^2.
 const JOINT: usize = 5;
 const SPEED: usize = 3;
@@ -42,7 +45,8 @@ const ZONES: [f64; 20] = [
 const PREDEFINED: [f64; 13] = [
     200.0, 150.0, 100.0, 80.0, 60.0, 50.0, 40.0, 30.0, 20.0, 15.0, 10.0, 5.0, 1.0,
 ];
-/// Reorientation in a zone per distance, deg/mm, as in the predefined zones `[recalled]`.
+/// Reorientation in a zone per distance, deg/mm, as in the predefined zone z1, `[FALSE,1,1,1,0.1,1,0.1]`. Fields: finep,
+/// pzone_tcp, pzone_ori, pzone_eax (mm), zone_ori (deg), zone_leax (mm), zone_reax (deg). Source: public RAPID code.
 const ZONE_DEG_PER_MM: f64 = 0.1;
 /// Speed of joint moves at full joint speed, mm/s: joint moves of this language have the speed of the TCP.
 const JOINT_MOVE_MM_S: f64 = 2000.0;
@@ -156,9 +160,22 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
         external: MOST_EXTERNAL,
         frames: 0..=MOST_FRAMES,
         tools: 0..=MOST_FRAMES,
+        longest_dwell: LONGEST_DWELL,
+        least_acceleration: LEAST_ACCELERATION,
     };
     draft.check(&bounds)?;
-    draft.avoid(&bounds, WORDS)?;
+    avoid(&draft.name, &bounds, WORDS)?;
+    if draft.controller.sets_data() {
+        let [tool, frame] = names(&draft.controller);
+        avoid(&tool, &bounds, WORDS)?;
+        avoid(&frame, &bounds, WORDS)?;
+        if tool.eq_ignore_ascii_case(&frame) {
+            return Err(DraftError::Data {
+                language: bounds.language,
+                reason: "tool and frame need different names",
+            });
+        }
+    }
     let blends = draft.blends();
     let mut main = head(draft, &draft.name, &blends);
     main.push_str("    ConfJ\\On;\r\n    ConfL\\Off;\r\n    SingArea\\Wrist;\r\n");
@@ -272,7 +289,7 @@ fn body(draft: &Draft, steps: &[DraftStep], blends: &mut std::slice::Iter<'_, Bl
                 out.write_str(&line(draft, point, blend, &kept))
             }
             DraftStep::Comment(text) => text_lines(text).try_for_each(|line| write!(out, "    ! {line}\r\n")),
-            DraftStep::Stop(text) => in_pieces(&text.replace('"', "'"), LONGEST_TEXT)
+            DraftStep::Stop(text) => in_quoted_pieces(text, LONGEST_TEXT)
                 .iter()
                 .try_for_each(|line| write!(out, "    TPWrite \"{line}\";\r\n"))
                 .and_then(|()| out.write_str("    Stop;\r\n")),

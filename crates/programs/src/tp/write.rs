@@ -8,7 +8,7 @@ use armill_formats::convention::Convention;
 use super::position::KEYS;
 use crate::controller::Controller;
 use crate::draft::{Blend, Draft, DraftPoint, DraftStep, Written, points};
-use crate::draft_check::{Bounds, DraftError};
+use crate::draft_check::{Bounds, DraftError, LEAST_ACCELERATION};
 use crate::number::fixed;
 use crate::posture::Configuration;
 use crate::spelling::in_pieces;
@@ -16,10 +16,12 @@ use crate::spelling::in_pieces;
 /// Maximum number of statements in one program. `[recalled]`
 const MOST_STEPS: usize = 5000;
 
-/// Largest number of extended axes of the group of the arm. `[recalled]`
+/// Largest number of extended axes of the group of the arm. `[recalled]` Source of their spelling, `E1=   0.000  mm`: the
+/// RoboDK post.
 const MOST_EXTERNAL: usize = 3;
 
-/// Maximum length of a remark, of a message, and of the comment in the header. `[recalled]`
+/// Maximum length of a remark, of a message, and of the comment in the header. `[recalled]` Source of `MESSAGE[..]` and
+/// `PAUSE`: the RoboDK post.
 const LONGEST_REMARK: usize = 30;
 const LONGEST_MESSAGE: usize = 24;
 const LONGEST_COMMENT: usize = 16;
@@ -31,8 +33,9 @@ const LONGEST_NAME: [usize; 3] = [8, 36, 33];
 /// The register through which frame and tool are set.
 const REGISTER: u32 = 9;
 
-/// Decimals of a dwell, s.
+/// Decimals of a dwell, and the longest one, s. Source: public listings have `WAIT    .50(sec)`; range `[recalled]`.
 const DWELL: usize = 2;
+const LONGEST_DWELL: f64 = 327.67;
 
 /// Maximum tip speed, mm/s. Source: FANUC's manual of options.
 const FASTEST: f64 = 2000.0;
@@ -45,7 +48,7 @@ const END: &str = "\r\n";
 /// Values outside the ranges of the language or its controllers.
 pub fn write(draft: &Draft) -> Result<Written, DraftError> {
     let split = draft.steps.len() > MOST_STEPS;
-    draft.check(&Bounds {
+    let bounds = Bounds {
         language: "FANUC TP",
         longest_name: if split { LONGEST_NAME[2] } else { LONGEST_NAME[1] },
         names: "a letter, then letters, digits and underscores, at most 36 characters; 33 if the program is split \
@@ -53,7 +56,16 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
         external: MOST_EXTERNAL,
         frames: 1..=9,
         tools: 1..=10,
-    })?;
+        longest_dwell: LONGEST_DWELL,
+        least_acceleration: LEAST_ACCELERATION,
+    };
+    draft.check(&bounds)?;
+    let is_single = |line: &str| !trimmed(line).contains(';');
+    draft.check_statements(
+        &bounds,
+        is_single,
+        "`;` ends a statement: write the rest as another statement",
+    )?;
     draft.check_speeds(|speed| feed(speed).is_some())?;
     let parts: Vec<(String, &[DraftStep])> = draft.parts(MOST_STEPS, "").collect();
     let footer = || draft.controller.footer.iter().map(|line| statement(line));
@@ -81,8 +93,13 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
 
 /// A statement of the cell, in a line of a listing.
 fn statement(line: &str) -> String {
-    let line = line.trim().trim_end_matches(';').trim_end();
-    format!("  {line} ;")
+    format!("  {} ;", trimmed(line))
+}
+
+/// A statement without the semicolon at its end.
+fn trimmed(line: &str) -> &str {
+    let line = line.trim();
+    line.strip_suffix(';').unwrap_or(line).trim_end()
 }
 
 fn notes(draft: &Draft, split: bool, blends: &[Blend]) -> Vec<String> {
@@ -190,7 +207,7 @@ fn body(draft: &Draft, steps: &[DraftStep], blends: &mut std::slice::Iter<'_, Bl
                 lines.push(line(draft, point, position, blends.next()));
             }
             DraftStep::Comment(text) => {
-                lines.extend(remarks(text, LONGEST_REMARK, |piece| format!("  !{piece} ;")))
+                lines.extend(remarks(text, LONGEST_REMARK, |piece| format!("  !{piece} ;")));
             }
             DraftStep::Stop(text) => {
                 let text = text.replace(['[', ']'], " ");
@@ -318,7 +335,11 @@ fn configuration(point: &DraftPoint) -> String {
 /// A listing with these lines and positions.
 fn listing(draft: &Draft, name: &str, lines: &[String], positions: &str) -> (String, Vec<u8>) {
     let comment = in_pieces(draft.remarks.first().map_or("", String::as_str), LONGEST_COMMENT);
-    let comment = comment.first().map_or("", String::as_str).replace('"', "'");
+    let comment = comment
+        .first()
+        .map_or("", String::as_str)
+        .replace('"', "'")
+        .replace(';', ",");
     // No time stamp: the same draft gives the same bytes.
     let date = "DATE 00-01-01  TIME 00:00:00";
     let count = lines.len();

@@ -7,7 +7,7 @@ use armill_core::units::{from_deg, to_deg};
 use armill_formats::convention::Convention;
 
 use super::read::Reader;
-use super::value::{Argument, Posed, Value};
+use super::value::{Argument, Posed, Reference, Value};
 use crate::program::Spelled;
 use crate::tokens::{Cursor, Kind, Token};
 
@@ -203,20 +203,37 @@ impl<'a> Reader<'a> {
                 _ => self.known.get(name).cloned().unwrap_or(Value::Unknown),
             };
         }
-        let mut arguments = self
-            .arguments(cursor, level)
-            .into_iter()
-            .map(|argument| argument.value);
+        let arguments = self.arguments(cursor, level);
+        let first = arguments
+            .first()
+            .map(|argument| &cursor.text[argument.bytes.clone()]);
+        let feature = first
+            .filter(|name| is_name(name) && !self.known.contains_key(name))
+            .map(str::to_owned);
+        let mut arguments = arguments.into_iter().map(|argument| argument.value);
         let bytes = word.start..cursor.before();
         match (name, arguments.next(), arguments.next()) {
             ("d2r", Some(Value::Number(deg)), None) => Value::Number(from_deg(deg)),
             ("r2d", Some(Value::Number(rad)), None) => Value::Number(to_deg(rad)),
             ("get_inverse_kin", Some(pose @ Value::Pose(_)), _) => pose,
-            ("pose_inv", Some(Value::Pose(posed)), None) => self.computed(posed.in_base().inverse(), bytes),
-            ("pose_trans", Some(Value::Pose(frame)), Some(Value::Pose(target))) => Value::Pose(Posed {
-                frame: frame.in_base() * target.frame,
-                ..target
-            }),
+            ("pose_inv", Some(Value::Pose(posed)), None) => match posed.in_base() {
+                Some(pose) => self.computed(pose.inverse(), bytes),
+                None => Value::Unknown,
+            },
+            ("pose_trans", Some(frame), Some(Value::Pose(target))) => {
+                let Reference::Given(inner) = &target.frame else {
+                    return Value::Unknown;
+                };
+                let outer = match (frame, feature) {
+                    (Value::Pose(frame), _) => frame.in_base().map(|frame| Reference::Given(frame * inner)),
+                    // Its pose is not known, but that of the target in it is, if nothing is between them.
+                    (Value::Unknown, Some(feature)) if *inner == Isometry::identity() => {
+                        Some(Reference::Feature(feature))
+                    }
+                    _ => None,
+                };
+                outer.map_or(Value::Unknown, |frame| Value::Pose(Posed { frame, ..target }))
+            }
             _ => Value::Unknown,
         }
     }
@@ -248,7 +265,7 @@ impl<'a> Reader<'a> {
     /// A pose in the base with these bytes.
     fn computed(&self, pose: Isometry, bytes: Range<usize>) -> Value {
         Value::Pose(Posed {
-            frame: Isometry::identity(),
+            frame: Reference::Given(Isometry::identity()),
             pose,
             spelled: Spelled {
                 text: self.messages.index(),
@@ -256,6 +273,12 @@ impl<'a> Reader<'a> {
             },
         })
     }
+}
+
+/// Whether a text is the name of a variable.
+pub(super) fn is_name(text: &str) -> bool {
+    text.starts_with(|c: char| c.is_alphabetic() || c == '_')
+        && text.chars().all(|c| c.is_alphanumeric() || c == '_')
 }
 
 /// The numbers of a list that contains only numbers.

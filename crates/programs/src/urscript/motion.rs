@@ -3,8 +3,9 @@
 use armill_core::frame::Isometry;
 use armill_core::robot::BranchPattern;
 
+use super::expression::is_name;
 use super::read::Reader;
-use super::value::{Argument, Value};
+use super::value::{Argument, Reference, Value};
 use crate::messages::shown;
 use crate::program::{Frame, Motion, RobotMove, Speed, Target};
 use crate::tokens::Token;
@@ -45,10 +46,19 @@ impl Reader<'_> {
             Motion::Joint => Speed::Joints,
             Motion::Linear | Motion::Circular { .. } => speed(word, rest),
         };
+        let frame = match frame {
+            Reference::Given(frame) => Frame::Given(frame),
+            Reference::Feature(name) => {
+                let sentence =
+                    format!("the frame `{name}` is a feature of the installation: it is not known");
+                self.messages.note(at.line, sentence);
+                Frame::Unknown
+            }
+        };
         self.moves.push(RobotMove {
             motion,
             target,
-            frame: Frame::Given(frame),
+            frame,
             tool: self.tool,
             speed,
             line: at.line,
@@ -56,7 +66,7 @@ impl Reader<'_> {
     }
 
     /// The target in an argument, and its frame.
-    fn target(&mut self, argument: &Argument) -> Option<(Target, Isometry)> {
+    fn target(&mut self, argument: &Argument) -> Option<(Target, Reference)> {
         let text = &self.messages.text().text()[argument.bytes.clone()];
         let mut wrong = |message: String, hint: &str| {
             self.messages.problem(argument.bytes.clone(), message, hint);
@@ -70,11 +80,12 @@ impl Reader<'_> {
                     turns: Vec::new(),
                     spelled: posed.spelled.clone(),
                 },
-                posed.frame,
+                posed.frame.clone(),
             )),
-            Value::Numbers(joints) if joints.len() == JOINTS => {
-                Some((Target::Joints(joints.clone()), Isometry::identity()))
-            }
+            Value::Numbers(joints) if joints.len() == JOINTS => Some((
+                Target::Joints(joints.clone()),
+                Reference::Given(Isometry::identity()),
+            )),
             Value::Numbers(joints) => wrong(
                 format!("{} joints in a target, but 6 are required", joints.len()),
                 "write `[base, shoulder, elbow, wrist 1, wrist 2, wrist 3]`, rad",
@@ -85,8 +96,7 @@ impl Reader<'_> {
             ),
             Value::Wrong => None,
             Value::Unknown => {
-                let is_name = !text.is_empty() && text.chars().all(|c| c.is_alphanumeric() || c == '_');
-                let message = match is_name && !self.known.contains_key(text) {
+                let message = match is_name(text) && !self.known.contains_key(text) {
                     true => format!(
                         "`{}` is not defined: no line before gives it a value",
                         shown(text)

@@ -34,6 +34,7 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
         tool: Frame::Unknown,
         routines: HashSet::new(),
         name: None,
+        is_started: false,
         moves: Vec::new(),
     };
     let found: Vec<Vec<Token>> = texts
@@ -117,6 +118,8 @@ pub(super) struct Reader<'a> {
     pub tool: Frame,
     routines: HashSet<&'a str>,
     name: Option<&'a str>,
+    /// Whether the main routine has been called.
+    is_started: bool,
     pub moves: Vec<RobotMove>,
 }
 
@@ -179,15 +182,21 @@ impl<'a> Reader<'a> {
             }
             "set_tcp" => {
                 let arguments = self.arguments(&mut cursor, 0);
-                self.tool = match arguments.first().map(|argument| &argument.value) {
-                    Some(Value::Pose(tool)) => Frame::Given(tool.in_base()),
-                    _ => {
+                let tool = match arguments.first().map(|argument| &argument.value) {
+                    Some(Value::Pose(tool)) => tool.in_base(),
+                    _ => None,
+                };
+                self.tool = match tool {
+                    Some(tool) => Frame::Given(tool),
+                    None => {
                         let sentence = "the tool is computed on the controller: it is not known";
                         self.messages.note(at.line, sentence);
                         Frame::Unknown
                     }
                 };
             }
+            // The program calls its main routine after its definition.
+            _ if self.name == Some(word) && !self.is_started => self.is_started = true,
             _ if self.routines.contains(word) => {
                 let sentence = format!("`{word}` is called: its moves are read once, where it is defined");
                 self.messages.note(at.line, sentence);

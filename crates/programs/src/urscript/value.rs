@@ -21,16 +21,27 @@ pub(super) enum Value {
 /// A pose and its position in the text.
 #[derive(Clone, Debug)]
 pub(super) struct Posed {
-    /// Its reference: robot base to frame.
-    pub frame: Isometry,
+    pub frame: Reference,
     pub pose: Isometry,
     pub spelled: Spelled,
 }
 
+/// Reference of a pose.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Reference {
+    /// Robot base to frame.
+    Given(Isometry),
+    /// A feature of the installation: only the controller knows its pose.
+    Feature(String),
+}
+
 impl Posed {
-    /// Robot base to tool.
-    pub fn in_base(&self) -> Isometry {
-        self.frame * self.pose
+    /// Robot base to tool; `None` relative to a feature of the installation.
+    pub fn in_base(&self) -> Option<Isometry> {
+        match &self.frame {
+            Reference::Given(frame) => Some(frame * self.pose),
+            Reference::Feature(_) => None,
+        }
     }
 }
 

@@ -7,9 +7,9 @@ use std::fmt::Write;
 
 use super::spell::whole;
 use crate::draft::{Draft, DraftStep, Written, text_lines};
-use crate::draft_check::{Bounds, DraftError};
+use crate::draft_check::{Bounds, DraftError, LEAST_ACCELERATION, LONGEST_DWELL, avoid};
 use crate::number::fixed;
-use crate::spelling::in_pieces;
+use crate::spelling::in_quoted_pieces;
 
 /// Range of the numbers of frames and tools, which appear only in remarks.
 const MOST_FRAMES: u32 = 999;
@@ -19,15 +19,16 @@ const SPEED: usize = 6;
 const BLEND: usize = 6;
 /// Decimals of dwells, s.
 const DWELL: usize = 3;
-/// Acceleration of linear moves, m/s^2, unless the cell gives one; the default of the manufacturer's manual `[recalled]`.
+/// Acceleration of linear moves, m/s^2, unless the cell gives one. Source: the default of `movel` in public references.
 const ACCELERATION: f64 = 1.2;
 /// Greatest speed, rad/s, of the slowest joints of these arms, and the greatest acceleration of joint moves that is
 /// written, rad/s^2 `[recalled]`.
 const JOINT_SPEED: f64 = 2.09;
 const JOINT_ACCELERATION: f64 = 14.0;
-/// Joint acceleration relative to the maximum, unless the cell gives one: 1.4 rad/s^2, the manual's default `[recalled]`.
+/// Joint acceleration relative to the maximum, unless the cell gives one: 1.4 rad/s^2. Source: the default of `movej` in
+/// public references.
 const JOINT_ACCELERATION_PART: f64 = 0.1;
-/// Longest text of a message.
+/// Longest text of a message. Source of `popup(s, title, warning, error, blocking)`: the RoboDK posts.
 const LONGEST_TEXT: usize = 120;
 /// Reserved words.
 const WORDS: &[&str] = &[
@@ -78,9 +79,11 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
         external: 0,
         frames: 0..=MOST_FRAMES,
         tools: 0..=MOST_FRAMES,
+        longest_dwell: LONGEST_DWELL,
+        least_acceleration: LEAST_ACCELERATION,
     };
     draft.check(&bounds)?;
-    draft.avoid(&bounds, WORDS)?;
+    avoid(&draft.name, &bounds, WORDS)?;
     let controller = &draft.controller;
     let is_named = controller.frame_name.is_some();
     if !controller.sets_data() && !is_named {
@@ -187,8 +190,11 @@ fn body(draft: &Draft, frame: &str) -> String {
             }
             DraftStep::Comment(text) => text_lines(text).try_for_each(|line| writeln!(out, "  # {line}")),
             DraftStep::Stop(text) => {
-                let text = in_pieces(&text.replace('"', "'"), LONGEST_TEXT).join(" ");
-                writeln!(out, "  popup(\"{text}\", title=\"armill\", blocking=True)")
+                let text = in_quoted_pieces(text, LONGEST_TEXT).join(" ");
+                writeln!(
+                    out,
+                    "  popup(\"{text}\", \"armill\", False, False, blocking=True)"
+                )
             }
             DraftStep::Dwell(seconds) => writeln!(out, "  sleep({})", fixed(*seconds, DWELL)),
             DraftStep::Statement(line) => writeln!(out, "  {line}"),

@@ -6,10 +6,10 @@ use armill_formats::convention::Convention;
 
 use crate::controller::Controller;
 use crate::draft::{Blend, Draft, DraftPoint, DraftStep, Written, text_lines};
-use crate::draft_check::{Bounds, DraftError};
+use crate::draft_check::{Bounds, DraftError, LEAST_ACCELERATION, LONGEST_DWELL};
 use crate::number::fixed;
 use crate::posture::Configuration;
-use crate::spelling::in_pieces;
+use crate::spelling::{in_pieces, in_quoted_pieces};
 
 /// Maximum number of lines in one program. `[recalled]`
 const MOST_LINES: usize = 2000;
@@ -18,7 +18,7 @@ const MOST_LINES: usize = 2000;
 const LONGEST_REMARK: usize = 100;
 const LONGEST_MESSAGE: usize = 40;
 
-/// Decimals of a dwell, s.
+/// Decimals of a dwell, s. Source: the RoboDK posts, `delay(1.000)` and `waitEndMove()`.
 const DWELL: usize = 3;
 
 /// Minimum speed that is not written as zero, mm/s.
@@ -44,6 +44,8 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
         external: 0,
         frames: 0..=99,
         tools: 0..=99,
+        longest_dwell: LONGEST_DWELL,
+        least_acceleration: LEAST_ACCELERATION,
     })?;
     draft.check_speeds(|speed| to_mm(speed) >= SLOWEST)?;
     if !draft.controller.sets_data() {
@@ -170,9 +172,9 @@ fn body(draft: &Draft, moves: &Moves<'_>) -> Vec<String> {
             }
             DraftStep::Comment(text) => lines.extend(text_lines(text).map(remark)),
             DraftStep::Stop(text) => {
-                // A key of the pendant continues the program `[recalled]`.
+                // A key of the pendant continues the program: `get` waits for it, `popUpMsg` does not `[recalled]`.
                 lines.extend(["waitEndMove()", "userPage()", "cls()"].map(str::to_owned));
-                let pieces = in_pieces(&text.replace('"', "'"), LONGEST_MESSAGE);
+                let pieces = in_quoted_pieces(text, LONGEST_MESSAGE);
                 lines.extend(pieces.iter().map(|piece| format!("putln(\"{piece}\")")));
                 lines.push("nTraj=get()".to_owned());
             }
@@ -186,9 +188,8 @@ fn body(draft: &Draft, moves: &Moves<'_>) -> Vec<String> {
     lines
 }
 
-/// A remark; text that would end the code is split.
 fn remark(text: &str) -> String {
-    format!("// {}", text.replace("]]>", "]] >"))
+    format!("// {text}")
 }
 
 /// The lines of the main program of a project.
@@ -248,7 +249,11 @@ fn program(name: &str, code: &[String]) -> String {
         format!("  <Program name=\"{name}\" access=\"{access}\">"),
         "    <Code><![CDATA[begin".to_owned(),
     ];
-    lines.extend(code.iter().map(|line| format!("  {line}")));
+    // `]]>` would end the code; a blank between the characters has no meaning.
+    lines.extend(
+        code.iter()
+            .map(|line| format!("  {}", line.replace("]]>", "]] >"))),
+    );
     lines.extend(["end]]></Code>", "  </Program>", "</Programs>"].map(str::to_owned));
     joined(&lines)
 }

@@ -4,11 +4,13 @@ use armill_core::frame::Isometry;
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::{BranchPattern, Elbow, Shoulder, Wrist};
 use armill_programs::inform::{read, write};
-use armill_programs::{Draft, Frame, Motion, ProgramText, RobotProgram, Speed, Target};
+use armill_programs::{Draft, DraftStep, Frame, Motion, ProgramText, RobotProgram, Speed, Target};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
-use crate::drafts::{drafts, one_draft, read_back};
+use crate::drafts::{
+    Writes, drafts, every_step, long, notes_only, point, read_back, spaced, stored, text_of,
+};
 use crate::trials::{
     MICROMETRE, angle_of_decimals, apart, cuts, moved_alone, moves_as_drafted, problems, survives,
 };
@@ -293,15 +295,14 @@ fn every_mistake_has_its_message() {
 
 #[test]
 fn a_long_program_is_split_and_read_as_one() {
-    let mut draft = one_draft();
-    let point = draft.points[0].clone();
-    draft.points = vec![point; 4500];
-    draft.points[0].speed = None;
-    let written = write(&draft).unwrap();
+    let written = write(&long(4500)).unwrap();
     let names: Vec<&str> = written.files.iter().map(|(name, _)| name.as_str()).collect();
-    assert_eq!(names, ["part.JBI", "part001.JBI", "part002.JBI", "part003.JBI"]);
+    assert_eq!(
+        names,
+        ["PLATE.JBI", "PLATE001.JBI", "PLATE002.JBI", "PLATE003.JBI"]
+    );
     let program = read_back(&written);
-    assert_eq!((program.name.as_str(), program.moves.len()), ("part", 4500));
+    assert_eq!((program.name.as_str(), program.moves.len()), ("PLATE", 4500));
     let straight = program
         .moves
         .iter()
@@ -313,26 +314,65 @@ fn a_long_program_is_split_and_read_as_one() {
 #[test]
 fn refuses_values_outside_the_ranges_of_controllers() {
     let broken = |change: fn(&mut Draft)| {
-        let mut draft = one_draft();
-        draft.points.push(draft.points[0].clone());
+        let mut draft = long(2);
         change(&mut draft);
         write(&draft).unwrap_err().to_string()
     };
     assert!(broken(|draft| draft.name = "x".repeat(33)).contains("at most 32 characters"));
-    assert!(broken(|draft| draft.frame_number = 0).contains("frame 0 is outside 1 to 63"));
-    assert!(broken(|draft| draft.points[0].joints.push(0.0)).contains("7 joints"));
-    assert!(broken(|draft| draft.points[1].speed = Some(1e-5)).contains("the speed is 0.00001"));
+    assert!(broken(|draft| draft.controller.frame_number = 0).contains("frame 0 is outside 1 to 63"));
+    assert!(broken(|draft| point(draft, 0).joints.push(0.0)).contains("7 joints"));
+    assert!(broken(|draft| point(draft, 1).speed = Some(1e-5)).contains("the speed is 0.00001"));
 }
 
 #[test]
 fn moves_blend_as_specified_and_the_last_one_stops() {
-    let mut draft = one_draft();
-    draft.points[0].blend = 0.001;
-    draft.points = vec![draft.points[0].clone(); 3];
-    let text = String::from_utf8(write(&draft).unwrap().files.remove(0).1).unwrap();
+    let text = text_of(&write(&spaced(3, 10.0)).unwrap(), 0);
     assert_eq!(text.matches(" PL=1\r\n").count(), 2, "{text}");
     assert_eq!(text.matches(" PL=0\r\n").count(), 1, "{text}");
 }
+
+#[test]
+fn every_kind_of_step_has_its_instruction() {
+    let mut draft = every_step("DOUT OT#(1) ON");
+    draft.controller.joint_speed = 0.256;
+    draft.controller.header = vec!["SETTOOL TL#(2) P010".to_owned()];
+    draft.controller.footer = vec!["DOUT OT#(1) OFF".to_owned()];
+    let text = text_of(&write(&draft).unwrap(), 0);
+    let expected = "\r\nSETTOOL TL#(2) P010\r\n'approach\r\nMOVJ C00000 VJ=26.00 PL=1\r\nMOVL C00001 V=50.0 PL=1\r\n\
+        'corner of the part\r\nMOVL C00002 V=50.0 PL=0\r\nTIMER T=1.50\r\nDOUT OT#(1) ON\r\nMOVL C00003 V=50.0 PL=0\r\n\
+        'change the tool\r\nMSG \"change the tool\"\r\nPAUSE\r\nMOVJ C00004 VJ=26.00 PL=0\r\nDOUT OT#(1) OFF\r\nEND\r\n";
+    assert!(text.ends_with(expected), "{text}");
+    assert!(text.contains("///NPOS 5,0,0,0,0,0\r\n"), "{text}");
+}
+
+#[test]
+fn only_the_beginning_of_a_long_message_is_shown() {
+    let mut draft = every_step("");
+    let long = "replace the cutter by the \"finishing\" cutter of 6 mm";
+    draft.steps[8] = DraftStep::Stop(long.to_owned());
+    let text = text_of(&write(&draft).unwrap(), 0);
+    let expected = "'replace the cutter by the\r\n'\"finishing\" cutter of 6 mm\r\nMSG \"replace the cutter by the\"\r\nPAUSE\r\n";
+    assert!(text.contains(expected), "{text}");
+}
+
+#[test]
+fn frames_and_tools_are_stored_whatever_the_cell_says() {
+    let draft = long(2);
+    let written = write(&draft).unwrap();
+    assert_eq!(written, write(&stored(draft, "Table", "Spindle")).unwrap());
+    assert!(
+        written.notes[0].starts_with(
+            "user frame 1 on the controller must be, relative to the robot base: X 1.000 Y 2.000"
+        ),
+        "{}",
+        written.notes[0]
+    );
+}
+
+const WRITES: Writes = Writes {
+    external: 0,
+    statement: "DOUT OT#(1) ON",
+};
 
 proptest! {
     #![proptest_config(ProptestConfig { cases: 1000, failure_persistence: None, rng_seed: RngSeed::Fixed(11), ..ProptestConfig::default() })]
@@ -347,24 +387,25 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, rng_seed: RngSeed::Fixed(7), ..ProptestConfig::default() })]
 
     #[test]
-    fn what_is_written_is_read_as_it_was(draft in drafts()) {
+    fn what_is_written_is_read_as_it_was(draft in drafts(WRITES)) {
         let written = write(&draft).unwrap();
         let (_, bytes) = &written.files[0];
         let lone_line_ends = bytes.windows(2).filter(|pair| pair[1] == b'\n' && pair[0] != b'\r').count();
         prop_assert_eq!(lone_line_ends, 0);
         let program = read_back(&written);
         prop_assert_eq!(&program.name, &draft.name);
-        prop_assert_eq!(program.moves.len(), draft.points.len());
-        for (at, (one, point)) in program.moves.iter().zip(&draft.points).enumerate() {
+        prop_assert_eq!(program.moves.len(), draft.points().count());
+        notes_only(&program, &["speeds V= are read as mm/s"]);
+        for (one, point) in program.moves.iter().zip(draft.points()) {
             let Target::Pose { pose, branch, turns, .. } = &one.target else { panic!() };
             let [far, turned] = apart(pose, &point.frame_from_tool);
             prop_assert!(far <= MICROMETRE && turned <= angle_of_decimals(4), "{} m, {} rad", far, turned);
             prop_assert_eq!(*branch, BranchPattern::from(point.branch.unwrap()));
             let beyond: Vec<i32> = [3, 5, 0].map(|joint: usize| i32::from(point.joints[joint].abs() > std::f64::consts::PI)).to_vec();
             prop_assert_eq!(turns, &beyond);
-            prop_assert_eq!((one.frame, one.tool), (Frame::Numbered(draft.frame_number), Frame::Numbered(draft.tool_number)));
+            prop_assert_eq!((one.frame, one.tool), (Frame::Numbered(draft.controller.frame_number), Frame::Numbered(draft.controller.tool_number)));
             // One decimal of mm/s.
-            moves_as_drafted(one, point, at == 0, 0.05001e-3);
+            moves_as_drafted(one, point, 0.05001e-3);
         }
     }
 }

@@ -11,6 +11,7 @@ mod inform;
 mod krl;
 mod other_makers;
 mod rapid;
+mod refused_drafts;
 mod rewriting;
 mod same_poses;
 #[path = "../../../formats/tests/samples_folder/mod.rs"]

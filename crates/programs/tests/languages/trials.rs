@@ -65,15 +65,14 @@ pub fn moved_alone(program: &RobotProgram, by: &Isometry, within: [f64; 2]) -> R
 }
 
 /// Checks that the move to this point of a draft has the motion of the point and its tip speed within this tolerance, m/s.
-/// The move to the first point is a joint move.
-pub fn moves_as_drafted(found: &RobotMove, point: &DraftPoint, is_first: bool, within: f64) {
+pub fn moves_as_drafted(found: &RobotMove, point: &DraftPoint, within: f64) {
     match (point.speed, found.speed) {
-        (Some(given), Speed::Tip(speed)) if !is_first => {
+        (Some(given), Speed::Tip(speed)) => {
             assert_eq!(found.motion, Motion::Linear);
             assert!((given - speed).abs() <= within, "{given} {speed}");
         }
-        (_, speed) => {
-            assert!(is_first || point.speed.is_none());
+        (given, speed) => {
+            assert_eq!(given, None);
             assert_eq!((speed, &found.motion), (Speed::Joints, &Motion::Joint));
         }
     }

@@ -9,7 +9,7 @@ use armill_programs::{Frame, Motion, ProgramText, RobotProgram, Speed, Target};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
-use crate::drafts::{drafts, one_draft, read_back};
+use crate::drafts::{Writes, drafts, every_step, long, notes_only, read_back, spaced, text_of};
 use crate::trials::{
     MICROMETRE, angle_of_decimals, apart, cuts, moved_alone, moves_as_drafted, problems, survives,
 };
@@ -280,15 +280,13 @@ fn every_mistake_has_its_message() {
 
 #[test]
 fn a_long_program_is_split_and_read_as_one() {
-    let mut draft = one_draft();
-    draft.points = vec![draft.points[0].clone(); 4001];
-    let written = write(&draft).unwrap();
+    let written = write(&long(4001)).unwrap();
     let names: Vec<&str> = written.files.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(
         names,
         [
-            "part.pjx",
-            "part.dtx",
+            "PLATE.pjx",
+            "PLATE.dtx",
             "start.pgx",
             "part001.pgx",
             "part002.pgx",
@@ -296,21 +294,57 @@ fn a_long_program_is_split_and_read_as_one() {
             "stop.pgx"
         ]
     );
-    assert_eq!(read_back(&written).moves.len(), 4001);
+    let program = read_back(&written);
+    assert_eq!(program.moves.len(), 4001);
+    notes_only(&program, &[]);
 }
 
 #[test]
 fn moves_blend_as_specified_and_the_last_one_stops() {
-    let mut draft = one_draft();
-    draft.points[0].blend = 0.001;
-    draft.points = vec![draft.points[0].clone(); 3];
-    let text = |at: usize| String::from_utf8(write(&draft).unwrap().files.remove(at).1).unwrap();
-    let [data, start] = [text(1), text(2)];
-    assert!(data.contains("<Value key=\"0\" accel=\"100\" vel=\"100\" decel=\"100\" tmax=\"100.000\" rmax=\"99999\" blend=\"cartesian\" leave=\"1.000\" reach=\"1.000\" />"));
-    assert!(data.contains("<Value key=\"1\" accel=\"100\" vel=\"100\" decel=\"100\" tmax=\"100.000\" rmax=\"99999\" blend=\"off\" leave=\"0.000\" reach=\"0.000\" />"));
-    assert!(start.contains("mSpeed[0])\r\n  nTraj=movel(pPoint[1]"), "{start}");
-    assert!(start.contains("mSpeed[1])\r\n  waitEndMove()"), "{start}");
+    let mut draft = spaced(4, 10.0);
+    draft.controller.joint_acceleration = Some(0.5);
+    let written = write(&draft).unwrap();
+    let [data, start] = [1, 2].map(|file| text_of(&written, file));
+    for described in [
+        "<Value key=\"0\" accel=\"50\" vel=\"10\" decel=\"50\" tmax=\"99999\" rmax=\"99999\" blend=\"cartesian\" leave=\"0.500\" reach=\"0.500\" />",
+        "<Value key=\"1\" accel=\"100\" vel=\"100\" decel=\"100\" tmax=\"50.000\" rmax=\"99999\" blend=\"cartesian\" leave=\"0.500\" reach=\"0.500\" />",
+        "<Value key=\"2\" accel=\"100\" vel=\"100\" decel=\"100\" tmax=\"50.000\" rmax=\"99999\" blend=\"off\" leave=\"0.000\" reach=\"0.000\" />",
+    ] {
+        assert!(data.contains(described), "{data}");
+    }
+    assert!(start.contains("mSpeed[1])\r\n  nTraj=movel(pPoint[1]"), "{start}");
+    assert!(start.contains("mSpeed[2])\r\n  waitEndMove()"), "{start}");
 }
+
+#[test]
+fn every_kind_of_step_has_its_statement() {
+    let mut draft = every_step("doValve=true");
+    draft.controller.header = vec!["doSpindle=true".to_owned()];
+    draft.controller.footer = vec!["doSpindle=false".to_owned()];
+    let written = write(&draft).unwrap();
+    let [data, start] = [1, 2].map(|file| text_of(&written, file));
+    let to =
+        |of: &str, target: usize, pace: usize| format!("  nTraj={of}[{target}],tTool[2],mSpeed[{pace}])\r\n");
+    let [first, last] = [to("movej(jJoint", 0, 0), to("movej(jJoint", 1, 3)];
+    let [one, two, three] = [(0, 1), (1, 2), (2, 2)].map(|(target, pace)| to("movel(pPoint", target, pace));
+    let expected = format!(
+        "  doSpindle=true\r\n  // approach\r\n{first}{one}  // corner\r\n  // of the part\r\n{two}  waitEndMove()\r\n  \
+         delay(1.500)\r\n  doValve=true\r\n{three}  waitEndMove()\r\n  userPage()\r\n  cls()\r\n  \
+         putln(\"change the tool\")\r\n  nTraj=get()\r\n{last}  waitEndMove()\r\n  doSpindle=false\r\nend]]></Code>"
+    );
+    assert!(start.contains(&expected), "{start}\n{expected}");
+    let joints = "<Value key=\"1\" j1=\"-46.18419\" j2=\"-6.77518\" j3=\"-20.54925\" j4=\"71.38674\" j5=\"49.58727\" j6=\"-302.54752\" />";
+    assert!(data.contains(joints), "{data}");
+    assert!(
+        data.contains("name=\"jJoint\" access=\"private\" xsi:type=\"array\" type=\"jointRx\" size=\"2\""),
+        "{data}"
+    );
+}
+
+const WRITES: Writes = Writes {
+    external: 0,
+    statement: "doValve=true",
+};
 
 proptest! {
     #![proptest_config(ProptestConfig { cases: 1000, failure_persistence: None, rng_seed: RngSeed::Fixed(11), ..ProptestConfig::default() })]
@@ -325,21 +359,22 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, rng_seed: RngSeed::Fixed(7), ..ProptestConfig::default() })]
 
     #[test]
-    fn what_is_written_is_read_as_it_was(draft in drafts()) {
+    fn what_is_written_is_read_as_it_was(draft in drafts(WRITES)) {
         let written = write(&draft).unwrap();
         let program = read_back(&written);
         prop_assert_eq!(&program.name, &draft.name);
-        prop_assert_eq!(program.moves.len(), draft.points.len());
+        prop_assert_eq!(program.moves.len(), draft.points().count());
+        notes_only(&program, &[]);
         let near = |one: &Isometry, other: &Isometry| {
             let [far, turned] = apart(one, other);
             far <= MICROMETRE && turned <= angle_of_decimals(4)
         };
-        for (at, (one, point)) in program.moves.iter().zip(&draft.points).enumerate() {
+        for (one, point) in program.moves.iter().zip(draft.points()) {
             let Frame::Given(tool) = one.tool else { panic!() };
             prop_assert!(near(&tool, &draft.flange_from_tool));
             match &one.target {
                 Target::Joints(joints) => {
-                    prop_assert_eq!(at, 0);
+                    prop_assert!(point.speed.is_none());
                     for (joint, given) in joints.iter().zip(&point.joints) {
                         // Five decimals of a degree.
                         prop_assert!((joint - given).abs() <= 0.000_005_01_f64.to_radians());
@@ -347,13 +382,13 @@ proptest! {
                 }
                 Target::Pose { pose, branch, .. } => {
                     let Frame::Given(frame) = one.frame else { panic!() };
-                    prop_assert!(at > 0 && near(pose, &point.frame_from_tool) && near(&frame, &draft.base_from_frame));
+                    prop_assert!(point.speed.is_some() && near(pose, &point.frame_from_tool) && near(&frame, &draft.base_from_frame));
                     prop_assert_eq!(*branch, BranchPattern::from(point.branch.unwrap()));
                 }
                 Target::Elsewhere { .. } => panic!(),
             }
             // Three decimals of mm/s.
-            moves_as_drafted(one, point, at == 0, 0.501e-6);
+            moves_as_drafted(one, point, 0.501e-6);
         }
     }
 }

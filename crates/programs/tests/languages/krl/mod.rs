@@ -1,12 +1,14 @@
 //! KUKA KRL.
 
 mod refusals;
+mod written;
 
 use armill_core::frame::Isometry;
-use armill_programs::{Draft, Frame, Language, Motion, RobotProgram, Speed, Target, write};
+use armill_core::robot::BranchPattern;
+use armill_programs::{Frame, Language, Motion, RobotProgram, Speed, Target, write};
 use proptest::prelude::*;
 
-use crate::drafts::{Says, drafts, long, read_back, reads_back};
+use crate::drafts::{Says, Writes, drafts, long, read_back, reads_back};
 use crate::rewriting::{keeps_the_rest, near, rewritten};
 use crate::same_poses::{eight_moves, kuka, path, same, same_joints, sample};
 use crate::{problems, program, refused};
@@ -374,42 +376,25 @@ fn points_of_two_modules_may_have_the_same_name() {
     assert!(program.notes[0].contains("`TWO` is called: its moves are read once, where it is defined"));
 }
 
-/// T of KUKA: which axes are below zero.
-fn turns(joints: &[f64]) -> Vec<i32> {
-    joints.iter().map(|joint| i32::from(*joint < 0.0)).collect()
-}
+const WRITES: Writes = Writes {
+    external: 6,
+    statement: "$OUT[3]=TRUE",
+};
 
 const SAYS: Says = Says {
-    frames: |_| None,
-    branches: true,
-    joint_speed: Speed::Joints,
-    turns,
+    // A straight move keeps the posture of the move before it.
+    branch: |_| BranchPattern::default(),
+    turns: |_| Vec::new(),
+    notes: &["external axes"],
 };
 
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn a_written_draft_is_read_back(draft in drafts()) {
+    fn a_written_draft_is_read_back(draft in drafts(WRITES)) {
         reads_back(Language::Krl, &draft, &SAYS);
     }
-}
-
-#[test]
-fn a_program_has_the_expected_text() {
-    let written = write(Language::Krl, &long(3)).unwrap();
-    let (name, bytes) = &written.files[0];
-    assert_eq!((written.files.len(), name.as_str()), (1, "PLATE.src"));
-    let expected = "&ACCESS RVP\r\n&REL 1\r\nDEF PLATE()\r\n; made by armill\r\n; LIN {X 0}\r\n;FOLD INI\r\n\
-        BAS(#INITMOV,0)\r\n;ENDFOLD (INI)\r\n$ADVANCE=3\r\nBAS(#BASE,1)\r\nBAS(#TOOL,2)\r\n\
-        ; base 1 and tool 2 as this program was made with them\r\n\
-        $BASE={FRAME: X 1.0000,Y 2.0000,Z 3.0000,A 0.000000,B 0.000000,C 0.000000}\r\n\
-        $TOOL={FRAME: X 0.0000,Y 0.0000,Z 100.0000,A 0.000000,B 0.000000,C 0.000000}\r\n\
-        PTP {AXIS: A1 -46.18419,A2 -6.77518,A3 -20.54925,A4 71.38674,A5 49.58727,A6 -302.54752}\r\n\
-        $VEL.CP=0.050000\r\n$APO.CDIS=0.500\r\n\
-        LIN {X 0.100,Y 0.000,Z 0.000,A 0.0000,B 90.0000,C 0.0000} C_DIS\r\n\
-        LIN {X 0.200,Y 0.000,Z 0.000,A 0.0000,B 90.0000,C 0.0000}\r\nEND\r\n";
-    assert_eq!(std::str::from_utf8(bytes).unwrap(), expected);
 }
 
 #[test]
@@ -427,40 +412,4 @@ fn a_long_program_is_written_in_parts_called_by_a_main_program() {
         &kuka([1000.0, 0.0, 0.0, 0.0, 90.0, 0.0]),
     );
     assert!(program.moves[1..].iter().all(|of| of.speed == Speed::Tip(0.05)));
-}
-
-#[test]
-fn refuses_drafts_outside_the_ranges_of_controllers() {
-    let refused = |change: &dyn Fn(&mut Draft), part: &str| {
-        let mut draft = long(2);
-        change(&mut draft);
-        let given = write(Language::Krl, &draft).unwrap_err().to_string();
-        assert!(given.contains(part), "{given}");
-    };
-    refused(
-        &|draft| draft.name = "5TH".to_owned(),
-        "`5TH` is not a valid name in KUKA KRL",
-    );
-    refused(&|draft| draft.name = "A".repeat(25), "at most 24");
-    refused(
-        &|draft| draft.tool_number = 129,
-        "tool 129 is outside 0 to 128 of KUKA KRL",
-    );
-    refused(&|draft| draft.points.clear(), "has no points");
-    refused(
-        &|draft| draft.points[0].joints.push(0.0),
-        "7 joints, but KUKA KRL programs can have 6 to 6",
-    );
-    refused(
-        &|draft| draft.points[1].speed = Some(0.0),
-        "point 2: the speed is 0",
-    );
-    refused(&|draft| draft.points[1].blend = -1.0, "point 2: the blend is -1");
-    let mut draft = long(5001);
-    draft.name = "A".repeat(20);
-    let given = write(Language::Krl, &draft).unwrap_err().to_string();
-    assert!(
-        given.contains("at most 19 because it is written in parts"),
-        "{given}"
-    );
 }

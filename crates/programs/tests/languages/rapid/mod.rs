@@ -1,13 +1,16 @@
 //! ABB RAPID.
 
+mod written;
+
 use std::f64::consts::FRAC_1_SQRT_2;
 
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::{Quaternion, Translation3, UnitQuaternion};
-use armill_programs::{Draft, Frame, Language, Motion, RobotProgram, Speed, Target, write};
+use armill_core::robot::BranchPattern;
+use armill_programs::{Frame, Language, Motion, RobotProgram, Speed, Target, write};
 use proptest::prelude::*;
 
-use crate::drafts::{Says, drafts, long, read_back, reads_back};
+use crate::drafts::{Says, Writes, drafts, long, read_back, reads_back};
 use crate::rewriting::{keeps_the_rest, near, rewritten};
 use crate::same_poses::{kuka, same, sample};
 use crate::{problems, program, refused};
@@ -344,39 +347,24 @@ fn turns(joints: &[f64]) -> Vec<i32> {
         .to_vec()
 }
 
+const WRITES: Writes = Writes {
+    external: 6,
+    statement: "SetDO do_1,1;",
+};
+
 const SAYS: Says = Says {
-    frames: |_| None,
-    branches: true,
-    joint_speed: Speed::Joints,
+    branch: |point| BranchPattern::from(point.branch.unwrap()),
     turns,
+    notes: &["external axes"],
 };
 
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn a_written_draft_is_read_back(draft in drafts()) {
+    fn a_written_draft_is_read_back(draft in drafts(WRITES)) {
         reads_back(Language::Rapid, &draft, &SAYS);
     }
-}
-
-#[test]
-fn a_program_has_the_expected_text() {
-    let written = write(Language::Rapid, &long(3)).unwrap();
-    let (name, bytes) = &written.files[0];
-    assert_eq!((written.files.len(), name.as_str()), (1, "PLATE.mod"));
-    let none = "[1.00000000,0.00000000,0.00000000,0.00000000]";
-    let expected = format!(
-        "MODULE MOD_PLATE\r\n  ! made by armill\r\n  ! LIN {{X 0}}\r\n  \
-         LOCAL PERS tooldata tool_2:=[TRUE,[[0.000,0.000,100.000],{none}],[1,[0,0,1],[1,0,0,0],0,0,0]];\r\n  \
-         LOCAL PERS wobjdata wobj_1:=[FALSE,TRUE,\"\",[[1.000,2.000,3.000],{none}],[[0,0,0],[1,0,0,0]]];\r\n  \
-         PROC PLATE()\r\n    ConfJ\\On;\r\n    ConfL\\Off;\r\n    SingArea\\Wrist;\r\n    \
-         MoveAbsJ [[-46.18419,-6.77518,-20.54925,71.38674,49.58727,-302.54752],[9E9,9E9,9E9,9E9,9E9,9E9]]\\NoEOffs,v200,fine,tool_2\\WObj:=wobj_1;\r\n    \
-         MoveL [[0.100,0.000,0.000],[0.70710678,0.00000000,0.70710678,0.00000000],[-1,0,-4,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v50,z0,tool_2\\WObj:=wobj_1;\r\n    \
-         MoveL [[0.200,0.000,0.000],[0.70710678,0.00000000,0.70710678,0.00000000],[-1,0,-4,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v50,fine,tool_2\\WObj:=wobj_1;\r\n  \
-         ENDPROC\r\nENDMODULE\r\n"
-    );
-    assert_eq!(std::str::from_utf8(bytes).unwrap(), expected);
 }
 
 #[test]
@@ -393,14 +381,4 @@ fn a_long_program_is_written_in_parts_called_by_a_main_program() {
         program.moves[20_000].target.pose().unwrap(),
         &kuka([2000.0, 0.0, 0.0, 0.0, 90.0, 0.0]),
     );
-}
-
-#[test]
-fn refuses_reserved_words_as_names() {
-    let draft = Draft {
-        name: "Proc".to_owned(),
-        ..long(1)
-    };
-    let given = write(Language::Rapid, &draft).unwrap_err().to_string();
-    assert!(given.contains("not a reserved word"), "{given}");
 }

@@ -1,11 +1,14 @@
 //! URScript.
 
+mod written;
+
 use armill_core::frame::Isometry;
+use armill_core::robot::BranchPattern;
 use armill_formats::convention::Convention;
-use armill_programs::{Draft, Frame, Language, Motion, RobotProgram, Speed, Target, write};
+use armill_programs::{Frame, Language, Motion, RobotProgram, Speed, Target};
 use proptest::prelude::*;
 
-use crate::drafts::{Says, drafts, long, reads_back};
+use crate::drafts::{Says, Writes, drafts, reads_back};
 use crate::rewriting::keeps_the_rest;
 use crate::same_poses::{eight_moves, same, same_joints, sample};
 use crate::{problems, program, refused};
@@ -146,6 +149,52 @@ fn a_duration_or_unknown_speed_gives_no_tip_speed() {
 }
 
 #[test]
+fn only_further_calls_of_the_main_routine_are_noted() {
+    let main = "def main():\n  movel(p[0,0,0,0,0,0], v=0.1)\nend\n";
+    assert!(of(&format!("{main}main()\n")).notes.is_empty());
+    let again = of(&format!("{main}main()\nmain()\n"));
+    assert_eq!(again.moves.len(), 1);
+    assert_eq!(
+        again.notes,
+        ["a.script, line 5: `main` is called: its moves are read once, where it is defined"]
+    );
+}
+
+#[test]
+fn a_name_without_a_value_is_a_feature_of_the_installation() {
+    let program = of(
+        "movel(pose_trans(Table, p[0.1,0,0,0,0,0]), v=0.1)\nmovel(pose_trans(Table, p[0.2,0,0,0,0,0]), v=0.1)",
+    );
+    let x: Vec<f64> = program
+        .moves
+        .iter()
+        .map(|of| of.target.pose().unwrap().translation.x)
+        .collect();
+    assert_eq!(x, [0.1, 0.2]);
+    assert!(program.moves.iter().all(|of| of.frame == Frame::Unknown));
+    assert_eq!(
+        program.notes,
+        [
+            "a.script, line 1: the frame `Table` is a feature of the installation: it is not known (2 times, first here)"
+        ]
+    );
+    keeps_the_rest(&program, |pose| *pose);
+    wrong(
+        "movec(pose_trans(Table, p[0,0,0,0,0,0]), pose_trans(Vise, p[0,0,0,0,0,0]))",
+        "the two positions of this circle are relative to different frames",
+    );
+    for lines in [
+        "Table = get_forward_kin()\nmovel(pose_trans(Table, p[0,0,0,0,0,0]))",
+        "movel(pose_trans(Table, pose_trans(Vise, p[0,0,0,0,0,0])))",
+        "movel(pose_inv(pose_trans(Table, p[0,0,0,0,0,0])))",
+    ] {
+        wrong(lines, "is computed while the program runs");
+    }
+    let tool = of("set_tcp(pose_trans(Table, p[0,0,0,0,0,0]))\nmovel(p[0,0,0,0,0,0], v=0.1)");
+    assert_eq!(tool.moves[0].tool, Frame::Unknown);
+}
+
+#[test]
 fn every_problem_is_reported_with_its_position_and_a_hint() {
     for (lines, part) in [
         ("movel(p[1.2.3,0,0,0,0,0])", "1:9: `1.2.3` is not a number"),
@@ -187,45 +236,22 @@ fn every_problem_is_reported_with_its_position_and_a_hint() {
     assert_eq!(all.len(), 200);
 }
 
+const WRITES: Writes = Writes {
+    external: 0,
+    statement: "set_standard_digital_out(1, True)",
+};
+
 const SAYS: Says = Says {
-    frames: |_| None,
-    branches: false,
-    joint_speed: Speed::Joints,
+    branch: |_| BranchPattern::default(),
     turns: |_| Vec::new(),
+    notes: &[],
 };
 
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn a_written_draft_is_read_back(draft in drafts()) {
+    fn a_written_draft_is_read_back(draft in drafts(WRITES)) {
         reads_back(Language::UrScript, &draft, &SAYS);
     }
-}
-
-#[test]
-fn a_program_has_the_expected_text() {
-    let written = write(Language::UrScript, &long(4)).unwrap();
-    let (name, bytes) = &written.files[0];
-    assert_eq!((written.files.len(), name.as_str()), (1, "PLATE.script"));
-    // Points are 0.1 mm apart: the blend of 0.5 mm becomes 0.045 mm; the last point is an exact stop.
-    let expected = "def PLATE():\n  # made by armill\n  # LIN {X 0}\n  # frame 1 and tool 2 for which this program was made\n  \
-        armill_frame = p[0.001000, 0.002000, 0.003000, 0.000000, 0.000000, 0.000000]\n  \
-        set_tcp(p[0.000000, 0.000000, 0.100000, 0.000000, 0.000000, 0.000000])\n  \
-        movej([-0.806066, -0.118249, -0.358652, 1.245934, 0.865461, -5.280450], a=1.4, v=0.5)\n  \
-        movel(pose_trans(armill_frame, p[0.000100, 0.000000, 0.000000, 0.000000, 1.570796, 0.000000]), a=1.2, v=0.050000, r=0.000045)\n  \
-        movel(pose_trans(armill_frame, p[0.000200, 0.000000, 0.000000, 0.000000, 1.570796, 0.000000]), a=1.2, v=0.050000, r=0.000045)\n  \
-        movel(pose_trans(armill_frame, p[0.000300, 0.000000, 0.000000, 0.000000, 1.570796, 0.000000]), a=1.2, v=0.050000)\n\
-        end\nPLATE()\n";
-    assert_eq!(std::str::from_utf8(bytes).unwrap(), expected);
-}
-
-#[test]
-fn refuses_reserved_words_as_names() {
-    let draft = Draft {
-        name: "While".to_owned(),
-        ..long(1)
-    };
-    let given = write(Language::UrScript, &draft).unwrap_err().to_string();
-    assert!(given.contains("not a reserved word"), "{given}");
 }

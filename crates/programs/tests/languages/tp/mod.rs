@@ -1,18 +1,16 @@
-//! Our own listings, problems of wrong ones, and drafts that are read back.
+//! Our own listings and problems of wrong ones.
+
+mod written;
 
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::Vector3;
-use armill_core::robot::BranchPattern;
 use armill_formats::convention::Convention;
-use armill_programs::tp::{read, write};
+use armill_programs::tp::read;
 use armill_programs::{Frame, Motion, ProgramText, RobotProgram, Speed, Target};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
-use crate::drafts::{drafts, one_draft, read_back};
-use crate::trials::{
-    MICROMETRE, angle_of_decimals, apart, cuts, moved_alone, moves_as_drafted, problems, survives,
-};
+use crate::trials::{MICROMETRE, angle_of_decimals, cuts, moved_alone, problems, survives};
 
 const LISTING: &str = "/PROG  DEBURR\tMacro\r
 /ATTR\r
@@ -348,103 +346,11 @@ fn a_german_listing_is_read_too() {
     );
 }
 
-#[test]
-fn a_long_program_is_split_and_read_as_one() {
-    let mut draft = one_draft();
-    draft.points = vec![draft.points[0].clone(); 10_001];
-    let written = write(&draft).unwrap();
-    let names: Vec<&str> = written.files.iter().map(|(name, _)| name.as_str()).collect();
-    assert_eq!(names, ["part.LS", "part001.LS", "part002.LS", "part003.LS"]);
-    let program = read_back(&written);
-    assert_eq!(program.moves.len(), 10_001);
-    assert!(
-        program
-            .moves
-            .iter()
-            .all(|one| matches!(one.frame, Frame::Given(_)))
-    );
-    let joints = program
-        .moves
-        .iter()
-        .filter(|one| matches!(one.target, Target::Joints(_)))
-        .count();
-    assert_eq!(joints, 1);
-}
-
-#[test]
-fn a_listing_gives_its_number_of_lines() {
-    let written = write(&one_draft()).unwrap();
-    let text = String::from_utf8(written.files[0].1.clone()).unwrap();
-    let body = text
-        .split("/MN\r\n")
-        .nth(1)
-        .unwrap()
-        .split("/POS")
-        .next()
-        .unwrap();
-    let lines = body.lines().count();
-    assert!(text.contains(&format!("LINE_COUNT\t= {lines};")));
-    for (number, line) in (1..).zip(body.lines()) {
-        assert!(line.starts_with(&format!("{number:>4}:")), "{line}");
-    }
-}
-
-#[test]
-fn moves_blend_as_specified_and_the_last_one_stops() {
-    let mut draft = one_draft();
-    draft.points[0].blend = 0.001;
-    draft.points = vec![draft.points[0].clone(); 3];
-    let text = String::from_utf8(write(&draft).unwrap().files.remove(0).1).unwrap();
-    assert_eq!(text.matches(" CNT100 ;\r\n").count(), 2, "{text}");
-    assert_eq!(text.matches(" FINE ;\r\n").count(), 1, "{text}");
-}
-
 proptest! {
     #![proptest_config(ProptestConfig { cases: 1000, failure_persistence: None, rng_seed: RngSeed::Fixed(11), ..ProptestConfig::default() })]
 
     #[test]
     fn what_was_cut_into_is_refused_or_read_again_as_it_was(cuts in cuts()) {
         survives(&[("deburr.ls", LISTING)], &cuts);
-    }
-}
-
-proptest! {
-    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, rng_seed: RngSeed::Fixed(7), ..ProptestConfig::default() })]
-
-    #[test]
-    fn what_is_written_is_read_as_it_was(draft in drafts()) {
-        let written = write(&draft).unwrap();
-        let program = read_back(&written);
-        prop_assert_eq!(&program.name, &draft.name);
-        prop_assert_eq!(program.moves.len(), draft.points.len());
-        let near = |one: &Isometry, other: &Isometry| {
-            let [far, turned] = apart(one, other);
-            far <= MICROMETRE && turned <= angle_of_decimals(3)
-        };
-        for (at, (one, point)) in program.moves.iter().zip(&draft.points).enumerate() {
-            let (Frame::Given(frame), Frame::Given(tool)) = (one.frame, one.tool) else { panic!() };
-            prop_assert!(near(&frame, &draft.base_from_frame) && near(&tool, &draft.flange_from_tool));
-            match &one.target {
-                Target::Joints(joints) => {
-                    prop_assert_eq!(at, 0);
-                    for (joint, given) in joints.iter().zip(&point.joints) {
-                        // Three decimals of a degree.
-                        prop_assert!((joint - given).abs() <= 0.000_501_f64.to_radians());
-                    }
-                }
-                Target::Pose { pose, branch, turns, .. } => {
-                    prop_assert!(at > 0 && near(pose, &point.frame_from_tool));
-                    prop_assert_eq!(*branch, BranchPattern::from(point.branch.unwrap()));
-                    let turned = |joint: usize| {
-                        let beyond = i32::from(point.joints[joint].abs() >= std::f64::consts::PI);
-                        if point.joints[joint] < 0.0 { -beyond } else { beyond }
-                    };
-                    prop_assert_eq!(turns, &vec![turned(0), turned(3), turned(5)]);
-                }
-                Target::Elsewhere { .. } => panic!(),
-            }
-            // Whole cm/min: half of one is 0.0833 mm/s.
-            moves_as_drafted(one, point, at == 0, 0.084e-3);
-        }
     }
 }
