@@ -9,7 +9,7 @@ use armill_core::optimize::Compensation;
 use armill_core::source::StiffnessModel;
 use armill_plan::compensate::in_place::allow_programs;
 use armill_plan::compensate::{CompensatedPath, CompensationAnswer, compensate};
-use armill_study::program_out::{PathToWrite, program};
+use armill_study::program_out::{HolesToWrite, PathToWrite, hole_program, program};
 use armill_study::{StudyError, studies};
 
 use super::program::{requested, save};
@@ -46,9 +46,9 @@ pub(crate) fn run(arguments: &CompensateArguments) -> Result<Outcome, StudyError
     let mut files: Vec<(String, &[u8])> = Vec::new();
     for one in &commanded {
         files.push((one.given.file.clone(), &one.csv));
-        if one.given.rounds > 0 {
+        if let Some(svg) = one.picture.as_ref().filter(|_| one.given.rounds > 0) {
             let picture = one.given.file.replace(".commanded.csv", "-compensated.svg");
-            files.push((picture, one.picture.as_bytes()));
+            files.push((picture, svg.as_bytes()));
         }
         files.extend(one.program.iter().map(|(name, bytes)| (name.clone(), &bytes[..])));
     }
@@ -61,18 +61,33 @@ pub(crate) fn run(arguments: &CompensateArguments) -> Result<Outcome, StudyError
     if let Some((folder, requested)) = &requested {
         let [one] = &commanded[..] else {
             let message = format!(
-                "--program: the study has {} paths, a program contains one",
+                "--program: the study has {} paths and sets of holes, a program contains one",
                 commanded.len()
             );
             return Err(StudyError::value(message, "select one: --analysis NAME"));
         };
-        let path = PathToWrite {
-            setting: one.setting,
-            track: &one.path.0,
-            answers: &one.path.1,
-            spindle: one.spindle,
+        let (track, answers) = (&one.path.0, &one.path.1);
+        let written = match one.holes {
+            Some(holes) => hole_program(
+                &study,
+                HolesToWrite {
+                    holes,
+                    track,
+                    answers,
+                },
+                requested,
+            )?,
+            None => program(
+                &study,
+                PathToWrite {
+                    setting: one.setting,
+                    track,
+                    answers,
+                    spindle: one.spindle,
+                },
+                requested,
+            )?,
         };
-        let written = program(&study, path, requested)?;
         save(&writer, folder, &written)?;
     }
     let any = |known: fn(&StiffnessModel) -> bool| commanded.iter().any(|one| known(&one.setting.model));

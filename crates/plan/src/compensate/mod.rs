@@ -11,35 +11,39 @@
 //!
 //! For a path from a robot program, that program is returned too, with changed targets ([`in_place`]).
 //!
-//! `error_answer`: the distances from the path; `in_place`: the program that a path is from, rewritten.
+//! `commanded`: a commanded path or set of holes; `error_answer`: the distances from the path; `holes`: holes instead of a
+//! path; `in_place`: the program that a path is from, rewritten.
 //!
 //! The correction is the elastic deviation (and that of gravity, backlash and the calibrated robot, if known)
 //! under the mean of the load cases, of a cut under its nominal force; the difference of the cases is reported as
 //! residual.
 
+mod commanded;
 pub mod error_answer;
+mod holes;
 pub mod in_place;
 
+pub use commanded::{Commanded, CompensatedPath};
 pub use error_answer::ErrorAnswer;
 
-use armill_core::frame::tool_orientation;
 use armill_core::kernel::Answers;
-use armill_core::nalgebra::{UnitQuaternion, Vector3};
+use armill_core::nalgebra::Vector3;
 use armill_core::optimize::{Compensated, Compensation, compensated};
-use armill_core::path::{LoadedTrack, Pace, Shape, Track};
-use armill_core::units::{to_deg, to_mm, to_um};
+use armill_core::path::{LoadedTrack, Shape, Track};
+use armill_core::units::{to_mm, to_um};
 use armill_core::watch::Watch;
-use armill_formats::table::{Column, ColumnData, Table, csv};
+use armill_formats::table::csv;
 use armill_report::{PathPlot, Series};
 use armill_study::analysis::path::PathAnalysis;
 use armill_study::analysis::path::run::passes;
 use armill_study::analysis::runner::Runner;
 use armill_study::error::StudyError;
 use armill_study::file::resolve::Study;
-use armill_study::input::setting::Setting;
 use serde::Serialize;
 
-use self::in_place::{RewrittenProgram, RewrittenProgramAnswer, in_place};
+use self::commanded::table;
+use self::holes::of_holes;
+use self::in_place::{RewrittenProgram, in_place};
 
 /// Result of the compensation of the paths of a study.
 #[derive(Clone, Debug, Serialize)]
@@ -54,57 +58,7 @@ pub struct CompensationAnswer {
     pub geometry: bool,
 }
 
-/// One path, before and after.
-#[derive(Clone, Debug, Serialize)]
-pub struct CompensatedPath {
-    /// Its name.
-    pub name: String,
-    /// How many points.
-    pub points: usize,
-    /// Deviation of the tool from the nominal path without compensation.
-    pub before: ErrorAnswer,
-    /// And with it, as predicted.
-    pub after: ErrorAnswer,
-    /// Largest move of a point.
-    pub largest_correction_um: f64,
-    /// Rounds of the fixed point.
-    pub rounds: usize,
-    /// Largest move of a point in the last round.
-    pub last_round_um: f64,
-    /// What that was of the one before; none after one round.
-    pub contraction_ratio: Option<f64>,
-    /// Points without posture, which are not changed.
-    pub unreachable: usize,
-    /// Points outside joint limits after the correction.
-    pub outside_joint_limits: usize,
-    /// File of the commanded path.
-    pub file: String,
-    /// The program that the path is from, with changed targets; none for another path, or if `notes` give a reason.
-    pub in_place: Option<RewrittenProgramAnswer>,
-    /// What a user must know, each a sentence.
-    pub notes: Vec<String>,
-}
-
-/// Result for one path.
-#[derive(Clone, Debug)]
-pub struct Commanded<'a> {
-    /// Its analysis.
-    pub setting: &'a Setting,
-    /// The path to command, and its postures.
-    pub path: (Track, Answers),
-    /// Speed of the spindle if the path does not specify it, rad/s.
-    pub spindle: Option<f64>,
-    /// In numbers.
-    pub given: CompensatedPath,
-    /// The table, as CSV.
-    pub csv: Vec<u8>,
-    /// Before and after along the path, as SVG.
-    pub picture: String,
-    /// Files of the program that the path came from, with its targets moved.
-    pub program: Vec<(String, Vec<u8>)>,
-}
-
-/// Compensates every path of the study, or the one called `name`. A circle is closed: its first point is commanded
+/// Compensates every path and set of holes of the study, or the one called `name`. A circle is closed: its first point is commanded
 /// again at its end.
 ///
 /// # Errors
@@ -116,14 +70,15 @@ pub fn compensate<'a>(
     watch: Watch<'_>,
 ) -> Result<Vec<Commanded<'a>>, StudyError> {
     let runner = Runner::new(&study.robot.robot, watch)?;
-    let all: Vec<Commanded<'a>> = study
-        .paths(name)
-        .map(|(name, path)| of_path(&runner, name, path, compensation))
-        .collect::<Result<_, _>>()?;
+    let paths = study.paths(name);
+    let paths = paths.map(|(name, path)| of_path(&runner, name, path, compensation));
+    let holes = study.holes(name);
+    let holes = holes.map(|(name, holes)| of_holes(&runner, name, holes, compensation));
+    let all: Vec<Commanded<'a>> = paths.chain(holes).collect::<Result<_, _>>()?;
     if all.is_empty() {
         let message = match name {
-            Some(name) => format!("the study has no path called `{name}`"),
-            None => "the study has no path that could be compensated".to_owned(),
+            Some(name) => format!("the study has no path or holes called `{name}`"),
+            None => "the study has no path or holes that could be compensated".to_owned(),
         };
         return Err(StudyError::value(
             message,
@@ -140,7 +95,8 @@ pub fn point_count(study: &Study, name: Option<&str>) -> usize {
         let again = usize::from(path.source.robot().is_some());
         (passes(path) + 3 + again) * path.track.len()
     };
-    study.paths(name).map(of).sum()
+    let holes = study.holes(name).map(|(_, holes)| 4 * holes.path.track.len());
+    study.paths(name).map(of).chain(holes).sum()
 }
 
 fn of_path<'a>(
@@ -214,7 +170,8 @@ fn of_path<'a>(
         notes,
     };
     Ok(Commanded {
-        picture: picture(name, drawn, before, &found, in_place.as_ref()),
+        picture: Some(picture(name, drawn, before, &found, in_place.as_ref())),
+        holes: None,
         csv: csv::write(&table(name, &found.track)?),
         setting: &path.setting,
         path: (found.track, found.along.answers),
@@ -222,60 +179,6 @@ fn of_path<'a>(
         given,
         program: in_place.map_or_else(Vec::new, |written| written.files),
     })
-}
-
-/// The path as a table of points.
-fn table(name: &str, track: &Track) -> Result<Table, StudyError> {
-    let points = &track.path.points;
-    let column = |name: &str, unit: Option<&str>, (decimals, data): (u8, ColumnData)| Column {
-        name: name.to_owned(),
-        unit: unit.map(str::to_owned),
-        description: String::new(),
-        decimals: Some(decimals),
-        data,
-    };
-    let mut columns = Vec::new();
-    for (axis, letter) in ["x", "y", "z"].into_iter().enumerate() {
-        let values = points.iter().map(|point| to_mm(point.at[axis])).collect();
-        columns.push(column(
-            &format!("{letter}_mm"),
-            Some("mm"),
-            (6, ColumnData::Float(values)),
-        ));
-    }
-    for (axis, letter) in ["i", "j", "k"].into_iter().enumerate() {
-        let values = points
-            .iter()
-            .map(|point| track.placing.path_spindle(point)[axis])
-            .collect();
-        columns.push(column(letter, None, (9, ColumnData::Float(values))));
-    }
-    let spins = (0..points.len())
-        .map(|index| to_deg(spin(track, index)))
-        .collect();
-    columns.push(column("spin_deg", Some("deg"), (6, ColumnData::Float(spins))));
-    let feed = |pace: Pace| match pace {
-        Pace::Feed(speed) => Some(speed * 60e3),
-        Pace::Rapid | Pace::Unknown => None,
-    };
-    let feeds = points.iter().map(|point| feed(point.pace)).collect();
-    columns.push(column(
-        "feed_mm_per_min",
-        Some("mm/min"),
-        (3, ColumnData::OptionalFloat(feeds)),
-    ));
-    let rapid = |index: usize| i64::from(track.path.begins(index));
-    let rapids = (0..points.len()).map(rapid).collect();
-    columns.push(column("rapid", None, (0, ColumnData::Integer(rapids))));
-    Ok(Table::new(name, columns)?)
-}
-
-/// Spin of the tool about its axis at a point, relative to [`tool_orientation`], rad.
-fn spin(track: &Track, index: usize) -> f64 {
-    let stop = track.stop(index);
-    let unspun = tool_orientation(-stop.normal, 0.0);
-    let turn: UnitQuaternion<f64> = unspun.inverse() * stop.base_from_tool.rotation;
-    2.0 * turn.k.atan2(turn.w)
 }
 
 /// Points that the picture has at most.

@@ -12,6 +12,7 @@ use armill_formats::input::Inputs;
 use armill_formats::robot::RobotDescription;
 
 use super::memory;
+use crate::analysis::holes::HolesAnalysis;
 use crate::analysis::path::PathAnalysis;
 use crate::analysis::resolve::Resolver;
 use crate::analysis::table::AnalysisTable;
@@ -69,6 +70,18 @@ impl Study {
             .filter_map(move |analysis| match &analysis.subject {
                 Subject::Path(path) if name.is_none_or(|name| name == analysis.name) => {
                     Some((analysis.name.as_str(), &**path))
+                }
+                _ => None,
+            })
+    }
+
+    /// The sets of holes of the study with their names, or the one called `name`.
+    pub fn holes<'a>(&'a self, name: Option<&str>) -> impl Iterator<Item = (&'a str, &'a HolesAnalysis)> {
+        self.analyses
+            .iter()
+            .filter_map(move |analysis| match &analysis.subject {
+                Subject::Holes(holes) if name.is_none_or(|name| name == analysis.name) => {
+                    Some((analysis.name.as_str(), &**holes))
                 }
                 _ => None,
             })

@@ -116,7 +116,7 @@ impl Arm<'_> {
             .min_by(|a, b| away(&a.joints).total_cmp(&away(&b.joints)))
     }
 
-    fn is_within_limits(&self, joints: &[f64]) -> bool {
+    pub fn is_within_limits(&self, joints: &[f64]) -> bool {
         self.robot
             .limit_margin(joints)
             .is_none_or(|(_, margin)| margin >= 0.0)

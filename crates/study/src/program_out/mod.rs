@@ -10,16 +10,20 @@
 //! (frame `controller` of the robot file, else `base_link`).
 //!
 //! `settings`: how the program is to be; `arm`: poses and joint positions, and whether a straight move can be
-//! followed; `cut`: the points of a cut and their approximate positioning; `way`: from one cut to the next;
-//! `tooling`: tool, spindle and coolant; `maker`: whether the language is that of the robot.
+//! followed; `cut`: the points of a cut and their approximate positioning; `holes`: holes instead of a path, and `order`
+//! their order; `way`: from one cut to the next; `tooling`: tool, spindle and coolant; `maker`: whether the language is
+//! that of the robot.
 
 mod arm;
 mod cut;
+mod holes;
 mod maker;
+mod order;
 mod settings;
 mod tooling;
 mod way;
 
+pub use holes::{HolesToWrite, hole_program};
 pub use settings::ProgramSettings;
 
 use armill_core::kernel::Answers;
@@ -72,7 +76,8 @@ pub fn program(
         base_from_path: track.placing.base_from_path,
     };
     let mut tooling = Tooling::new(&study.controller, spindle, &requested.name);
-    let ways = Ways::new(arm, track, requested, &study.controller);
+    let places = track.path.points.iter().map(|point| point.at);
+    let ways = Ways::new(arm, &track.placing, places, requested, &study.controller);
     let cuts = Cuts {
         arm,
         track,
@@ -103,11 +108,23 @@ pub fn program(
             track.path.points[last.end - 1].line,
         )?);
     }
+    let notes = ways.notes().into_iter().chain(tooling.notes());
+    written(study, arm, requested, steps, notes)
+}
+
+/// The program with these steps; `notes` are reported before those of the language.
+fn written(
+    study: &Study,
+    arm: Arm<'_>,
+    requested: &ProgramSettings,
+    steps: Vec<DraftStep>,
+    notes: impl Iterator<Item = String>,
+) -> Result<Written, StudyError> {
     let draft = Draft {
         name: requested.name.clone(),
         remarks: remarks(study),
-        base_from_frame: base_from_controller(&study.robot.robot).inverse() * track.placing.base_from_path,
-        flange_from_tool: setting.flange_from_tool,
+        base_from_frame: base_from_controller(&study.robot.robot).inverse() * arm.base_from_path,
+        flange_from_tool: arm.setting.flange_from_tool,
         controller: settings::controller(&study.controller, requested),
         external_slides: arm.external_slides(),
         steps,
@@ -115,8 +132,7 @@ pub fn program(
     let mut written =
         write(requested.language, &draft).map_err(|error| StudyError::value(error.to_string(), HINT))?;
     let questions = maker::question(&study.robot, requested.language);
-    let notes = questions.into_iter().chain(ways.notes()).chain(tooling.notes());
-    written.notes.splice(0..0, notes);
+    written.notes.splice(0..0, questions.into_iter().chain(notes));
     Ok(written)
 }
 

@@ -9,7 +9,7 @@ use std::cell::Cell;
 
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::{Point3, Translation3, UnitQuaternion, Vector3};
-use armill_core::path::{Move, Rapids, Track};
+use armill_core::path::{Move, Placing, Rapids};
 use armill_core::units::{from_deg, from_mm, to_mm};
 use armill_formats::controller::ControllerTable;
 use armill_programs::DraftStep;
@@ -29,7 +29,7 @@ const BELOW: f64 = 1e-4;
 /// Ways between the cuts of a path.
 pub(super) struct Ways<'a> {
     arm: Arm<'a>,
-    track: &'a Track,
+    placing: &'a Placing,
     /// Away from the part, in the frame of the path.
     up: Vector3<f64>,
     /// Largest height of a cut, m.
@@ -61,14 +61,17 @@ struct Leg {
 }
 
 impl<'a> Ways<'a> {
+    /// Ways between cuts that start and end at these places (in the frame of the path, m), of a path with this placing.
     pub fn new(
         arm: Arm<'a>,
-        track: &'a Track,
+        placing: &'a Placing,
+        places: impl Iterator<Item = Point3<f64>> + Clone,
         requested: &ProgramSettings,
         controller: &ControllerTable,
     ) -> Ways<'a> {
-        let up = track.placing.axis.into_inner();
-        let heights = track.path.points.iter().map(|point| point.at.coords.dot(&up));
+        let up = placing.axis.into_inner();
+        let heights = places.clone().map(|place| place.coords.dot(&up));
+        let first = places.clone().next().unwrap_or_else(Point3::origin);
         let home = controller.home_deg.as_ref().map(|home| {
             let si = |(joint, value): (usize, &f64)| match arm.robot.slides(joint) {
                 true => from_mm(*value),
@@ -78,10 +81,10 @@ impl<'a> Ways<'a> {
         });
         Ways {
             arm,
-            track,
+            placing,
             up,
             top: heights.fold(f64::NEG_INFINITY, f64::max),
-            corners: track.path.corners(),
+            corners: places.fold([first, first], |[low, high], at| [low.inf(&at), high.sup(&at)]),
             retract: requested.retract,
             rapid: rapid_speed(controller),
             home,
@@ -122,6 +125,7 @@ impl<'a> Ways<'a> {
     ) -> Result<Vec<DraftStep>, StudyError> {
         let (to, line) = (&start.at, start.line);
         let moves = rapids.map_or(&[][..], |rapids| &rapids.moves);
+        let has_rapids = !moves.is_empty();
         // The last rapid ends where the cut begins.
         let moves = &moves[..moves.len().saturating_sub(1)];
         let Some(from) = from else {
@@ -135,7 +139,7 @@ impl<'a> Ways<'a> {
         let mut steps = change.at_cut;
         let poses = self.poses_between(from, to, moves);
         if !change.changes_tool
-            && let Some(way) = self.straight_through(from, start, &poses, &change.above)
+            && let Some(way) = self.straight_through(from, start, &poses, has_rapids, &change.above)
         {
             steps.extend(way);
             return Ok(steps);
@@ -246,12 +250,15 @@ impl<'a> Ways<'a> {
         from: &ArmAt,
         start: &CutStart,
         poses: &[Isometry],
+        has_rapids: bool,
         above: &[DraftStep],
     ) -> Option<Vec<DraftStep>> {
         let to = &start.at;
-        let last_speed = self.last_speed(start, poses);
+        let last_speed = if has_rapids { self.rapid } else { start.feed };
         let lifted;
         let poses = match poses {
+            // A single rapid leads from cut to cut.
+            [] if has_rapids && above.is_empty() => &[],
             [] => {
                 lifted = [self.lifted(from), self.lifted(to)];
                 &lifted[..]
@@ -432,7 +439,7 @@ impl<'a> Ways<'a> {
     }
 
     fn with_axis(&self, rotation: UnitQuaternion<f64>, next: &Move) -> UnitQuaternion<f64> {
-        let placing = &self.track.placing;
+        let placing = self.placing;
         match next.axis.filter(|_| !placing.keeps_axis) {
             Some(axis) => turned_to(rotation, &-(placing.base_from_path.rotation * axis.into_inner())),
             None => rotation,

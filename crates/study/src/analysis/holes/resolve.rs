@@ -24,8 +24,8 @@ use armill_formats::input;
 use armill_formats::toolpath::format::{self, Format, ToolpathReadOptions};
 
 use crate::StudyError;
-use crate::analysis::holes::HolesAnalysis;
 use crate::analysis::holes::table::HolesTable;
+use crate::analysis::holes::{Drilling, HolesAnalysis};
 use crate::analysis::path::program_file::FILE_HINT;
 use crate::analysis::path::program_table::{ProgramTable, SpinName};
 use crate::analysis::path::robot_program::RobotInCell;
@@ -98,6 +98,7 @@ impl Resolver<'_> {
         Ok(fine.then_some(HolesAnalysis {
             path: analysis,
             search,
+            drilling: Drilling::of(&of),
         }))
     }
 

@@ -25,4 +25,29 @@ pub struct HolesTable {
     pub part_from_holes_mm_deg: Option<[f64; 6]>,
     /// A drill: its thrust and torque are the load.
     pub drill: Option<DrillTable>,
+    /// Length of a hole from the surface to its end, for robot programs.
+    #[schemars(range(min = 0.0, max = 1e4))]
+    pub depth_mm: Option<f64>,
+    /// Depth of each peck in robot programs; one stroke if left out.
+    #[schemars(range(min = 0.01, max = 1e4))]
+    pub peck_mm: Option<f64>,
+    /// Distance from the surface at which the drilling feed begins and ends, for robot programs; 2 if left out.
+    #[schemars(range(min = 0.0, max = 1e4))]
+    pub clearance_mm: Option<f64>,
+    /// Dwell at the end of a hole in robot programs.
+    #[schemars(range(min = 0.0, max = 300.0))]
+    pub dwell_s: Option<f64>,
+    /// Order of the holes in robot programs: `shortest` (default) joint travel, or as `given`.
+    pub order: Option<HoleOrder>,
+}
+
+/// Order of the holes in a robot program.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum HoleOrder {
+    /// The order with the shortest joint travel that was found.
+    #[default]
+    Shortest,
+    /// That of the study or its files.
+    Given,
 }

@@ -1,0 +1,131 @@
+//! A commanded path or set of holes: its numbers and its table.
+
+use armill_core::frame::tool_orientation;
+use armill_core::kernel::Answers;
+use armill_core::nalgebra::UnitQuaternion;
+use armill_core::path::{Pace, Track};
+use armill_core::units::{to_deg, to_mm};
+use armill_formats::table::{Column, ColumnData, Table};
+use armill_study::analysis::holes::HolesAnalysis;
+use armill_study::error::StudyError;
+use armill_study::input::setting::Setting;
+use serde::Serialize;
+
+use super::error_answer::ErrorAnswer;
+use super::in_place::RewrittenProgramAnswer;
+
+/// One path, before and after.
+#[derive(Clone, Debug, Serialize)]
+pub struct CompensatedPath {
+    /// Its name.
+    pub name: String,
+    /// How many points.
+    pub points: usize,
+    /// Deviation of the tool from the nominal path without compensation.
+    pub before: ErrorAnswer,
+    /// And with it, as predicted.
+    pub after: ErrorAnswer,
+    /// Largest move of a point.
+    pub largest_correction_um: f64,
+    /// Rounds of the fixed point.
+    pub rounds: usize,
+    /// Largest move of a point in the last round.
+    pub last_round_um: f64,
+    /// What that was of the one before; none after one round.
+    pub contraction_ratio: Option<f64>,
+    /// Points without posture, which are not changed.
+    pub unreachable: usize,
+    /// Points outside joint limits after the correction.
+    pub outside_joint_limits: usize,
+    /// File of the commanded path.
+    pub file: String,
+    /// The program that the path is from, with changed targets; none for another path, or if `notes` give a reason.
+    pub in_place: Option<RewrittenProgramAnswer>,
+    /// What a user must know, each a sentence.
+    pub notes: Vec<String>,
+}
+
+/// Result for one path.
+#[derive(Clone, Debug)]
+pub struct Commanded<'a> {
+    /// Its analysis.
+    pub setting: &'a Setting,
+    /// The path to command, and its postures.
+    pub path: (Track, Answers),
+    /// Speed of the spindle if the path does not specify it, rad/s.
+    pub spindle: Option<f64>,
+    /// In numbers.
+    pub given: CompensatedPath,
+    /// The table, as CSV.
+    pub csv: Vec<u8>,
+    /// Before and after along the path, as SVG; none for holes.
+    pub picture: Option<String>,
+    /// The holes, if it is not a path.
+    pub holes: Option<&'a HolesAnalysis>,
+    /// Files of the program that the path came from, with its targets moved.
+    pub program: Vec<(String, Vec<u8>)>,
+}
+
+fn column(name: &str, unit: Option<&str>, (decimals, data): (u8, ColumnData)) -> Column {
+    Column {
+        name: name.to_owned(),
+        unit: unit.map(str::to_owned),
+        description: String::new(),
+        decimals: Some(decimals),
+        data,
+    }
+}
+
+/// Positions of the tip and directions of the tool.
+pub(super) fn position_columns(track: &Track) -> Vec<Column> {
+    let points = &track.path.points;
+    let mut columns = Vec::new();
+    for (axis, letter) in ["x", "y", "z"].into_iter().enumerate() {
+        let values = points.iter().map(|point| to_mm(point.at[axis])).collect();
+        columns.push(column(
+            &format!("{letter}_mm"),
+            Some("mm"),
+            (6, ColumnData::Float(values)),
+        ));
+    }
+    for (axis, letter) in ["i", "j", "k"].into_iter().enumerate() {
+        let values = points
+            .iter()
+            .map(|point| track.placing.path_spindle(point)[axis])
+            .collect();
+        columns.push(column(letter, None, (9, ColumnData::Float(values))));
+    }
+    columns
+}
+
+/// The path as a table of points.
+pub(super) fn table(name: &str, track: &Track) -> Result<Table, StudyError> {
+    let points = &track.path.points;
+    let mut columns = position_columns(track);
+    let spins = (0..points.len())
+        .map(|index| to_deg(spin(track, index)))
+        .collect();
+    columns.push(column("spin_deg", Some("deg"), (6, ColumnData::Float(spins))));
+    let feed = |pace: Pace| match pace {
+        Pace::Feed(speed) => Some(speed * 60e3),
+        Pace::Rapid | Pace::Unknown => None,
+    };
+    let feeds = points.iter().map(|point| feed(point.pace)).collect();
+    columns.push(column(
+        "feed_mm_per_min",
+        Some("mm/min"),
+        (3, ColumnData::OptionalFloat(feeds)),
+    ));
+    let rapid = |index: usize| i64::from(track.path.begins(index));
+    let rapids = (0..points.len()).map(rapid).collect();
+    columns.push(column("rapid", None, (0, ColumnData::Integer(rapids))));
+    Ok(Table::new(name, columns)?)
+}
+
+/// Spin of the tool about its axis at a point, relative to [`tool_orientation`], rad.
+fn spin(track: &Track, index: usize) -> f64 {
+    let stop = track.stop(index);
+    let unspun = tool_orientation(-stop.normal, 0.0);
+    let turn: UnitQuaternion<f64> = unspun.inverse() * stop.base_from_tool.rotation;
+    2.0 * turn.k.atan2(turn.w)
+}
