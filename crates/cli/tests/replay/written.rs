@@ -1,0 +1,135 @@
+//! The programs that `armill compensate` writes, run by the interpreters and compared with its table of points.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::checks::{Cut, CutPoint, Matches, clear, feeds, follows, no_stop_in_cut, within_limits};
+use crate::event::{Action, Event, Reference};
+use crate::pose::Pose;
+use crate::replay::{Language, run_folder};
+
+/// X, Y, Z in mm and A, B, C in deg of the plane of the study, which is the user frame of its programs.
+const FRAME: [f64; 6] = [1700.0, 200.0, 900.0, -90.0, 0.0, 0.0];
+const TOOL: [f64; 6] = [0.0, 90.0, 260.0, 0.0, 0.0, 0.0];
+
+/// Language, file of the program, and whether moves inside of the cut are blended.
+///
+/// A distance of 0.2 mm is less than the smallest zone of ABB, which is written as an exact stop.
+const PROGRAMS: [(Language, &str, bool); 6] = [
+    (Language::Krl, "krl/pocket.src", true),
+    (Language::Rapid, "rapid/pocket.mod", false),
+    (Language::Inform, "inform/pocket.jbi", true),
+    (Language::Tp, "tp/pocket.ls", true),
+    (Language::UrScript, "urscript/pocket.script", true),
+    (Language::Val3, "val3/pocket.pjx", true),
+];
+
+fn repository() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// Writes the program of the example study in this language; the folder that it is in.
+fn write(folder: &Path, program: &str) -> PathBuf {
+    let out = Command::new(env!("CARGO_BIN_EXE_armill"))
+        .current_dir(folder)
+        .arg("compensate")
+        .arg(repository().join("studies/r2000ic-pocket"))
+        .args(["--out", "out", "--program", program])
+        .output()
+        .unwrap();
+    assert!(out.status.success(), "{}", String::from_utf8_lossy(&out.stderr));
+    folder.join(program).parent().unwrap().to_owned()
+}
+
+/// Rows of the table of commanded points.
+fn commanded(table: &Path) -> Vec<CutPoint> {
+    let text = std::fs::read_to_string(table).unwrap();
+    let mut lines = text.lines();
+    let names: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let column = |name: &str| names.iter().position(|known| *known == name).unwrap();
+    let [x, y, z, i, j, k, feed, rapid] =
+        ["x_mm", "y_mm", "z_mm", "i", "j", "k", "feed_mm_per_min", "rapid"].map(column);
+    lines
+        .map(|line| {
+            let cells: Vec<&str> = line.split(',').collect();
+            let number = |column: usize| cells[column].parse::<f64>().unwrap();
+            CutPoint {
+                position_mm: [x, y, z].map(number),
+                axis: [i, j, k].map(number),
+                feed_mm_per_s: cells[feed].parse().ok().map(|feed: f64| feed / 60.0),
+                rapid: cells[rapid] == "1",
+            }
+        })
+        .collect()
+}
+
+/// Limits of the axes, deg, from the file of the robot.
+fn limits() -> Vec<(f64, f64)> {
+    let text = std::fs::read_to_string(repository().join("robots/fanuc/r2000ic.toml")).unwrap();
+    text.lines()
+        .filter_map(|line| {
+            line.strip_prefix("limits_deg = [")?
+                .strip_suffix(']')?
+                .split_once(',')
+        })
+        .map(|(from, to)| (from.trim().parse().unwrap(), to.trim().parse().unwrap()))
+        .collect()
+}
+
+/// That a frame is the one of the study, where the program gives it.
+#[track_caller]
+fn same_reference(found: &Reference, expected: [f64; 6]) {
+    if let Some(pose) = found.pose {
+        let expected = Pose::kuka(expected);
+        assert!(
+            pose.distance_mm(&expected) < 1e-3 && pose.angle_deg(&expected) < 1e-3,
+            "{found:?}"
+        );
+    }
+}
+
+/// All checks of one program; how many moves go to commanded points.
+fn check(language: Language, program: &str, blended: bool) -> usize {
+    let folder = tempfile::tempdir().unwrap();
+    let at = write(folder.path(), program);
+    let fail = |error: crate::source::ReplayError| -> ! { panic!("{language:?}: {error}") };
+    let events: Vec<Event> = run_folder(language, &at, "pocket").unwrap_or_else(|error| fail(error));
+    let cut = Cut {
+        points: commanded(&folder.path().join("out/pocket.commanded.csv")),
+        // Universal Robots has no user frames: its targets are in the base of the robot.
+        frame: (language == Language::UrScript).then(|| Pose::kuka(FRAME)),
+        clearance_mm: 10.0,
+        // 5 um between path and program, and what its numbers round.
+        chord_mm: 0.007,
+    };
+    let matches: Matches = follows(&events, &cut).unwrap_or_else(|error| fail(error));
+    clear(&events, &cut, &matches).unwrap_or_else(|error| fail(error));
+    let limits = limits();
+    assert_eq!(limits.len(), 6);
+    within_limits(&events, &limits).unwrap_or_else(|error| fail(error));
+    // FANUC has whole mm/s.
+    feeds(&events, &cut, &matches, 0.05).unwrap_or_else(|error| fail(error));
+    if blended {
+        no_stop_in_cut(&events, &cut, &matches).unwrap_or_else(|error| fail(error));
+    }
+    for event in &events {
+        if let Action::Linear(linear) = &event.action {
+            if cut.frame.is_none() {
+                same_reference(&linear.base, FRAME);
+            }
+            same_reference(&linear.tool, TOOL);
+        }
+    }
+    matches.iter().flatten().count()
+}
+
+#[test]
+fn the_programs_of_all_languages_follow_the_table() {
+    let counts: Vec<usize> = PROGRAMS
+        .iter()
+        .map(|(language, program, blended)| check(*language, program, *blended))
+        .collect();
+    // The same points in every language, and enough for a circle of 40 mm in chords of 5 um.
+    assert!(counts[0] > 1000, "{counts:?}");
+    assert!(counts.iter().all(|count| *count == counts[0]), "{counts:?}");
+}
