@@ -200,7 +200,9 @@ fn words(text: &str, place: &Place) -> Result<Vec<Word>, ReplayError> {
             let to = end(at, &|c| c.is_alphanumeric() || c == '_' || c == '$');
             found.push(Word::Name(letters[at..to].iter().collect()));
             at = to;
-        } else if letter.is_ascii_digit() || letter == '.' && is_digit(at + 1) && !after_value(found.last()) {
+        } else if letter.is_ascii_digit()
+            || letter == '.' && is_digit(at + 1) && !(at > 0 && ends_value(letters[at - 1]))
+        {
             let mut to = end(at, &|c| c.is_ascii_digit());
             if letters.get(to) == Some(&'.') {
                 to = end(to + 1, &|c| c.is_ascii_digit());
@@ -241,7 +243,7 @@ fn words(text: &str, place: &Place) -> Result<Vec<Word>, ReplayError> {
     Ok(found)
 }
 
-/// Whether a point after this word is that of a component: `a.1` is not `a` and `0.1`.
-fn after_value(word: Option<&Word>) -> bool {
-    matches!(word, Some(Word::Name(_) | Word::Symbol(']' | ')' | '}')))
+/// Whether a point directly after this letter is that of a component: `a.1` is not `a` and `0.1`.
+fn ends_value(letter: char) -> bool {
+    letter.is_alphanumeric() || "_$])}".contains(letter)
 }

@@ -3,10 +3,13 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::checks::{Cut, CutPoint, Matches, clear, feeds, follows, no_stop_in_cut, within_limits};
-use crate::event::{Action, Event, Reference};
+use crate::checks::{
+    ANGLE_DEG, Cut, CutPoint, Matches, POSITION_MM, clear, feeds, follows, no_stop_in_cut, within_limits,
+};
+use crate::event::{Action, Event, JointTarget, LinearMove, Reference};
+use crate::expect::same_within;
 use crate::pose::Pose;
-use crate::replay::{Language, run_folder};
+use crate::replay::{Language, run, run_folder};
 
 /// X, Y, Z in mm and A, B, C in deg of the plane of the study, which is the user frame of its programs.
 const FRAME: [f64; 6] = [1700.0, 200.0, 900.0, -90.0, 0.0, 0.0];
@@ -88,8 +91,8 @@ fn same_reference(found: &Reference, expected: [f64; 6]) {
     }
 }
 
-/// All checks of one program; how many moves go to commanded points.
-fn check(language: Language, program: &str, blended: bool) -> usize {
+/// All checks of one program; its events, and the frame of the part where targets are not given in it.
+fn check(language: Language, program: &str, blended: bool) -> (Vec<Event>, Option<Pose>) {
     let folder = tempfile::tempdir().unwrap();
     let at = write(folder.path(), program);
     let fail = |error: crate::source::ReplayError| -> ! { panic!("{language:?}: {error}") };
@@ -120,16 +123,78 @@ fn check(language: Language, program: &str, blended: bool) -> usize {
             same_reference(&linear.tool, TOOL);
         }
     }
-    matches.iter().flatten().count()
+    (events, cut.frame)
+}
+
+/// Poses of the lines, in the frame of the part.
+fn line_poses((events, frame): &(Vec<Event>, Option<Pose>)) -> Vec<Pose> {
+    let in_part = |linear: &LinearMove| match frame {
+        Some(frame) => frame.inverse().then(&linear.base.pose.unwrap()).then(&linear.to),
+        None => linear.to,
+    };
+    events
+        .iter()
+        .filter_map(|event| event.action.linear())
+        .map(in_part)
+        .collect()
+}
+
+/// Axes of the joint moves that give them, deg.
+fn axes((events, _): &(Vec<Event>, Option<Pose>)) -> Vec<Vec<f64>> {
+    let mut all = Vec::new();
+    for event in events {
+        if let Action::Joint(joint) = &event.action
+            && let JointTarget::Axes(axes) = &joint.to
+        {
+            all.push(axes.clone());
+        }
+    }
+    all
 }
 
 #[test]
-fn the_programs_of_all_languages_follow_the_table() {
-    let counts: Vec<usize> = PROGRAMS
-        .iter()
-        .map(|(language, program, blended)| check(*language, program, *blended))
+fn the_programs_of_all_languages_follow_the_table_and_each_other() {
+    let all = PROGRAMS.map(|(language, program, blended)| check(language, program, blended));
+    let expected = line_poses(&all[0]);
+    // Enough for a circle of 40 mm in chords of 5 um.
+    assert!(expected.len() > 1000);
+    for (events, (language, ..)) in all.iter().zip(PROGRAMS) {
+        let found = line_poses(events);
+        assert_eq!(found.len(), expected.len(), "{language:?}");
+        for (one, other) in found.iter().zip(&expected) {
+            // The spin about the axis of the tool too.
+            same_within(one, other, POSITION_MM, ANGLE_DEG);
+        }
+        // Yaskawa has no axes: pulses differ from robot to robot.
+        if language != Language::Inform {
+            for (one, other) in axes(events).iter().flatten().zip(axes(&all[0]).iter().flatten()) {
+                assert!((one - other).abs() < ANGLE_DEG, "{language:?}: {one} {other}");
+            }
+            assert_eq!(axes(events).len(), axes(&all[0]).len(), "{language:?}");
+        }
+    }
+}
+
+#[test]
+fn a_written_program_with_one_changed_number_is_reported() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = write(folder.path(), "pocket.src").join("pocket.src");
+    let text = std::fs::read_to_string(&at).unwrap();
+    let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+    let cuts: Vec<usize> = (0..lines.len())
+        .filter(|index| lines[*index].starts_with("LIN"))
         .collect();
-    // The same points in every language, and enough for a circle of 40 mm in chords of 5 um.
-    assert!(counts[0] > 1000, "{counts:?}");
-    assert!(counts.iter().all(|count| *count == counts[0]), "{counts:?}");
+    let changed = cuts[cuts.len() / 2];
+    lines[changed] = lines[changed]
+        .replacen("{X ", "{X 1", 1)
+        .replacen("{X 1-", "{X -1", 1);
+    let events = run(Language::Krl, &[("pocket.src", lines.join("\n"))], "pocket").unwrap();
+    let cut = Cut {
+        points: commanded(&folder.path().join("out/pocket.commanded.csv")),
+        frame: None,
+        clearance_mm: 10.0,
+        chord_mm: 0.007,
+    };
+    let found = follows(&events, &cut).unwrap_err();
+    assert_eq!(found.place.line, changed + 1, "{found}");
 }

@@ -61,7 +61,7 @@ impl Data {
                 let name = self.variable(&mut cursor, &module)?;
                 cursor.expect("=")?;
                 let value = self.value(&mut cursor, &module)?;
-                self.values.insert((module.clone(), name), value);
+                self.set(&cursor, &module, &name, value)?;
             }
             cursor.end()?;
         }
