@@ -9,7 +9,7 @@ use crate::source::ReplayError;
 
 /// A point of the program may differ from the commanded one by what a controller's numbers round, mm.
 pub const POSITION_MM: f64 = 0.002;
-/// The axis of the tool likewise, deg.
+/// Largest angle between the axis of the tool and the commanded one, deg.
 pub const ANGLE_DEG: f64 = 1e-3;
 /// A retract or approach is along the tool within this, mm.
 const LATERAL_MM: f64 = 0.01;
@@ -108,7 +108,7 @@ pub fn follows(events: &[Event], cut: &Cut) -> Result<Matches, ReplayError> {
         if let Some((before, from)) = last
             && cut.is_cut(before, index)
         {
-            for between in before + 1..index {
+            for (between, done) in covered.iter_mut().enumerate().take(index).skip(before + 1) {
                 let apart = to_segment(
                     cut.points[between].position_mm,
                     from.position_mm,
@@ -120,7 +120,7 @@ pub fn follows(events: &[Event], cut: &Cut) -> Result<Matches, ReplayError> {
                         apart * 1e3
                     )));
                 }
-                covered[between] = true;
+                *done = true;
             }
         }
         first = index;
@@ -276,6 +276,35 @@ pub fn feeds(events: &[Event], cut: &Cut, matches: &Matches, tolerance: f64) -> 
             return Err(event
                 .place
                 .error(format!("{speed} mm/s, commanded are {feed} mm/s")));
+        }
+    }
+    Ok(())
+}
+
+/// Blends of two targets in succession do not overlap: the controllers of Universal Robots refuse that.
+///
+/// Source: Universal Robots UR5 user manual, version 3.4.5, section 14.6, blend parameters.
+pub fn blends_apart(events: &[Event]) -> Result<(), ReplayError> {
+    let radius = |linear: &LinearMove| match linear.blend {
+        Blend::DistanceMm(radius) => radius,
+        _ => 0.0,
+    };
+    let mut last: Option<&LinearMove> = None;
+    for event in events {
+        match &event.action {
+            Action::Linear(linear) => {
+                if let Some(before) = last {
+                    let (sum, apart) = (radius(before) + radius(linear), before.to.distance_mm(&linear.to));
+                    if sum > apart {
+                        return Err(event.place.error(format!(
+                            "the blends of this target and the one before it overlap: {sum:.3} mm, {apart:.3} mm apart"
+                        )));
+                    }
+                }
+                last = Some(linear);
+            }
+            Action::Joint(_) | Action::Circular { .. } => last = None,
+            _ => {}
         }
     }
     Ok(())

@@ -130,6 +130,17 @@ impl Cursor {
         }
     }
 
+    /// Takes words up to this symbol, which stays.
+    pub fn skip_to(&mut self, symbol: char) -> Result<(), ReplayError> {
+        while !self.at_end() {
+            if self.words[self.at] == Word::Symbol(symbol) {
+                return Ok(());
+            }
+            self.at += 1;
+        }
+        Err(self.unexpected(&format!("`{symbol}`")))
+    }
+
     /// A number without fraction and sign.
     pub fn count(&mut self) -> Result<u32, ReplayError> {
         let number = self.number()?;

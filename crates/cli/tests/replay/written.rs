@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::checks::{
-    ANGLE_DEG, Cut, CutPoint, Matches, POSITION_MM, clear, feeds, follows, no_stop_in_cut, within_limits,
+    ANGLE_DEG, Cut, CutPoint, Matches, POSITION_MM, blends_apart, clear, feeds, follows, no_stop_in_cut,
+    within_limits,
 };
 use crate::event::{Action, Event, JointTarget, LinearMove, Reference};
 use crate::expect::same_within;
@@ -112,6 +113,9 @@ fn check(language: Language, program: &str, blended: bool) -> (Vec<Event>, Optio
     within_limits(&events, &limits).unwrap_or_else(|error| fail(error));
     // FANUC has whole mm/s.
     feeds(&events, &cut, &matches, 0.05).unwrap_or_else(|error| fail(error));
+    if language == Language::UrScript {
+        blends_apart(&events).unwrap_or_else(|error| fail(error));
+    }
     if blended {
         no_stop_in_cut(&events, &cut, &matches).unwrap_or_else(|error| fail(error));
     }

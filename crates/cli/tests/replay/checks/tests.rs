@@ -1,6 +1,6 @@
 //! Each check accepts a good program and reports what is wrong with a bad one, with its line.
 
-use super::{Cut, CutPoint, clear, feeds, follows, no_stop_in_cut, spindle_on, within_limits};
+use super::{Cut, CutPoint, blends_apart, clear, feeds, follows, no_stop_in_cut, spindle_on, within_limits};
 use crate::event::{Action, Event};
 use crate::replay::{Language, run};
 
@@ -180,4 +180,12 @@ fn rest_inside_of_a_cut_is_reported() {
 #[test]
 fn another_feed_is_reported() {
     complains("$VEL.CP=0.01", "$VEL.CP=0.011", "11 mm/s, commanded are 10 mm/s");
+}
+
+#[test]
+fn blends_that_overlap_are_reported() {
+    assert_eq!(blends_apart(&events(GOOD)), Ok(()));
+    let wide = GOOD.replace("$APO.CDIS=0.1", "$APO.CDIS=10.5");
+    let found = blends_apart(&events(&wide)).unwrap_err().to_string();
+    assert!(found.starts_with("groove.src:11: the blends"), "{found}");
 }

@@ -170,7 +170,8 @@ impl<'a> Krl<'a> {
             self.log.settle();
             self.log.stop(&place);
         } else if cursor.eat_name("WAIT") {
-            // Both stop the advance run, so that the last move is not approximated.
+            // Both stop the advance run, so that the last move is not approximated: industrialmonitordirect.com,
+            // knowledge base, "LIN movement stops between points" and "advance run pointer".
             if !advance {
                 self.log.settle();
             }

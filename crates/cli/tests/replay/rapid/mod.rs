@@ -23,6 +23,36 @@ use crate::value::{Value, truth_word};
 use crate::words::{Cursor, Word};
 
 const DEPTH: usize = 32;
+/// Words and beginnings of instructions that change the path, the speed or the order of statements: never a call of a
+/// routine of the controller.
+const NOT_INTERPRETED: [&str; 26] = [
+    "MOVE",
+    "TRIGG",
+    "SEARCH",
+    "PDISP",
+    "EOFFS",
+    "PATH",
+    "STOREPATH",
+    "RESTOPATH",
+    "SOFTACT",
+    "CORR",
+    "INDA",
+    "INDR",
+    "INDC",
+    "VELSET",
+    "WORLDACC",
+    "GOTO",
+    "IF",
+    "FOR",
+    "WHILE",
+    "TEST",
+    "RAISE",
+    "RETRY",
+    "EXIT",
+    "CONNECT",
+    "TPREAD",
+    "STOPMOVE",
+];
 
 struct Routine {
     module: String,
@@ -105,6 +135,10 @@ fn statements(file: &SourceFile) -> Result<Vec<(Place, String)>, ReplayError> {
             .to_uppercase();
         let header = matches!(word.as_str(), "MODULE" | "ENDMODULE" | "PROC" | "ENDPROC")
             || word == "LOCAL" && second == "PROC";
+        // Their lines do not end with a semicolon.
+        if matches!(word.as_str(), "IF" | "FOR" | "WHILE" | "TEST") {
+            return Err(begun.error(format!("the instruction `{word}` is not interpreted")));
+        }
         if trimmed.is_empty() {
             open = None;
         } else if header || trimmed.starts_with('!') {
@@ -218,7 +252,7 @@ impl Rapid {
                 self.log.push(&place, action);
             }
             // How postures are supervised, how fast speeds change: nothing of the path.
-            "CONFJ" | "CONFL" | "SINGAREA" | "ACCSET" | "VELSET" | "MOTIONSUP" | "TPERASE" => {
+            "CONFJ" | "CONFL" | "SINGAREA" | "ACCSET" | "MOTIONSUP" | "TPERASE" => {
                 while !cursor.sees(";") {
                     if cursor.at_end() {
                         return Err(cursor.unexpected("`;`"));
@@ -287,6 +321,16 @@ impl Rapid {
                 };
                 self.log.message(&place, text);
             }
+            // Waits until the operator confirms.
+            "UIMSGBOX" => {
+                let Value::Text(text) = self.data.value(cursor, module)? else {
+                    return Err(cursor.error("UIMsgBox needs a string"));
+                };
+                self.rest(cursor);
+                self.log.settle();
+                self.log.note(text);
+                self.log.stop(&place);
+            }
             _ => return self.call(cursor, &name, depth),
         }
         Ok(())
@@ -305,6 +349,15 @@ impl Rapid {
 
     fn call(&mut self, cursor: &mut Cursor, name: &str, depth: usize) -> Result<(), ReplayError> {
         let place = cursor.place().clone();
+        let capitals = name.to_uppercase();
+        let is_own = self.routines.contains_key(&capitals);
+        if !is_own
+            && NOT_INTERPRETED
+                .iter()
+                .any(|beginning| capitals.starts_with(beginning))
+        {
+            return Err(cursor.error(format!("the instruction `{name}` is not interpreted")));
+        }
         if cursor.sees(":=") || cursor.sees("(") {
             return Err(cursor.error(format!("unknown statement `{name}`")));
         }

@@ -151,7 +151,7 @@ fn outputs_waits_stops_and_messages_are_events() {
         "",
         &format!(
             "! comment; with semicolon\nSetDO doSpindle,1;\nMoveL {at},v10,z1,tool0;\nSetDO doAir,high;\n\
-             WaitTime 0.5;\nTPWrite \"load tool 2\"; ! by hand\nStop;\nReset doAir;\nPulseAll 1,2;"
+             WaitTime 0.5;\nTPWrite \"load tool 2\"; ! by hand\nStop;\nReset doAir;\nPulseAll 1,2;\nUIMsgBox \"start\" \\Buttons:=btnOK;"
         ),
     );
     let output = |name: &str, value: &str, moving: bool| Action::Output {
@@ -184,6 +184,8 @@ fn outputs_waits_stops_and_messages_are_events() {
     );
     assert_eq!(all[8], output("doAir", "FALSE", false));
     assert!(matches!(&all[9], Action::Call { name, .. } if name == "PulseAll"));
+    let message = Some("start".to_owned());
+    assert_eq!(all[10..], [Action::Stop { message }]);
 }
 
 #[test]
@@ -198,6 +200,21 @@ fn procedures_of_other_modules_run_with_their_own_data() {
 fn what_is_not_known_is_refused_with_its_place() {
     let at = target(1.0);
     refused("", "IF TRUE THEN\nENDIF", "m.mod:");
+    refused(
+        "",
+        "IF TRUE THEN\nWaitTime 1;\nENDIF",
+        "m.mod:4: the instruction `IF` is not interpreted",
+    );
+    refused(
+        "",
+        "VelSet 50,800;",
+        "m.mod:4: the instruction `VelSet` is not interpreted",
+    );
+    refused(
+        "",
+        "MoveExtJ j,v10,fine;",
+        "m.mod:4: the instruction `MoveExtJ` is not interpreted",
+    );
     refused("", "x:=1;", "m.mod:4: unknown statement `x`");
     refused("CONST num x:=1;", "x:=2;", "m.mod:4: `X` is a constant");
     refused(

@@ -206,7 +206,8 @@ impl Tp {
                 self.log.output(&place, format!("{word}[{number}]"), value);
             }
             "WAIT" => {
-                // The robot comes to rest in the last target, also after CNT.
+                // While it waits no motion instruction runs (FANUC instruction manual, edition of Lincoln Electric,
+                // section 26): the robot comes to rest in the last target, also after CNT [recalled].
                 self.log.settle();
                 if matches!(cursor.peek(), Some(Word::Number(_))) || cursor.sees_name("R") {
                     let s = self.value(cursor)?;
@@ -387,9 +388,7 @@ fn index(cursor: &mut Cursor) -> Result<u32, ReplayError> {
     cursor.expect("[")?;
     let number = cursor.count()?;
     if cursor.eat(":") {
-        while !cursor.sees("]") {
-            cursor.name()?;
-        }
+        cursor.skip_to(']')?;
     }
     cursor.expect("]")?;
     Ok(number)

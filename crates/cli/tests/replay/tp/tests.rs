@@ -119,7 +119,7 @@ fn instructions_are_events_in_their_order() {
     let text = program(
         &[
             "  !load tool",
-            "  DO[5:spindle]=ON",
+            "  DO[5:spindle 1 on]=ON",
             "L P[1] 5mm/sec CNT100",
             "  DO[6]=OFF",
             "  WAIT   1.50(sec)",

@@ -1,7 +1,8 @@
 //! Universal Robots URScript: functions of statements, one a line.
 //!
 //! Sources: URScript manual (SW 5 and 10), modules motion, interfaces, urmath and internals: joint positions and poses
-//! are lists of six numbers, rad and m; defaults of movej and movel [recalled except the units].
+//! are lists of six numbers, rad and m; defaults of movej and movel [recalled except the units]. UR3 CB3 user manual,
+//! section 14.6: a statement after a blended target runs when the arm enters the blend.
 //!
 //! Not interpreted: branches, loops, threads, functions with parameters.
 
