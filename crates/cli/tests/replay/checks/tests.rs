@@ -187,5 +187,5 @@ fn blends_that_overlap_are_reported() {
     assert_eq!(blends_apart(&events(GOOD)), Ok(()));
     let wide = GOOD.replace("$APO.CDIS=0.1", "$APO.CDIS=10.5");
     let found = blends_apart(&events(&wide)).unwrap_err().to_string();
-    assert!(found.starts_with("groove.src:11: the blends"), "{found}");
+    assert!(found.starts_with("groove.src:10: the blends"), "{found}");
 }
