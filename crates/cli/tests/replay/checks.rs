@@ -83,7 +83,7 @@ pub fn follows(events: &[Event], cut: &Cut) -> Result<Matches, ReplayError> {
             .of_linear(linear)
             .ok_or_else(|| event.place.error("the base of the move is not known"))?;
         let near = |point: &CutPoint| distance(point.position_mm, pose.position_mm) <= POSITION_MM;
-        let Some(index) = (first..cut.points.len()).find(|index| near(&cut.points[*index])) else {
+        let Some(mut index) = (first..cut.points.len()).find(|index| near(&cut.points[*index])) else {
             if pose.position_mm[2] < cut.clearance_mm {
                 let nearest = cut.points[first.min(cut.points.len())..]
                     .iter()
@@ -98,6 +98,15 @@ pub fn follows(events: &[Event], cut: &Cut) -> Result<Matches, ReplayError> {
             last = None;
             continue;
         };
+        // A cut that begins where the last one ended begins with the rapid move there.
+        while last.is_none()
+            && cut
+                .points
+                .get(index + 1)
+                .is_some_and(|next| next.rapid && near(next))
+        {
+            index += 1;
+        }
         let off = angle_deg(pose.z_axis().map(|part| -part), cut.points[index].axis);
         if off > ANGLE_DEG {
             return Err(event
@@ -263,15 +272,15 @@ pub fn no_stop_in_cut(events: &[Event], cut: &Cut, matches: &Matches) -> Result<
     Ok(())
 }
 
-/// The tool moves with the commanded feed, within a relative tolerance.
-pub fn feeds(events: &[Event], cut: &Cut, matches: &Matches, tolerance: f64) -> Result<(), ReplayError> {
+/// The tool moves with the commanded feed, within what the numbers of the language round, mm/s.
+pub fn feeds(events: &[Event], cut: &Cut, matches: &Matches, rounding: f64) -> Result<(), ReplayError> {
     for (event, matched) in events.iter().zip(matches) {
         let (Some(linear), Some(index)) = (event.action.linear(), *matched) else {
             continue;
         };
         let point = &cut.points[index];
         if let (Some(feed), Speed::MmPerS(speed), false) = (point.feed_mm_per_s, linear.speed, point.rapid)
-            && (speed - feed).abs() > tolerance * feed
+            && (speed - feed).abs() > rounding
         {
             return Err(event
                 .place

@@ -108,8 +108,8 @@ pub enum Posture {
     StatusTurn { status: Option<u32>, turn: Option<u32> },
     /// ABB: cf1, cf4, cf6, cfx.
     Quadrants([f64; 4]),
-    /// Yaskawa: RCONF.
-    Flags(Vec<u32>),
+    /// Yaskawa: RCONF; 0 and 1 by the manual, also turns (-1) in programs of other software.
+    Flags(Vec<i32>),
     /// FANUC: the letters, then the turns.
     Config { letters: String, turns: [i32; 3] },
     /// Staubli: shoulder, elbow, wrist.

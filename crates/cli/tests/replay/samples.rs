@@ -210,7 +210,7 @@ fn rapid_runs_with_frames_that_it_sets_itself() {
         return;
     };
     let all = actions(Language::Rapid, &[("ABB_RAPID_IRC5.mod", &text)], "Prog1");
-    assert_eq!((joints(&all).len(), linears(&all).len()), (2, 10));
+    assert_eq!((joints(&all).len(), linears(&all).len()), (2, 9));
     let calls = all
         .iter()
         .filter(|action| matches!(action, Action::Call { name, .. } if name.starts_with("ArcL")));

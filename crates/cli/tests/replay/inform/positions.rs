@@ -16,7 +16,7 @@ pub struct Section {
     user: Option<u32>,
     kind: String,
     cartesian: bool,
-    flags: Vec<u32>,
+    flags: Vec<i32>,
 }
 
 #[derive(Clone, Debug)]
@@ -41,7 +41,7 @@ pub struct Position {
     pub base: Reference,
     pub tool: Reference,
     /// RCONF.
-    pub flags: Vec<u32>,
+    pub flags: Vec<i32>,
 }
 
 #[derive(Debug, Default)]
@@ -69,7 +69,11 @@ impl Section {
             },
             "PULSE" => self.cartesian = false,
             "RECTAN" => self.cartesian = true,
-            "RCONF" => self.flags = rest.split(',').map(whole).collect::<Result<_, _>>()?,
+            "RCONF" => {
+                let flag = |text: &str| text.trim().parse::<i32>();
+                let flags: Result<_, _> = rest.split(',').map(flag).collect();
+                self.flags = flags.map_err(|_| place.error(format!("`{rest}` are not whole numbers")))?;
+            }
             _ => return Err(place.error(format!("unknown header `///{header}`"))),
         }
         Ok(())
