@@ -22,6 +22,15 @@ pub fn refusal(language: Language, files: &[(&str, &str)], main: &str) -> String
     }
 }
 
+/// An output that changes.
+pub fn output(name: &str, value: &str, moving: bool) -> Action {
+    Action::Output {
+        name: name.to_owned(),
+        value: value.to_owned(),
+        moving,
+    }
+}
+
 pub fn linears(actions: &[Action]) -> Vec<&LinearMove> {
     actions.iter().filter_map(Action::linear).collect()
 }

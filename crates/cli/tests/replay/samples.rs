@@ -155,7 +155,10 @@ fn val3_and_krl_agree_with_points_by_hand() {
         .enumerate()
         .map(|(key, linear)| {
             let [x, y, z] = linear.to.position_mm;
-            format!("<Value key=\"{key}\" x=\"{x}\" y=\"{y}\" z=\"{z}\" rx=\"150\" ry=\"0\" rz=\"180\" fatherId=\"fFrame[0]\"/>")
+            format!(
+                "<Value key=\"{key}\" x=\"{x}\" y=\"{y}\" z=\"{z}\" rx=\"150\" ry=\"0\" rz=\"180\" \
+             fatherId=\"fFrame[0]\"/>"
+            )
         })
         .collect();
     let array = |name: &str, kind: &str, values: &str| {
@@ -167,13 +170,15 @@ fn val3_and_krl_agree_with_points_by_hand() {
         array(
             "fFrame",
             "frame",
-            "<Value key=\"0\" x=\"807.767\" y=\"-963.7\" z=\"41.479\" rx=\"0\" ry=\"0\" rz=\"0\" fatherId=\"world[0]\"/>"
+            "<Value key=\"0\" x=\"807.767\" y=\"-963.7\" z=\"41.479\" rx=\"0\" ry=\"0\" rz=\"0\" \
+             fatherId=\"world[0]\"/>"
         ),
-        // Rz(-60) Ry(90) is Ry(90) Rx(60), which is Rx(0) Ry(90) Rz(0) after Rx(60): (0, 90, -60) by sin and cos.
+        // Rz(-60) Ry(90) of KUKA is Rx(90) Ry(30) Rz(-90).
         array(
             "tTool",
             "tool",
-            "<Value key=\"0\" x=\"62.5\" y=\"-108.253\" z=\"100\" rx=\"-60\" ry=\"90\" rz=\"0\" fatherId=\"flange[0]\"/>"
+            "<Value key=\"0\" x=\"62.5\" y=\"-108.253\" z=\"100\" rx=\"90\" ry=\"30\" rz=\"-90\" \
+             fatherId=\"flange[0]\"/>"
         ),
         array(
             "jJoint",
@@ -195,7 +200,7 @@ fn val3_and_krl_agree_with_points_by_hand() {
         &[("start.pgx", program.as_str()), ("p.dtx", &data)],
         "start",
     );
-    same_lines(&val3, &krl, false);
+    same_lines(&val3, &krl, true);
     assert_eq!(
         val3.iter()
             .filter(|action| matches!(action, Action::Dwell { s } if *s == 1.0))

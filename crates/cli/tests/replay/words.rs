@@ -12,6 +12,19 @@ pub enum Word {
     Symbol(char),
 }
 
+/// The statement of a line, and the comment that begins with a mark outside of quotes.
+pub fn split_comment<'a>(line: &'a str, mark: &str) -> (&'a str, Option<&'a str>) {
+    let mut quoted = false;
+    for (at, letter) in line.char_indices() {
+        if letter == '"' {
+            quoted = !quoted;
+        } else if !quoted && line[at..].starts_with(mark) {
+            return (line[..at].trim(), Some(line[at + mark.len()..].trim()));
+        }
+    }
+    (line.trim(), None)
+}
+
 /// The words of one statement, from left to right.
 #[derive(Debug)]
 pub struct Cursor {

@@ -1,7 +1,7 @@
 //! INFORM jobs by hand: headers of positions, external axes, levels, calls, refusals.
 
 use crate::event::{Action, Blend, JointTarget, Posture, Speed};
-use crate::expect::{actions, joints, linears, refusal, same};
+use crate::expect::{actions, joints, linears, output, refusal, same};
 use crate::pose::Pose;
 use crate::replay::Language::Inform;
 
@@ -71,22 +71,18 @@ fn instructions_are_events_in_their_order() {
     let text = job(
         (2, 0),
         USER,
-        "'load tool 3\nDOUT OT#(12) ON\nTIMER T=2.50\nSET B001 5\nMSG \"load tool 3\"\nPAUSE\nCALL JOB:SUB-1\nCALL JOB:OTHER\nMOVL C00000 V=5 PL=2\nDOUT OT#(12) OFF\nWAIT IN#(3)=ON",
+        "'load tool 3\nDOUT OT#(12) ON\nTIMER T=2.50\nSET B001 5\nMSG \"load tool 3\"\nPAUSE\nCALL JOB:SUB-1\n\
+         CALL JOB:OTHER\nMOVL C00000 V=5 PL=2\nDOUT OT#(12) OFF\nWAIT IN#(3)=ON",
     );
     let sub = job((0, 0), "", "TIMER T=1").replace("//NAME P", "//NAME SUB-1");
     let all = actions(Inform, &[("p.jbi", text.as_str()), ("s.jbi", &sub)], "P");
-    let output = |value: &str, moving: bool| Action::Output {
-        name: "OT#(12)".to_owned(),
-        value: value.to_owned(),
-        moving,
-    };
     assert_eq!(
         all[0],
         Action::Comment {
             text: "load tool 3".to_owned()
         }
     );
-    assert_eq!(all[1], output("TRUE", false));
+    assert_eq!(all[1], output("OT#(12)", "TRUE", false));
     assert_eq!(all[2], Action::Dwell { s: 2.5 });
     assert_eq!(
         all[4],
@@ -96,7 +92,7 @@ fn instructions_are_events_in_their_order() {
     );
     assert_eq!(all[5], Action::Dwell { s: 1.0 });
     assert!(matches!(&all[6], Action::Call { name, .. } if name == "OTHER"));
-    assert_eq!(all[8], output("FALSE", true));
+    assert_eq!(all[8], output("OT#(12)", "FALSE", true));
     assert!(matches!(&all[9], Action::Wait { condition } if condition == "IN#(3)=ON"));
 }
 

@@ -8,7 +8,7 @@ use super::motion::{Record, frame, record_of};
 use crate::pose::Pose;
 use crate::source::{ReplayError, SourceFile};
 use crate::value::{Value, expression};
-use crate::words::{Cursor, Word};
+use crate::words::{Cursor, Word, split_comment};
 
 /// Types that a declaration may begin with.
 const TYPES: [&str; 11] = [
@@ -24,19 +24,6 @@ pub struct Data {
     signals: BTreeMap<String, String>,
 }
 
-/// The statement of a line, and its comment.
-pub fn split_comment(line: &str) -> (&str, Option<&str>) {
-    let mut quoted = false;
-    for (at, letter) in line.char_indices() {
-        match letter {
-            '"' => quoted = !quoted,
-            ';' if !quoted => return (line[..at].trim(), Some(line[at + 1..].trim())),
-            _ => {}
-        }
-    }
-    (line.trim(), None)
-}
-
 /// Whether a declaration begins here.
 pub fn is_declaration(cursor: &Cursor) -> bool {
     TYPES.iter().any(|word| cursor.sees_name(word))
@@ -47,7 +34,7 @@ impl Data {
     pub fn load(&mut self, file: &SourceFile) -> Result<(), ReplayError> {
         let module = file.stem().to_uppercase();
         for (place, line) in file.lines() {
-            let (code, _) = split_comment(line);
+            let (code, _) = split_comment(line, ";");
             let mut cursor = Cursor::new(code, &place)?;
             if code.is_empty() || code.starts_with('&') || cursor.eat_name("ENDDAT") {
                 continue;

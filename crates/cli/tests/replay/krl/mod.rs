@@ -13,14 +13,14 @@ mod tests;
 
 use std::collections::BTreeMap;
 
-use self::data::{Data, is_declaration, split_comment};
+use self::data::{Data, is_declaration};
 use self::motion::{Motion, frame};
 use crate::event::{Action, Reference};
 use crate::log::Log;
 use crate::pose::Pose;
 use crate::source::{Place, ReplayError, SourceFile};
 use crate::value::Value;
-use crate::words::{Cursor, Word};
+use crate::words::{Cursor, Word, split_comment};
 
 /// System variables that a program may set without a move, an output or a frame.
 const SYSTEM: [&str; 18] = [
@@ -86,7 +86,7 @@ impl<'a> Krl<'a> {
     fn load_source(&mut self, file: &'a SourceFile) -> Result<(), ReplayError> {
         let mut open: Option<(String, Routine<'a>)> = None;
         for (place, line) in file.lines() {
-            let (code, _) = split_comment(line);
+            let (code, _) = split_comment(line, ";");
             let head = code.to_uppercase();
             let head = head.strip_prefix("GLOBAL ").unwrap_or(&head);
             // Lines of the file header: `&ACCESS RVP`.
@@ -137,7 +137,7 @@ impl<'a> Krl<'a> {
                 .error(format!("more than {DEPTH} calls inside each other")));
         }
         for (place, line) in lines {
-            let (code, comment) = split_comment(line);
+            let (code, comment) = split_comment(line, ";");
             if !code.is_empty() {
                 let mut cursor = Cursor::new(code, &place)?;
                 if cursor.eat_name("RETURN") {

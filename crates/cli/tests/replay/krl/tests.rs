@@ -1,7 +1,7 @@
 //! KRL programs by hand: what stays between moves, frames, approximation, calls, data lists, refusals.
 
 use crate::event::{Action, Blend, JointTarget, Posture, Speed};
-use crate::expect::{actions, joints, linears, refusal, same};
+use crate::expect::{actions, joints, linears, output, refusal, same};
 use crate::pose::Pose;
 use crate::replay::Language::Krl;
 
@@ -147,7 +147,8 @@ fn frames_are_numbered_and_composed() {
     let files = [
         (
             "p.src",
-            "DEF p()\nBAS(#BASE,2)\nBAS(#TOOL,4)\nLIN {X 1,Y 0,Z 0,A 0,B 0,C 0}\n$BASE=BASE_DATA[2]:{X 10,Y 0,Z 0,A 0,B 0,C 0}\nLIN {X 2,Y 0,Z 0,A 0,B 0,C 0}\nEND\n",
+            "DEF p()\nBAS(#BASE,2)\nBAS(#TOOL,4)\nLIN {X 1,Y 0,Z 0,A 0,B 0,C 0}\n\
+             $BASE=BASE_DATA[2]:{X 10,Y 0,Z 0,A 0,B 0,C 0}\nLIN {X 2,Y 0,Z 0,A 0,B 0,C 0}\nEND\n",
         ),
         (
             "p.dat",
@@ -220,19 +221,14 @@ fn outputs_have_the_name_of_their_signal_and_arcs_their_middle() {
     let source = "DEF p()\n$BASE=$NULLFRAME\n$TOOL=$NULLFRAME\nspindle=TRUE ; on\n$ANOUT[1]=0.5\n\
         LIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nCIRC {X 2,Y 3},{X 3,Y 2}\nLIN_REL {Z -4}\nEND\n";
     let all = actions(Krl, &[("p.src", source), ("p.dat", data)], "p");
-    let output = |name: &str, value: &str| Action::Output {
-        name: name.to_owned(),
-        value: value.to_owned(),
-        moving: false,
-    };
-    assert_eq!(all[..1], [output("$OUT[7]", "TRUE")]);
+    assert_eq!(all[..1], [output("$OUT[7]", "TRUE", false)]);
     assert_eq!(
         all[1],
         Action::Comment {
             text: "on".to_owned()
         }
     );
-    assert_eq!(all[2], output("$ANOUT[1]", "0.5"));
+    assert_eq!(all[2], output("$ANOUT[1]", "0.5", false));
     let Action::Circular { via, end } = &all[4] else {
         panic!("{all:?}")
     };

@@ -5,13 +5,13 @@
 
 use crate::value::Value;
 
-/// Speeds that exist without declaration, mm/s.
-const SPEEDS: [u32; 24] = [
+/// Speeds that exist without declaration, mm/s; vmax is that of the robot.
+const SPEEDS: [u32; 25] = [
     5, 10, 20, 30, 40, 50, 60, 80, 100, 150, 200, 300, 400, 500, 600, 800, 1000, 1500, 2000, 2500, 3000,
-    4000, 5000, 6000,
+    4000, 5000, 6000, 7000,
 ];
 /// Zones that exist without declaration, mm; z0 is 0.3 mm.
-const ZONES: [u32; 15] = [0, 1, 5, 10, 15, 20, 30, 40, 50, 60, 80, 100, 150, 200, 250];
+const ZONES: [u32; 14] = [0, 1, 5, 10, 15, 20, 30, 40, 50, 60, 80, 100, 150, 200];
 const Z0_MM: f64 = 0.3;
 
 /// Components by type: name and type of each.
@@ -98,11 +98,11 @@ pub fn predefined(name: &str) -> Option<(&'static str, Value)> {
     if name == "FINE" {
         return Some(("zonedata", zone(true, 0.0)));
     }
-    if let Some(distance) = number('Z').filter(|distance| ZONES[..14].contains(distance)) {
+    if let Some(distance) = number('Z').filter(|distance| ZONES.contains(distance)) {
         let distance = if distance == 0 { Z0_MM } else { f64::from(distance) };
         return Some(("zonedata", zone(false, distance)));
     }
-    if let Some(speed) = number('V').filter(|speed| SPEEDS.contains(speed) || *speed == 7000) {
+    if let Some(speed) = number('V').filter(|speed| SPEEDS.contains(speed)) {
         return Some(("speeddata", list(&[f64::from(speed), 500.0, 5000.0, 1000.0])));
     }
     match name {

@@ -1,7 +1,7 @@
 //! RAPID programs by hand: data, zones, work objects, procedures of several modules, refusals.
 
 use crate::event::{Action, Blend, JointTarget, Posture, Speed};
-use crate::expect::{actions, joints, linears, refusal, same};
+use crate::expect::{actions, joints, linears, output, refusal, same};
 use crate::pose::Pose;
 use crate::replay::Language::Rapid;
 
@@ -121,7 +121,8 @@ fn targets_are_declared_indexed_and_moved() {
     let data = format!("CONST robtarget pts{{2}}:=[{},{}];", target(1.0), target(7.0));
     let all = run(
         &data,
-        "MoveJ pts{2},v200,z50,tool0;\nMoveL Offs(pts{1},0,10,-5),v10,fine,tool0;\nMoveL RelTool(pts{1},0,0,4),v10,fine,tool0;",
+        "MoveJ pts{2},v200,z50,tool0;\nMoveL Offs(pts{1},0,10,-5),v10,fine,tool0;\n\
+         MoveL RelTool(pts{1},0,0,4),v10,fine,tool0;",
     );
     let JointTarget::Pose { pose, posture } = &joints(&all)[0].to else {
         panic!("{all:?}")
@@ -151,14 +152,10 @@ fn outputs_waits_stops_and_messages_are_events() {
         "",
         &format!(
             "! comment; with semicolon\nSetDO doSpindle,1;\nMoveL {at},v10,z1,tool0;\nSetDO doAir,high;\n\
-             WaitTime 0.5;\nTPWrite \"load tool 2\"; ! by hand\nStop;\nReset doAir;\nPulseAll 1,2;\nUIMsgBox \"start\" \\Buttons:=btnOK;"
+             WaitTime 0.5;\nTPWrite \"load tool 2\"; ! by hand\nStop;\nReset doAir;\nPulseAll 1,2;\n\
+              UIMsgBox \"start\" \\Buttons:=btnOK;"
         ),
     );
-    let output = |name: &str, value: &str, moving: bool| Action::Output {
-        name: name.to_owned(),
-        value: value.to_owned(),
-        moving,
-    };
     assert_eq!(
         all[0],
         Action::Comment {
@@ -191,7 +188,8 @@ fn outputs_waits_stops_and_messages_are_events() {
 #[test]
 fn procedures_of_other_modules_run_with_their_own_data() {
     let main = "MODULE a\nLOCAL CONST num s:=1;\nPROC main()\nWaitTime s;\npart;\nENDPROC\nENDMODULE\n";
-    let part = "MODULE b\nLOCAL CONST num s:=2;\nPROC part()\nVAR num t:=3;\nWaitTime s+t;\nRETURN;\nWaitTime 9;\nENDPROC\nENDMODULE\n";
+    let part = "MODULE b\nLOCAL CONST num s:=2;\nPROC part()\nVAR num t:=3;\nWaitTime s+t;\nRETURN;\n\
+     WaitTime 9;\nENDPROC\nENDMODULE\n";
     let all = actions(Rapid, &[("a.mod", main), ("b.mod", part)], "main");
     assert_eq!(all, [Action::Dwell { s: 1.0 }, Action::Dwell { s: 5.0 }]);
 }

@@ -1,7 +1,7 @@
 //! TP programs by hand: frames by registers, groups, offsets, terminations, refusals.
 
 use crate::event::{Action, Blend, JointTarget, Posture, Speed};
-use crate::expect::{actions, joints, linears, refusal, same};
+use crate::expect::{actions, joints, linears, output, refusal, same};
 use crate::pose::Pose;
 use crate::replay::Language::Tp;
 
@@ -136,11 +136,6 @@ fn instructions_are_events_in_their_order() {
     );
     let sub = program(&["  WAIT .50(sec)"], "").replace("/PROG  P", "/PROG  SUB");
     let all = actions(Tp, &[("p.ls", text.as_str()), ("sub.ls", &sub)], "p");
-    let output = |name: &str, value: &str, moving: bool| Action::Output {
-        name: name.to_owned(),
-        value: value.to_owned(),
-        moving,
-    };
     assert_eq!(
         all[0],
         Action::Comment {

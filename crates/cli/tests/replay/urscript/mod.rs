@@ -18,7 +18,7 @@ use crate::log::Log;
 use crate::pose::Pose;
 use crate::source::{Place, ReplayError, SourceFile};
 use crate::value::{Value, expression};
-use crate::words::{Cursor, Word};
+use crate::words::{Cursor, Word, split_comment};
 
 const DEPTH: usize = 32;
 /// Statements that set something of no meaning for the path.
@@ -76,26 +76,13 @@ pub fn run(files: &[SourceFile], main: &str, log: Log) -> Result<Log, ReplayErro
     Ok(script.log)
 }
 
-/// The statement of a line, and its comment.
-fn split_comment(line: &str) -> (&str, Option<&str>) {
-    let mut quoted = false;
-    for (at, letter) in line.char_indices() {
-        match letter {
-            '"' => quoted = !quoted,
-            '#' if !quoted => return (line[..at].trim(), Some(line[at + 1..].trim())),
-            _ => {}
-        }
-    }
-    (line.trim(), None)
-}
-
 impl<'a> Script<'a> {
     /// Takes the functions of a file; gives the lines outside of them.
     fn load(&mut self, file: &'a SourceFile) -> Result<Vec<(Place, &'a str)>, ReplayError> {
         let mut top = Vec::new();
         let mut open: Option<(String, Vec<(Place, &'a str)>)> = None;
         for (place, line) in file.lines() {
-            let (code, _) = split_comment(line);
+            let (code, _) = split_comment(line, "#");
             if let Some(head) = code.strip_prefix("def ") {
                 let name = head
                     .strip_suffix(':')
@@ -135,7 +122,7 @@ impl<'a> Script<'a> {
         if self.halted {
             return Ok(());
         }
-        let (code, comment) = split_comment(line);
+        let (code, comment) = split_comment(line, "#");
         if !code.is_empty() {
             let mut cursor = Cursor::new(code, place)?;
             self.statement(&mut cursor, depth)?;

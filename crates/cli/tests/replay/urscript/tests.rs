@@ -1,7 +1,7 @@
 //! URScript programs by hand: frames by `pose_trans`, defaults, blends, outputs, refusals.
 
 use crate::event::{Action, Blend, JointTarget, Posture, Speed};
-use crate::expect::{actions, joints, linears, refusal, same, same_within};
+use crate::expect::{actions, joints, linears, output, refusal, same, same_within};
 use crate::pose::Pose;
 use crate::replay::Language::UrScript;
 
@@ -27,7 +27,8 @@ fn refused(text: &str, message: &str) {
 #[test]
 fn moves_have_names_positions_and_defaults_of_arguments() {
     let all = lines(
-        "  movej([0, -1.570796, 1.570796, 0, 0.5, d2r(90)], a=1.4, v=0.5)\n  movel(p[0.5, 0, 0.2, 0, 3.141593, 0], 1.2, 0.03, 0, 0.0002)\n\
+        "  movej([0, -1.570796, 1.570796, 0, 0.5, d2r(90)], a=1.4, v=0.5)\n\
+           movel(p[0.5, 0, 0.2, 0, 3.141593, 0], 1.2, 0.03, 0, 0.0002)\n\
          movel(p[0.5, 0, 0.3, 0, 3.141593, 0])\n  movel(p[0.5, 0, 0.3, 0, 3.141593, 0], t=2, r=0)",
     );
     let JointTarget::Axes(axes) = &joints(&all)[0].to else {
@@ -90,8 +91,10 @@ fn targets_are_composed_with_frames() {
 #[test]
 fn statements_are_events_in_their_order() {
     let text = "def sub():\n  sleep(1.5)\nend\ndef p():\n  # comment\n  set_payload(2.5, [0, 0, 0.1])\n  sub()\n\
-        set_standard_digital_out(3, True)\n  popup(\"info\", \"t\")\n  popup(\"load tool 2\", title=\"tool\", blocking=True)\n\
-        spindle_on(1)\n  movel(p[0, 0, 0, 0, 0, 0], r=0.001)\n  set_digital_out(0, False)\n  halt\n  sleep(9)\nend\np()\n";
+        set_standard_digital_out(3, True)\n  popup(\"info\", \"t\")\n\
+           popup(\"load tool 2\", title=\"tool\", blocking=True)\n\
+        spindle_on(1)\n  movel(p[0, 0, 0, 0, 0, 0], r=0.001)\n  set_digital_out(0, False)\n  halt\n  sleep(9)\n\
+         end\np()\n";
     let all = actions(UrScript, &[("p.script", text)], "p");
     assert_eq!(
         all[0],
@@ -100,11 +103,6 @@ fn statements_are_events_in_their_order() {
         }
     );
     assert_eq!(all[1], Action::Dwell { s: 1.5 });
-    let output = |name: &str, value: &str, moving: bool| Action::Output {
-        name: name.to_owned(),
-        value: value.to_owned(),
-        moving,
-    };
     assert_eq!(all[2], output("standard_digital_out[3]", "TRUE", false));
     assert_eq!(
         all[5],

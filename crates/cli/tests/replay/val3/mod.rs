@@ -20,7 +20,7 @@ use crate::log::Log;
 use crate::pose::Pose;
 use crate::source::{Place, ReplayError, SourceFile};
 use crate::value::truth_word;
-use crate::words::{Cursor, Word};
+use crate::words::{Cursor, Word, split_comment};
 
 const DEPTH: usize = 32;
 /// From here a limit of the speed is none, mm/s.
@@ -126,28 +126,13 @@ fn code(file: &SourceFile, program: &roxmltree::Node<'_, '_>) -> Result<Vec<(Pla
     Ok(lines)
 }
 
-/// The statement of a line, and its comment.
-fn split_comment(line: &str) -> (&str, Option<&str>) {
-    let mut quoted = false;
-    for (at, letter) in line.char_indices() {
-        match letter {
-            '"' => quoted = !quoted,
-            '/' if !quoted && line[at + 1..].starts_with('/') => {
-                return (line[..at].trim(), Some(line[at + 2..].trim()));
-            }
-            _ => {}
-        }
-    }
-    (line.trim(), None)
-}
-
 impl Val3 {
     fn program(&mut self, name: &str, depth: usize) -> Result<(), ReplayError> {
         for (place, line) in self.programs[name].clone() {
             if depth > DEPTH {
                 return Err(place.error(format!("more than {DEPTH} calls inside each other")));
             }
-            let (code, comment) = split_comment(&line);
+            let (code, comment) = split_comment(&line, "//");
             if !code.is_empty() {
                 let mut cursor = Cursor::new(code, &place)?;
                 if cursor.eat_name("return") {

@@ -8,35 +8,37 @@ use crate::replay::Language::Val3;
 const DATA: &str = r#"<?xml version="1.0" encoding="utf-8" ?>
 <Database xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" xmlns="http://www.staubli.com/robotics/VAL3/Data/2">
   <Datas>
-    <Data name="fFrame" access="private" xsi:type="array" type="frame" size="3">
+    <Data name="fFrame" xsi:type="array" type="frame" size="3">
       <Value key="1" x="100" y="0" z="0" rx="0" ry="0" rz="90" fatherId="world[0]" />
       <Value key="2" x="10" y="0" z="0" rx="0" ry="0" rz="0" fatherId="fFrame[1]" />
     </Data>
-    <Data name="tTool" access="private" xsi:type="array" type="tool" size="1">
+    <Data name="tTool" xsi:type="array" type="tool" size="1">
       <Value key="0" x="0" y="0" z="150" rx="0" ry="0" rz="0" fatherId="flange[0]" />
     </Data>
-    <Data name="jHome" access="private" xsi:type="array" type="jointRx" size="1">
+    <Data name="jHome" xsi:type="array" type="jointRx" size="1">
       <Value key="0" j1="1" j2="-2" j3="3" j4="0" j5="5" j6="6" />
     </Data>
-    <Data name="pPoint" access="private" xsi:type="array" type="pointRx" size="3">
-      <Value key="0" x="1" y="2" z="3" rx="180" ry="0" rz="90" shoulder="lefty" elbow="epositive" wrist="wpositive" fatherId="fFrame[2]" />
+    <Data name="pPoint" xsi:type="array" type="pointRx" size="3">
+      <Value key="0" x="1" y="2" z="3" rx="180" ry="0" rz="90" shoulder="lefty" fatherId="fFrame[2]" />
       <Value key="1" x="4" y="5" z="6" rx="10" ry="20" rz="30" fatherId="world[0]" />
     </Data>
-    <Data name="mSpeed" access="private" xsi:type="array" type="mdesc" size="3">
-      <Value key="0" accel="100" vel="10" decel="100" tmax="99999" rmax="99999" blend="off" leave="0" reach="0" />
-      <Value key="1" accel="100" vel="100" decel="100" tmax="30" rmax="99999" blend="cartesian" leave="0.2" reach="0.3" />
-      <Value key="2" accel="100" vel="100" decel="100" tmax="30" rmax="99999" blend="wide" leave="0.2" reach="0.3" />
+    <Data name="mSpeed" xsi:type="array" type="mdesc" size="3">
+      <Value key="0" vel="10" tmax="99999" rmax="99999" blend="off" leave="0" reach="0" />
+      <Value key="1" vel="100" tmax="30" rmax="99999" blend="cartesian" leave="0.2" reach="0.3" />
+      <Value key="2" vel="100" tmax="30" rmax="99999" blend="wide" leave="0.2" reach="0.3" />
     </Data>
-    <Data name="doSpindle" access="private" xsi:type="array" type="dio" size="1" />
-    <Data name="nTraj" access="private" xsi:type="array" type="num" size="1" />
+    <Data name="doSpindle" xsi:type="array" type="dio" size="1" />
+    <Data name="nTraj" xsi:type="array" type="num" size="1" />
   </Datas>
 </Database>
 "#;
 
 fn program(name: &str, statements: &str) -> String {
     format!(
-        "\u{feff}<?xml version=\"1.0\" encoding=\"utf-8\" ?>\n<Programs xmlns=\"http://www.staubli.com/robotics/VAL3/Program/2\">\n\
-         <Program name=\"{name}\" access=\"public\">\n<Code><![CDATA[begin\n{statements}\nend]]></Code>\n</Program>\n</Programs>\n"
+        "\u{feff}<?xml version=\"1.0\" encoding=\"utf-8\" ?>\n\
+         <Programs xmlns=\"http://www.staubli.com/robotics/VAL3/Program/2\">\n\
+         <Program name=\"{name}\" access=\"public\">\n\
+         <Code><![CDATA[begin\n{statements}\nend]]></Code>\n</Program>\n</Programs>\n"
     )
 }
 
@@ -62,7 +64,8 @@ fn refused(statements: &str, message: &str) {
 #[test]
 fn frames_and_tools_are_relative_to_their_fathers() {
     let all = run(
-        "  nTraj=movej(jHome,tTool,mSpeed)\n  movel(pPoint[0],tTool[0],mSpeed[1])\n  movej(pPoint[1],tTool[0],mSpeed[0])",
+        "  nTraj=movej(jHome,tTool,mSpeed)\n  movel(pPoint[0],tTool[0],mSpeed[1])\n\
+           movej(pPoint[1],tTool[0],mSpeed[0])",
     );
     let [home, point] = joints(&all)[..] else {
         panic!("{all:?}")
@@ -128,7 +131,8 @@ fn programs_in_the_files_run_and_others_are_calls() {
             "start.pgx",
             &program(
                 "start",
-                "  // comment\n  call sub()\n  call lib:tool(3)\n  popUpMsg(\"load tool 2\")\n  wait(diStart)\n  movel(appro(pPoint[1],{0,0,-10,0,0,0}),tTool,mSpeed)",
+                "  // comment\n  call sub()\n  call lib:tool(3)\n  popUpMsg(\"load tool 2\")\n  wait(diStart)\n\
+                   movel(appro(pPoint[1],{0,0,-10,0,0,0}),tTool,mSpeed)",
             ),
         ),
         ("sub.pgx", &program("sub", "  delay(1.5)\n  return\n  delay(9)")),
