@@ -1,0 +1,296 @@
+//! The programs that `armill compensate` writes, run by the interpreters and compared with its table of points: of an
+//! example study, and of tool paths of other software, in six languages each.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::checks::{
+    ANGLE_DEG, Cut, CutPoint, Matches, POSITION_MM, blends_apart, clear, feeds, follows, no_stop_in_cut,
+    within_limits,
+};
+use crate::event::{Action, Event, JointTarget, LinearMove, Reference};
+use crate::expect::same_within;
+use crate::pose::Pose;
+use crate::replay::{Language, run, run_folder};
+use crate::source::ReplayError;
+
+/// Frame of the example study.
+const FRAME: [f64; 6] = [1700.0, 200.0, 900.0, -90.0, 0.0, 0.0];
+const TOOL: [f64; 6] = [0.0, 90.0, 260.0, 0.0, 0.0, 0.0];
+
+/// Language, file of the program, and whether moves inside of the cut are blended.
+///
+/// A distance of 0.2 mm is less than the smallest zone of ABB, which is written as an exact stop.
+const PROGRAMS: [(Language, &str, bool); 6] = [
+    (Language::Krl, "krl/pocket.src", true),
+    (Language::Rapid, "rapid/pocket.mod", false),
+    (Language::Inform, "inform/pocket.jbi", true),
+    (Language::Tp, "tp/pocket.ls", true),
+    (Language::UrScript, "urscript/pocket.script", true),
+    (Language::Val3, "val3/pocket.pjx", true),
+];
+
+fn repository() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// A study with one path, and where its part and tool are.
+struct Case {
+    study: PathBuf,
+    /// For messages.
+    name: String,
+    /// Name of the path.
+    path: &'static str,
+    /// X, Y, Z in mm and A, B, C in deg of the plane of the study, which is the user frame of its programs.
+    frame: [f64; 6],
+    /// Height above which the tool moves freely, mm.
+    clearance_mm: f64,
+}
+
+impl Case {
+    fn example() -> Case {
+        Case {
+            study: repository().join("studies/r2000ic-pocket"),
+            name: "r2000ic-pocket".to_owned(),
+            path: "pocket",
+            frame: FRAME,
+            clearance_mm: 10.0,
+        }
+    }
+
+    /// What the program has to cut.
+    fn cut(&self, folder: &Path, language: Language) -> Cut {
+        Cut {
+            points: commanded(&folder.join(format!("out/{}.commanded.csv", self.path))),
+            // Universal Robots has no user frames: its targets are in the base of the robot.
+            frame: (language == Language::UrScript).then(|| Pose::kuka(self.frame)),
+            clearance_mm: self.clearance_mm,
+            // 5 um between path and program, and what its numbers round.
+            chord_mm: 0.007,
+        }
+    }
+}
+
+/// Writes the program of a study in this language; the folder that it is in.
+fn write(case: &Case, folder: &Path, program: &str) -> PathBuf {
+    let out = Command::new(env!("CARGO_BIN_EXE_armill"))
+        .current_dir(folder)
+        .arg("compensate")
+        .arg(&case.study)
+        .args(["--out", "out", "--feed-mm-per-min", "1000", "--program", program])
+        .output()
+        .unwrap();
+    assert!(out.status.success(), "{}", String::from_utf8_lossy(&out.stderr));
+    folder.join(program).parent().unwrap().to_owned()
+}
+
+/// Rows of the table of commanded points.
+fn commanded(table: &Path) -> Vec<CutPoint> {
+    let text = std::fs::read_to_string(table).unwrap();
+    let mut lines = text.lines();
+    let names: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let column = |name: &str| names.iter().position(|known| *known == name).unwrap();
+    let [x, y, z, i, j, k, feed, rapid] =
+        ["x_mm", "y_mm", "z_mm", "i", "j", "k", "feed_mm_per_min", "rapid"].map(column);
+    lines
+        .map(|line| {
+            let cells: Vec<&str> = line.split(',').collect();
+            let number = |column: usize| cells[column].parse::<f64>().unwrap();
+            CutPoint {
+                position_mm: [x, y, z].map(number),
+                axis: [i, j, k].map(number),
+                feed_mm_per_s: cells[feed].parse().ok().map(|feed: f64| feed / 60.0),
+                rapid: cells[rapid] == "1",
+            }
+        })
+        .collect()
+}
+
+/// Limits of the axes, deg, from the file of the robot.
+fn limits() -> Vec<(f64, f64)> {
+    let text = std::fs::read_to_string(repository().join("robots/fanuc/r2000ic.toml")).unwrap();
+    text.lines()
+        .filter_map(|line| {
+            line.strip_prefix("limits_deg = [")?
+                .strip_suffix(']')?
+                .split_once(',')
+        })
+        .map(|(from, to)| (from.trim().parse().unwrap(), to.trim().parse().unwrap()))
+        .collect()
+}
+
+/// That a frame is the one of the study, where the program gives it.
+#[track_caller]
+fn same_reference(found: &Reference, expected: [f64; 6]) {
+    if let Some(pose) = found.pose {
+        let expected = Pose::kuka(expected);
+        assert!(
+            pose.distance_mm(&expected) < 1e-3 && pose.angle_deg(&expected) < 1e-3,
+            "{found:?}"
+        );
+    }
+}
+
+/// What a language rounds of a feed, mm/s.
+fn feed_rounding(language: Language) -> f64 {
+    match language {
+        // Whole mm/sec or cm/min.
+        Language::Tp => 0.51,
+        // One decimal.
+        Language::Inform => 0.051,
+        _ => 1e-3,
+    }
+}
+
+/// All checks of one program; its events, and the frame of the part where targets are not given in it.
+fn check(case: &Case, language: Language, program: &str, blended: bool) -> (Vec<Event>, Option<Pose>) {
+    let folder = tempfile::tempdir().unwrap();
+    let at = write(case, folder.path(), program);
+    let fail = |error: ReplayError| -> ! { panic!("{}, {language:?}: {error}", case.name) };
+    let events: Vec<Event> = run_folder(language, &at, "pocket").unwrap_or_else(|error| fail(error));
+    let cut = case.cut(folder.path(), language);
+    let matches: Matches = follows(&events, &cut).unwrap_or_else(|error| fail(error));
+    clear(&events, &cut, &matches).unwrap_or_else(|error| fail(error));
+    let limits = limits();
+    assert_eq!(limits.len(), 6);
+    within_limits(&events, &limits).unwrap_or_else(|error| fail(error));
+    feeds(&events, &cut, &matches, feed_rounding(language)).unwrap_or_else(|error| fail(error));
+    if language == Language::UrScript {
+        blends_apart(&events).unwrap_or_else(|error| fail(error));
+    }
+    if blended {
+        no_stop_in_cut(&events, &cut, &matches).unwrap_or_else(|error| fail(error));
+    }
+    for event in &events {
+        if let Action::Linear(linear) = &event.action {
+            if cut.frame.is_none() {
+                same_reference(&linear.base, case.frame);
+            }
+            same_reference(&linear.tool, TOOL);
+        }
+    }
+    (events, cut.frame)
+}
+
+/// Poses of the lines, in the frame of the part.
+fn line_poses((events, frame): &(Vec<Event>, Option<Pose>)) -> Vec<Pose> {
+    let in_part = |linear: &LinearMove| match frame {
+        Some(frame) => frame.inverse().then(&linear.base.pose.unwrap()).then(&linear.to),
+        None => linear.to,
+    };
+    events
+        .iter()
+        .filter_map(|event| event.action.linear())
+        .map(in_part)
+        .collect()
+}
+
+/// Axes of the joint moves that give them, deg.
+fn axes((events, _): &(Vec<Event>, Option<Pose>)) -> Vec<Vec<f64>> {
+    let mut all = Vec::new();
+    for event in events {
+        if let Action::Joint(joint) = &event.action
+            && let JointTarget::Axes(axes) = &joint.to
+        {
+            all.push(axes.clone());
+        }
+    }
+    all
+}
+
+/// The programs of a study in all languages; the poses of their lines are the same. How many lines they have.
+fn check_all(case: &Case) -> usize {
+    let all = PROGRAMS.map(|(language, program, blended)| check(case, language, program, blended));
+    let expected = line_poses(&all[0]);
+    for (events, (language, ..)) in all.iter().zip(PROGRAMS) {
+        let found = line_poses(events);
+        assert_eq!(found.len(), expected.len(), "{language:?}");
+        for (one, other) in found.iter().zip(&expected) {
+            // The spin about the axis of the tool too.
+            same_within(one, other, POSITION_MM, ANGLE_DEG);
+        }
+        // Yaskawa has no axes: pulses differ from robot to robot.
+        if language != Language::Inform {
+            for (one, other) in axes(events).iter().flatten().zip(axes(&all[0]).iter().flatten()) {
+                assert!((one - other).abs() < ANGLE_DEG, "{language:?}: {one} {other}");
+            }
+            assert_eq!(axes(events).len(), axes(&all[0]).len(), "{language:?}");
+        }
+    }
+    expected.len()
+}
+
+#[test]
+fn the_programs_of_all_languages_follow_the_table_and_each_other() {
+    // Enough lines for a circle of 40 mm in chords of 5 um.
+    assert!(check_all(&Case::example()) > 1000);
+}
+
+/// Tool paths of other software, and the height above which the tool moves freely, mm.
+///
+/// The first has cuts from the side, with retracts below the top: its heights are not checked.
+const TOOL_PATHS: [(&str, f64); 12] = [
+    ("apt/parts-2021/Teste-Metrologia.apt", -1000.0),
+    ("apt/parts-2021/basemach.apt", 5.0),
+    ("apt/parts-2022/SupPetriLED.apt", 5.0),
+    ("apt/parts-2023/Teflon-gasket.apt", 5.0),
+    ("apt/parts-2024/Suporte-parede-side-drill.apt", 5.0),
+    ("apt/parts-2024/manufacture3-top.apt", 5.0),
+    ("apt/parts-2025/RotateThick.apt", 5.0),
+    ("apt/parts-2025/SlewMachine.apt", 5.0),
+    ("apt/parts-2025/Telemecanique-Tilt-Support1.apt", 5.0),
+    ("gcode/linuxcnc/nc_files/3D_Chips.ngc", 5.0),
+    ("gcode/linuxcnc/nc_files/arcspiral.ngc", 5.0),
+    ("gcode/linuxcnc/nc_files/cds.ngc", 5.0),
+];
+
+#[test]
+fn programs_of_real_tool_paths_follow_their_tables() {
+    let Some(samples) = std::env::var_os("ARMILL_SAMPLES") else {
+        println!("skipped: ARMILL_SAMPLES is not set");
+        return;
+    };
+    for (file, clearance_mm) in TOOL_PATHS {
+        let file = Path::new(&samples).join("toolpaths").join(file);
+        let folder = tempfile::tempdir().unwrap();
+        let study = folder.path().join("study.toml");
+        let text = format!(
+            "format = 1\nrobot = \"fanuc/r2000ic\"\ntolerance_um = 100\n\
+             tool = {{ flange_from_tool_mm_deg = [0, 90, 260, 0, 0, 0] }}\n\
+             plane = {{ centre_mm = [1500, 0, 700], tilt_deg = 90, half_size_mm = 100, step_mm = 50 }}\n\
+             [load]\nframe = \"feed\"\ncases_n = [[-60, 40, 25]]\n\
+             [[analysis]]\nkind = \"path\"\nname = \"pocket\"\n\
+             program = {{ file = {:?}, limits = false }}\n",
+            file.display().to_string()
+        );
+        std::fs::write(&study, text).unwrap();
+        let case = Case {
+            study,
+            name: file.display().to_string(),
+            path: "pocket",
+            frame: [1500.0, 0.0, 700.0, -90.0, 0.0, 0.0],
+            clearance_mm,
+        };
+        // The shortest drills three holes in steps.
+        assert!(check_all(&case) > 50, "{}", file.display());
+    }
+}
+
+#[test]
+fn a_written_program_with_one_changed_number_is_reported() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = write(&Case::example(), folder.path(), "pocket.src").join("pocket.src");
+    let text = std::fs::read_to_string(&at).unwrap();
+    let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+    let cuts: Vec<usize> = (0..lines.len())
+        .filter(|index| lines[*index].starts_with("LIN"))
+        .collect();
+    let changed = cuts[cuts.len() / 2];
+    lines[changed] = lines[changed]
+        .replacen("{X ", "{X 1", 1)
+        .replacen("{X 1-", "{X -1", 1);
+    let events = run(Language::Krl, &[("pocket.src", lines.join("\n"))], "pocket").unwrap();
+    let cut = Case::example().cut(folder.path(), Language::Krl);
+    let found = follows(&events, &cut).unwrap_err();
+    assert_eq!(found.place.line, changed + 1, "{found}");
+}
