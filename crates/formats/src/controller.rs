@@ -33,6 +33,7 @@ pub struct ControllerTable {
     pub joint_acceleration_percent: Option<f64>,
     /// Acceleration of linear moves; that of the controller if left out.
     #[schemars(range(min = 0.001, max = 100.0))]
+    // unit: m/s^2
     pub acceleration_m_per_s2: Option<f64>,
     /// Speed of linear moves that do not cut; 100 if left out.
     #[schemars(range(min = 0.1, max = 5000.0))]
