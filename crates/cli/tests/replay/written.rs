@@ -6,7 +6,7 @@ use std::process::Command;
 
 use crate::checks::{
     ANGLE_DEG, Cut, CutPoint, Matches, POSITION_MM, blends_apart, clear, feeds, follows, no_stop_in_cut,
-    within_limits,
+    spindle_on, within_limits,
 };
 use crate::event::{Action, Event, JointTarget, LinearMove, Reference};
 use crate::expect::same_within;
@@ -18,17 +18,34 @@ use crate::source::ReplayError;
 const FRAME: [f64; 6] = [1700.0, 200.0, 900.0, -90.0, 0.0, 0.0];
 const TOOL: [f64; 6] = [0.0, 90.0, 260.0, 0.0, 0.0, 0.0];
 
-/// Language, file of the program, and whether moves inside of the cut are blended.
-///
-/// A distance of 0.2 mm is less than the smallest zone of ABB, which is written as an exact stop.
-const PROGRAMS: [(Language, &str, bool); 6] = [
-    (Language::Krl, "krl/pocket.src", true),
-    (Language::Rapid, "rapid/pocket.mod", false),
-    (Language::Inform, "inform/pocket.jbi", true),
-    (Language::Tp, "tp/pocket.ls", true),
-    (Language::UrScript, "urscript/pocket.script", true),
-    (Language::Val3, "val3/pocket.pjx", true),
+/// Language, file of the program, and statements of the cell that switch the spindle on and off.
+const PROGRAMS: [(Language, &str, [&str; 2]); 6] = [
+    (Language::Krl, "krl/pocket.src", ["$OUT[5]=TRUE", "$OUT[5]=FALSE"]),
+    (
+        Language::Rapid,
+        "rapid/pocket.mod",
+        ["SetDO do_spindle,1;", "SetDO do_spindle,0;"],
+    ),
+    (
+        Language::Inform,
+        "inform/pocket.jbi",
+        ["DOUT OT#(5) ON", "DOUT OT#(5) OFF"],
+    ),
+    (Language::Tp, "tp/pocket.ls", ["DO[5]=ON", "DO[5]=OFF"]),
+    (
+        Language::UrScript,
+        "urscript/pocket.script",
+        ["set_digital_out(5,True)", "set_digital_out(5,False)"],
+    ),
+    (
+        Language::Val3,
+        "val3/pocket.pjx",
+        ["doSpindle=true", "doSpindle=false"],
+    ),
 ];
+
+/// Home position of the robot, deg: the tool points down above the part.
+const HOME: [f64; 6] = [0.0, 0.0, 0.0, 0.0, -90.0, 0.0];
 
 fn repository() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
@@ -36,7 +53,10 @@ fn repository() -> PathBuf {
 
 /// A study with one path, and where its part and tool are.
 struct Case {
-    study: PathBuf,
+    /// Text of the study.
+    study: String,
+    /// Folder that the study refers to.
+    folder: PathBuf,
     /// For messages.
     name: String,
     /// Name of the path.
@@ -45,17 +65,36 @@ struct Case {
     frame: [f64; 6],
     /// Height above which the tool moves freely, mm.
     clearance_mm: f64,
+    /// Changes of the tool, at each of which the program stops.
+    tool_changes: usize,
 }
 
 impl Case {
     fn example() -> Case {
+        let folder = repository().join("studies/r2000ic-pocket");
         Case {
-            study: repository().join("studies/r2000ic-pocket"),
+            study: std::fs::read_to_string(folder.join("study.toml")).unwrap(),
+            folder,
             name: "r2000ic-pocket".to_owned(),
             path: "pocket",
             frame: FRAME,
-            clearance_mm: 10.0,
+            clearance_mm: 1.9,
+            tool_changes: 0,
         }
+    }
+
+    /// The study in `folder`, with its cell.
+    fn put(&self, folder: &Path, [on, off]: [&str; 2]) -> PathBuf {
+        let at = folder.join("study");
+        std::fs::create_dir(&at).unwrap();
+        for file in std::fs::read_dir(&self.folder).unwrap() {
+            let file = file.unwrap();
+            std::fs::copy(file.path(), at.join(file.file_name())).unwrap();
+        }
+        let cell =
+            format!("\n[controller]\nhome_deg = {HOME:?}\nspindle_on = [{on:?}]\nspindle_off = [{off:?}]\n");
+        std::fs::write(at.join("study.toml"), format!("{}{cell}", self.study)).unwrap();
+        at
     }
 
     /// What the program has to cut.
@@ -72,11 +111,11 @@ impl Case {
 }
 
 /// Writes the program of a study in this language; the folder that it is in.
-fn write(case: &Case, folder: &Path, program: &str) -> PathBuf {
+fn write(study: &Path, folder: &Path, program: &str) -> PathBuf {
     let out = Command::new(env!("CARGO_BIN_EXE_armill"))
         .current_dir(folder)
         .arg("compensate")
-        .arg(&case.study)
+        .arg(study)
         .args(["--out", "out", "--feed-mm-per-min", "1000", "--program", program])
         .output()
         .unwrap();
@@ -143,9 +182,10 @@ fn feed_rounding(language: Language) -> f64 {
 }
 
 /// All checks of one program; its events, and the frame of the part where targets are not given in it.
-fn check(case: &Case, language: Language, program: &str, blended: bool) -> (Vec<Event>, Option<Pose>) {
+fn check(case: &Case, language: Language, program: &str, spindle: [&str; 2]) -> (Vec<Event>, Option<Pose>) {
     let folder = tempfile::tempdir().unwrap();
-    let at = write(case, folder.path(), program);
+    let study = case.put(folder.path(), spindle);
+    let at = write(&study, folder.path(), program);
     let fail = |error: ReplayError| -> ! { panic!("{}, {language:?}: {error}", case.name) };
     let events: Vec<Event> = run_folder(language, &at, "pocket").unwrap_or_else(|error| fail(error));
     let cut = case.cut(folder.path(), language);
@@ -158,9 +198,14 @@ fn check(case: &Case, language: Language, program: &str, blended: bool) -> (Vec<
     if language == Language::UrScript {
         blends_apart(&events).unwrap_or_else(|error| fail(error));
     }
-    if blended {
-        no_stop_in_cut(&events, &cut, &matches).unwrap_or_else(|error| fail(error));
-    }
+    no_stop_in_cut(&events, &cut, &matches).unwrap_or_else(|error| fail(error));
+    let is_on =
+        |action: &Action| matches!(action, Action::Output { value, moving: false, .. } if value == "TRUE");
+    spindle_on(&events, &matches, is_on).unwrap_or_else(|error| fail(error));
+    let stops = events
+        .iter()
+        .filter(|event| matches!(event.action, Action::Stop { .. }));
+    assert_eq!(stops.count(), case.tool_changes, "{}, {language:?}", case.name);
     for event in &events {
         if let Action::Linear(linear) = &event.action {
             if cut.frame.is_none() {
@@ -200,7 +245,7 @@ fn axes((events, _): &(Vec<Event>, Option<Pose>)) -> Vec<Vec<f64>> {
 
 /// The programs of a study in all languages; the poses of their lines are the same. How many lines they have.
 fn check_all(case: &Case) -> usize {
-    let all = PROGRAMS.map(|(language, program, blended)| check(case, language, program, blended));
+    let all = PROGRAMS.map(|(language, program, spindle)| check(case, language, program, spindle));
     let expected = line_poses(&all[0]);
     for (events, (language, ..)) in all.iter().zip(PROGRAMS) {
         let found = line_poses(events);
@@ -244,6 +289,21 @@ const TOOL_PATHS: [(&str, f64); 12] = [
     ("gcode/linuxcnc/nc_files/cds.ngc", 5.0),
 ];
 
+/// Changes between tools of different numbers in the cutter locations or the G-code of these files.
+fn tool_changes(text: &str) -> usize {
+    let number = |line: &str| {
+        let line = line.trim();
+        let digits = line.strip_prefix("LOAD/TOOL,").or_else(|| {
+            line.strip_prefix('T')
+                .filter(|rest| rest.to_uppercase().contains("M6"))
+        })?;
+        let end = digits.find(|c: char| !c.is_ascii_digit()).unwrap_or(digits.len());
+        digits[..end].parse::<u32>().ok()
+    };
+    let tools: Vec<u32> = text.lines().filter_map(number).collect();
+    tools.windows(2).filter(|pair| pair[0] != pair[1]).count()
+}
+
 #[test]
 fn programs_of_real_tool_paths_follow_their_tables() {
     let Some(samples) = std::env::var_os("ARMILL_SAMPLES") else {
@@ -252,9 +312,7 @@ fn programs_of_real_tool_paths_follow_their_tables() {
     };
     for (file, clearance_mm) in TOOL_PATHS {
         let file = Path::new(&samples).join("toolpaths").join(file);
-        let folder = tempfile::tempdir().unwrap();
-        let study = folder.path().join("study.toml");
-        let text = format!(
+        let study = format!(
             "format = 1\nrobot = \"fanuc/r2000ic\"\ntolerance_um = 100\n\
              tool = {{ flange_from_tool_mm_deg = [0, 90, 260, 0, 0, 0] }}\n\
              plane = {{ centre_mm = [1500, 0, 700], tilt_deg = 90, half_size_mm = 100, step_mm = 50 }}\n\
@@ -263,9 +321,11 @@ fn programs_of_real_tool_paths_follow_their_tables() {
              program = {{ file = {:?}, limits = false }}\n",
             file.display().to_string()
         );
-        std::fs::write(&study, text).unwrap();
+        let empty = tempfile::tempdir().unwrap();
         let case = Case {
             study,
+            folder: empty.path().to_owned(),
+            tool_changes: tool_changes(&std::fs::read_to_string(&file).unwrap()),
             name: file.display().to_string(),
             path: "pocket",
             frame: [1500.0, 0.0, 700.0, -90.0, 0.0, 0.0],
@@ -279,7 +339,8 @@ fn programs_of_real_tool_paths_follow_their_tables() {
 #[test]
 fn a_written_program_with_one_changed_number_is_reported() {
     let folder = tempfile::tempdir().unwrap();
-    let at = write(&Case::example(), folder.path(), "pocket.src").join("pocket.src");
+    let study = Case::example().put(folder.path(), PROGRAMS[0].2);
+    let at = write(&study, folder.path(), "pocket.src").join("pocket.src");
     let text = std::fs::read_to_string(&at).unwrap();
     let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
     let cuts: Vec<usize> = (0..lines.len())

@@ -66,6 +66,20 @@ pub struct Commanded<'a> {
     pub program: Vec<(String, Vec<u8>)>,
 }
 
+/// Corrections above this are questioned, um.
+const LARGE_UM: f64 = 1000.0;
+
+/// A caution if the corrections are larger than an arm deflects in machining.
+pub(super) fn caution(name: &str, largest_correction_um: f64) -> Option<String> {
+    (largest_correction_um > LARGE_UM).then(|| {
+        format!(
+            "points of {name} move by up to {:.1} mm, more than arms deflect in machining: check load, tool and \
+             compliances before the program is used",
+            largest_correction_um / 1000.0
+        )
+    })
+}
+
 fn column(name: &str, unit: Option<&str>, (decimals, data): (u8, ColumnData)) -> Column {
     Column {
         name: name.to_owned(),

@@ -8,7 +8,7 @@ use armill_study::analysis::holes::HolesAnalysis;
 use armill_study::analysis::runner::Runner;
 use armill_study::error::StudyError;
 
-use super::commanded::{Commanded, CompensatedPath, position_columns};
+use super::commanded::{Commanded, CompensatedPath, caution, position_columns};
 use super::error_answer::ErrorAnswer;
 use armill_formats::table::{Table, csv};
 
@@ -71,12 +71,13 @@ pub(super) fn of_holes<'a>(
         let moved = commanded.track.path.points[index].at - track.path.points[index].at;
         to_um(moved.norm())
     };
+    let largest_correction_um = (0..track.len()).map(correction).fold(0.0, f64::max);
     let given = CompensatedPath {
         name: name.to_owned(),
         points: track.len(),
         before: ErrorAnswer::of(&track, &found.answers.deviations, found.answers.case_count),
         after: ErrorAnswer::of(&track, &commanded.residual, commanded.along.answers.case_count),
-        largest_correction_um: (0..track.len()).map(correction).fold(0.0, f64::max),
+        largest_correction_um,
         rounds: commanded.rounds,
         last_round_um: to_um(commanded.last_move),
         contraction_ratio: commanded.contraction,
@@ -89,7 +90,7 @@ pub(super) fn of_holes<'a>(
             .count(),
         file: format!("{}.commanded.csv", armill_study::file_names::slug(name)),
         in_place: None,
-        notes: Vec::new(),
+        notes: caution(name, largest_correction_um).into_iter().collect(),
     };
     let table = Table::new(name, position_columns(&commanded.track))?;
     Ok(Commanded {

@@ -41,7 +41,7 @@ use armill_study::error::StudyError;
 use armill_study::file::resolve::Study;
 use serde::Serialize;
 
-use self::commanded::table;
+use self::commanded::{caution, table};
 use self::holes::of_holes;
 use self::in_place::{RewrittenProgram, in_place};
 
@@ -132,7 +132,7 @@ fn of_path<'a>(
         runner.watch,
     )?;
     let rewritten = in_place(runner, analysis, &followed, &load, &found.track)?;
-    let (in_place, notes) = match rewritten {
+    let (in_place, mut notes) = match rewritten {
         None => (None, Vec::new()),
         Some(Ok(written)) => (Some(written), Vec::new()),
         Some(Err(why)) => (
@@ -149,12 +149,14 @@ fn of_path<'a>(
         let moved = found.track.path.points[index].at - drawn.path.points[index].at;
         to_um(moved.norm())
     };
+    let largest_correction_um = (0..drawn.len()).map(correction).fold(0.0, f64::max);
+    notes.extend(caution(name, largest_correction_um));
     let given = CompensatedPath {
         name: name.to_owned(),
         points: drawn.len(),
         before: ErrorAnswer::of(drawn, &before.deviations, before.case_count),
         after: ErrorAnswer::of(drawn, &found.residual, found.along.answers.case_count),
-        largest_correction_um: (0..drawn.len()).map(correction).fold(0.0, f64::max),
+        largest_correction_um,
         rounds: found.rounds,
         last_round_um: to_um(found.last_move),
         contraction_ratio: found.contraction,

@@ -164,6 +164,8 @@ impl<'a> Krl<'a> {
         if is_declaration(cursor) {
             return self.data.declaration(cursor, module);
         }
+        // Before a declaration: valid in all programs.
+        cursor.eat_name("GLOBAL");
         if cursor.eat_name("CONTINUE") {
             self.advance = true;
         } else if cursor.eat_name("HALT") {

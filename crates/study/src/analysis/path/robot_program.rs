@@ -149,7 +149,9 @@ fn texts(log: &mut ProblemLog<'_>, path: &Path, language: Language) -> Option<Ve
     let folder = if path.is_dir() {
         path
     } else {
-        path.parent().unwrap_or(Path::new("."))
+        // The parent of a bare file name is empty.
+        let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty());
+        parent.unwrap_or(Path::new("."))
     };
     let same_folder = || -> Vec<PathBuf> {
         let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
