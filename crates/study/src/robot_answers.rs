@@ -179,14 +179,14 @@ pub enum SpringCompliance {
         /// Compliance.
         compliance_rad_per_n_m: f64,
         /// Its standard uncertainty.
-        compliance_u_rad_per_n_m: f64,
+        compliance_u_rad_per_n_m: Option<f64>,
     },
     /// Along a direction, which may rotate with the displacement, rad/m.
     Sliding {
         /// Compliance.
         compliance_um_per_n: f64,
         /// Its standard uncertainty.
-        compliance_u_um_per_n: f64,
+        compliance_u_um_per_n: Option<f64>,
     },
 }
 
@@ -312,7 +312,9 @@ impl JointDetails {
         let given = |value: f64| without_rounding(value * unit.scale);
         let compliance = robot.compliance().map(|all| all[index]);
         let value = compliance.map(|c| c.value * unit.compliance_scale);
-        let u = compliance.map(|c| c.standard_uncertainty * unit.compliance_scale);
+        let u = compliance
+            .and_then(|c| c.known_uncertainty())
+            .map(|u| u * unit.compliance_scale);
         let zero_offset = given(joint.zero_offset);
         let limits = joint
             .limits
@@ -352,7 +354,7 @@ impl StructureDetails {
         let structure = robot.structure();
         let name = |joint: usize| robot.joints()[joint].name.clone();
         let springs = structure.springs.iter().map(|spring| {
-            let (value, u) = (spring.compliance.value, spring.compliance.standard_uncertainty);
+            let (value, u) = (spring.compliance.value, spring.compliance.known_uncertainty());
             let turns = spring.direction.linear.norm() == 0.0;
             SpringDetails {
                 at: attachment_name(robot, spring.attachment),
@@ -365,7 +367,7 @@ impl StructureDetails {
                 } else {
                     SpringCompliance::Sliding {
                         compliance_um_per_n: to_um(value),
-                        compliance_u_um_per_n: to_um(u),
+                        compliance_u_um_per_n: u.map(to_um),
                     }
                 },
             }

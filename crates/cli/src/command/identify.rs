@@ -151,7 +151,19 @@ fn from_tests(
     })?;
     let tests = load_tests::read(&shown, bytes.as_slice(), &found.robot, question.tool_point)?;
     let answer = answer(&found.robot, &tests, question)?;
+    print(&if arguments.json {
+        serde_json::to_string_pretty(&answer)?
+    } else {
+        as_text(&answer)
+    })?;
+    if let Some(slip) = &answer.slip {
+        say(&format!(
+            "warning: the compliances are not usable: {}",
+            slip.sentence()
+        ));
+    }
     if let Some(file) = &arguments.out {
+        answer.check_usable()?;
         let [path, text] = robots::text_of(&arguments.robot, found)?;
         let written = robot_file(&found.robot, [&path, &text], &answer, &shown)?;
         arguments
@@ -160,11 +172,6 @@ fn from_tests(
             .write(file, written.as_bytes())?;
         say(&format!("robot with these compliances in {}", file.display()));
     }
-    print(&if arguments.json {
-        serde_json::to_string_pretty(&answer)?
-    } else {
-        as_text(&answer)
-    })?;
     Ok(Outcome::Fine)
 }
 

@@ -21,6 +21,7 @@ use serde::Serialize;
 use crate::input::setting::Setting;
 use crate::model_words::parts;
 use crate::number::without_rounding;
+use crate::uncertainty_words::inputs_without_uncertainty;
 
 /// The common setting of all points of an analysis. Positions are relative to the frame `base`.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -53,6 +54,8 @@ pub struct SettingAnswer {
     pub scatter_um: f64,
     /// Standard uncertainty of the model, in addition to that of its compliances; zero if it is not known.
     pub model_error_percent: f64,
+    /// Inputs that have an effect, but no uncertainty.
+    pub inputs_without_uncertainty: Vec<String>,
     /// The tolerance.
     pub tolerance_um: f64,
     /// Active parts of the stiffness model.
@@ -87,6 +90,7 @@ impl SettingAnswer {
             tool_length_u_mm: without_rounding(to_mm(setting.uncertainty.tool_length)),
             scatter_um: to_um(setting.model.structure.repeatability),
             model_error_percent: without_rounding(setting.model.structure.model_error * 100.0),
+            inputs_without_uncertainty: inputs_without_uncertainty(&setting.arm(robot)),
             tolerance_um: without_rounding(to_um(setting.tolerance)),
             model: parts(robot, &setting.model),
             contributors: setting.model.contributor_names(robot.joints()),
@@ -125,8 +129,9 @@ pub struct PointAnswer {
     pub worst_case: usize,
     /// Largest in-plane deviation of all cases.
     pub in_plane_um: f64,
-    /// Its standard uncertainty, from compliances, load, tool length, repeatability and model error.
-    pub in_plane_u_um: f64,
+    /// Its standard uncertainty, from compliances, load, tool length, repeatability and model error; none where it is
+    /// not known, a lower bound where `inputs_without_uncertainty` of the setting names any.
+    pub in_plane_u_um: Option<f64>,
     /// Deviation along the outward normal, of the case where it is largest.
     pub normal_um: f64,
     /// Largest length of the deviation of all cases.
@@ -191,7 +196,7 @@ impl PointAnswer {
             singularity: evaluation.singularity.map(|s| s.to_string()),
             worst_case: evaluation.worst_case + 1,
             in_plane_um: to_um(evaluation.in_plane),
-            in_plane_u_um: to_um(evaluation.in_plane_uncertainty),
+            in_plane_u_um: evaluation.in_plane_uncertainty.map(to_um),
             normal_um: to_um(evaluation.normal),
             full_um: to_um(evaluation.full),
             joint_share_um: answers.shares_at(index).iter().map(to_um).collect(),
