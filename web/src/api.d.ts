@@ -1985,8 +1985,11 @@ export interface components {
             best: components["schemas"]["PointAnswer"] | null;
             /** @description The region within the tolerance, inside the joint limits. */
             region: components["schemas"]["RegionAnswer"];
-            /** @description Uncertainty of the region: points outside joint limits are treated as out of tolerance. */
-            certainty: components["schemas"]["CertaintyAnswer"];
+            /**
+             * @description Uncertainty of the region: points outside joint limits are treated as out of tolerance. None where the
+             *     uncertainty of the deviations is not known.
+             */
+            certainty: components["schemas"]["CertaintyAnswer"] | null;
             /** @description The common setting of all points. */
             setting: components["schemas"]["SettingAnswer"];
             /** @description The points. */
@@ -2065,7 +2068,7 @@ export interface components {
              * Format: double
              * @description Its standard uncertainty, from compliances, load, tool length, repeatability and model error.
              */
-            in_plane_u_um: number;
+            in_plane_u_um: number | null;
             /**
              * Format: double
              * @description Deviation along the outward normal, of the case where it is largest.
@@ -2242,14 +2245,16 @@ export interface components {
             tool_length_u_mm: number;
             /**
              * Format: double
-             * @description Standard deviation of the repeated position of the tool, along any axis; zero if it is not known.
+             * @description Standard deviation of the repeated position of the tool, along any axis; none if it is not known.
              */
-            scatter_um: number;
+            scatter_um: number | null;
             /**
              * Format: double
-             * @description Standard uncertainty of the model, in addition to that of its compliances; zero if it is not known.
+             * @description Standard uncertainty of the model, in addition to that of its compliances; none if it is not known.
              */
-            model_error_percent: number;
+            model_error_percent: number | null;
+            /** @description Inputs that have an effect, but no uncertainty. */
+            inputs_without_uncertainty: string[];
             /**
              * Format: double
              * @description The tolerance.
@@ -4027,7 +4032,7 @@ export interface components {
              * Format: double
              * @description Its standard uncertainty, from compliances, load, tool length, repeatability and model error.
              */
-            in_plane_u_um: number;
+            in_plane_u_um: number | null;
             /**
              * Format: double
              * @description Along the outward normal.

@@ -152,10 +152,10 @@ pub struct StructureDetails {
     pub compensator: Option<CompensatorDetails>,
     /// Whether the covariance of the compliances is known.
     pub covariance_known: bool,
-    /// Standard deviation of the position of the tool in repeated visits, along any axis; zero if not known.
-    pub scatter_um: f64,
-    /// Standard uncertainty of the model apart from that of its compliances; zero if not known.
-    pub model_error_percent: f64,
+    /// Standard deviation of the position of the tool in repeated visits, along any axis; none if not known.
+    pub scatter_um: Option<f64>,
+    /// Standard uncertainty of the model apart from that of its compliances; none if not known.
+    pub model_error_percent: Option<f64>,
 }
 
 /// A direction in which the structure deflects.
@@ -352,6 +352,7 @@ impl StructureDetails {
     /// Data of the file apart from the drives, in the units of such files.
     fn of(robot: &Robot) -> StructureDetails {
         let structure = robot.structure();
+        let given = |value: f64| (value > 0.0).then_some(value);
         let name = |joint: usize| robot.joints()[joint].name.clone();
         let springs = structure.springs.iter().map(|spring| {
             let (value, u) = (spring.compliance.value, spring.compliance.known_uncertainty());
@@ -399,8 +400,8 @@ impl StructureDetails {
                 angle_deg: to_deg(c.angle),
             }),
             covariance_known: structure.covariance.is_some(),
-            scatter_um: to_um(structure.repeatability),
-            model_error_percent: without_rounding(structure.model_error * 100.0),
+            scatter_um: given(structure.repeatability).map(to_um),
+            model_error_percent: given(structure.model_error).map(|part| without_rounding(part * 100.0)),
         }
     }
 }

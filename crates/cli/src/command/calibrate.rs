@@ -59,7 +59,7 @@ pub(crate) fn run(arguments: &CalibrateArguments) -> Result<Outcome, StudyError>
         calibration.check_usable()?;
         let [path, text] = robots::text_of(&arguments.robot, &found)?;
         let written = robot_file(&found.robot, [&path, &text], &calibration)?;
-        writer.write(file, written.as_bytes())?;
+        writer.clone().for_new_files().write(file, written.as_bytes())?;
         say(&format!("calibrated robot in {}", file.display()));
     }
     if let Some(file) = &arguments.residuals {

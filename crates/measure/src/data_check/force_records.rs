@@ -72,11 +72,13 @@ pub fn warnings(record: &Record) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
+    use armill_core::load::ActsOn;
+
     use super::*;
 
     fn record(of: impl Fn(usize) -> [f64; 3]) -> Record {
         let time = (0..100).map(|k| k as f64 * 1e-3).collect();
-        Record::new(time, (0..100).map(|k| of(k).into()).collect(), None).unwrap()
+        Record::new(time, (0..100).map(|k| of(k).into()).collect(), None, ActsOn::Tool).unwrap()
     }
 
     fn wave(k: usize) -> [f64; 3] {

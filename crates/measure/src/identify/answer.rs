@@ -420,6 +420,15 @@ fn notes(tests: &LoadTests, names: &[String], identified: &Identified) -> Vec<St
             tests.empty_rows
         ));
     }
+    if let Some(first) = tests.outside_limits.first() {
+        let more = match tests.outside_limits.len() - 1 {
+            0 => String::new(),
+            more => format!(", and {more} more"),
+        };
+        notes.push(format!(
+            "postures outside the limits of the robot file are used as measured: {first}{more}"
+        ));
+    }
     let hardly: Vec<&str> = identified
         .estimates
         .iter()

@@ -50,10 +50,10 @@ pub struct SettingAnswer {
     pub load_u_n: [[f64; 3]; 3],
     /// Standard uncertainty of the position of the TCP along the tool axis.
     pub tool_length_u_mm: f64,
-    /// Standard deviation of the repeated position of the tool, along any axis; zero if it is not known.
-    pub scatter_um: f64,
-    /// Standard uncertainty of the model, in addition to that of its compliances; zero if it is not known.
-    pub model_error_percent: f64,
+    /// Standard deviation of the repeated position of the tool, along any axis; none if it is not known.
+    pub scatter_um: Option<f64>,
+    /// Standard uncertainty of the model, in addition to that of its compliances; none if it is not known.
+    pub model_error_percent: Option<f64>,
     /// Inputs that have an effect, but no uncertainty.
     pub inputs_without_uncertainty: Vec<String>,
     /// The tolerance.
@@ -68,6 +68,7 @@ pub struct SettingAnswer {
 impl SettingAnswer {
     /// The setting in the reference frame of the study; a load that turns with the feed in axes of the feed.
     pub fn of(robot: &Robot, setting: &Setting) -> SettingAnswer {
+        let given = |value: f64| (value > 0.0).then_some(value);
         let turns = setting.load.frame == LoadFrame::Feed;
         let cases = if turns {
             &setting.load.cases
@@ -88,8 +89,9 @@ impl SettingAnswer {
             load_u_percent: without_rounding(setting.uncertainty.relative * 100.0),
             load_u_n: setting.uncertainty.forces.map(|u| clean(u.into())),
             tool_length_u_mm: without_rounding(to_mm(setting.uncertainty.tool_length)),
-            scatter_um: to_um(setting.model.structure.repeatability),
-            model_error_percent: without_rounding(setting.model.structure.model_error * 100.0),
+            scatter_um: given(setting.model.structure.repeatability).map(to_um),
+            model_error_percent: given(setting.model.structure.model_error)
+                .map(|part| without_rounding(part * 100.0)),
             inputs_without_uncertainty: inputs_without_uncertainty(&setting.arm(robot)),
             tolerance_um: without_rounding(to_um(setting.tolerance)),
             model: parts(robot, &setting.model),

@@ -49,6 +49,7 @@ use crate::analysis::{AnalysisResult, Subject};
 use crate::answer::by_kind::AnalysisAnswers;
 use crate::budget::{self, BudgetAnswer};
 use crate::file::resolve::Study;
+use crate::file::slips;
 use crate::input::setting::Setting;
 use crate::joint_unit::JointUnit;
 use crate::model_words::left_out;
@@ -261,6 +262,12 @@ fn warnings(study: &Study, answers: &AnalysisAnswers) -> Vec<String> {
     let mut warnings = Vec::new();
     warnings.extend(study.own_compliance.iter().filter_map(|own| own.caution.clone()));
     for setting in study.settings() {
+        let slips = slips::warnings(&study.robot, setting);
+        let new: Vec<String> = slips
+            .into_iter()
+            .filter(|slip| !warnings.contains(slip))
+            .collect();
+        warnings.extend(new);
         let unknown = uncertainty_words::warning(&setting.arm(&study.robot.robot));
         warnings.extend(unknown.filter(|warning| !warnings.contains(warning)));
     }
