@@ -202,7 +202,14 @@ fn decimal_comma(text: &str, span: &Range<usize>) -> Option<String> {
     let is_decimal = |at: &usize| {
         bytes.get(*at) == Some(&b',') && is_digit(at.checked_sub(1)) && is_digit(at.checked_add(1))
     };
-    let at = [span.start, span.start.saturating_sub(1)]
+    // A parser may notice it only behind the decimals.
+    let decimals = bytes[..span.start.min(bytes.len())]
+        .iter()
+        .rev()
+        .take_while(|byte| byte.is_ascii_digit())
+        .count();
+    let before = span.start.saturating_sub(1);
+    let at = [span.start, before, before.saturating_sub(decimals)]
         .into_iter()
         .find(is_decimal)?;
     let digits = |byte: &&u8| byte.is_ascii_digit();

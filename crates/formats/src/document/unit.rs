@@ -103,7 +103,12 @@ pub(super) fn split(name: &str) -> Option<(&str, Unit)> {
 
 /// The unit of the value at `path` in a field of this name, as people read it: of a number of a pose its own.
 pub(super) fn of_value(field: &str, path: &str) -> Option<String> {
-    let (_, unit) = split(field)?;
+    let unit = match split(field) {
+        Some((_, unit)) => unit,
+        // A name that is a quotient of units alone, such as `rad_per_n_m`.
+        None if field.contains("_per_") => split(&format!("value_{field}"))?.1,
+        None => return None,
+    };
     let index = path.strip_suffix(']').and_then(|path| path.rsplit_once('['));
     let index = index.and_then(|(_, index)| index.parse::<usize>().ok());
     Some(match index {

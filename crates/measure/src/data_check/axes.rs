@@ -43,6 +43,11 @@ impl AxisChange {
         signs + order
     }
 
+    /// Whether only the sign of the whole vector changes.
+    pub fn is_common_sign(&self) -> bool {
+        self.moved() == 0 && self.negated().len() == 3
+    }
+
     fn moved(&self) -> usize {
         (0..3).filter(|k| self.from[*k] != *k).count()
     }

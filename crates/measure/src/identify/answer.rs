@@ -159,7 +159,7 @@ pub fn answer(robot: &Robot, tests: &LoadTests, question: &Question) -> Result<A
     let unknowns = question.unknowns(robot, &tests.tests)?;
     if question.units == Units::Checked {
         check_units(robot, &tests.tests)?;
-        check_direction(&tests.tests)?;
+        check_direction(robot, tests)?;
     }
     let method = Method {
         prior: question.prior(),
@@ -176,7 +176,7 @@ pub fn answer(robot: &Robot, tests: &LoadTests, question: &Question) -> Result<A
     };
     let identified =
         identify(robot, &unknowns, &tests.tests, method).map_err(|refusal| refused(&refusal, question))?;
-    let slip = slip(robot, &unknowns, &tests.tests, method, &identified);
+    let slip = data_check::load_tests::slip(robot, &tests.tests, &tests.names);
     let mut answer = reported(robot, tests, question, unknowns, identified);
     answer.slip = slip;
     Ok(answer)
@@ -212,29 +212,18 @@ impl Answer {
     }
 }
 
-/// The likely slip in the tests, by how well they predict each other.
-fn slip(
-    robot: &Robot,
-    unknowns: &[Unknown],
-    tests: &[LoadTest],
-    method: Method,
-    identified: &Identified,
-) -> Option<SlipAnswer> {
-    let left_out = identified.tests.iter().map(|test| &test.left_out);
-    let errors = displacement_errors(tests, left_out)?;
-    data_check::load_tests::slip(robot, unknowns, tests, method, [errors.mean, errors.relative])
-}
-
 /// Refuses displacements against the force in most tests: no elastic arm moves so.
-fn check_direction(tests: &[LoadTest]) -> Result<(), StudyError> {
-    let Some([against, all]) = data_check::load_tests::against_force(tests) else {
+fn check_direction(robot: &Robot, tests: &LoadTests) -> Result<(), StudyError> {
+    let Some([against, all]) = data_check::load_tests::against_force(&tests.tests) else {
         return Ok(());
     };
     if 2 * against <= all {
         return Ok(());
     }
+    let slip = data_check::load_tests::slip(robot, &tests.tests, &tests.names);
+    let slip = slip.map_or_else(String::new, |slip| format!("; {}", slip.sentence()));
     Err(StudyError::value(
-        format!("the displacement is against the force in {against} of {all} tests"),
+        format!("the displacement is against the force in {against} of {all} tests{slip}"),
         "give the force on the tool, not its reaction, and loaded minus unloaded displacements: reverse the sign of one of them; --trust-units accepts the values",
     ))
 }

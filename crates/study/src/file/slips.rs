@@ -24,8 +24,8 @@ const INSIDE_BASE_MM: f64 = 20.0;
 const SHORT_TOOL_MM: f64 = 1.0;
 /// No arm carries a longer tool, mm.
 const LONG_TOOL_MM: f64 = 5e3;
-/// Difference of a number in rad, as people write it, from a multiple of pi/4; a hundredth of it of pi/12.
-const WRITTEN: f64 = 1.2e-3;
+/// Difference of a number in rad, as people write it, from a multiple of pi/4; a tenth of it of pi/12.
+const WRITTEN: f64 = 1.7e-3;
 
 /// The angle in deg that was probably meant where `deg` is an angle in rad; none of an ordinary angle.
 pub fn meant_in_rad(deg: f64) -> Option<f64> {
