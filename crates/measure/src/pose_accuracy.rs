@@ -106,7 +106,10 @@ pub fn answer(
     measured: &MeasuredPoses,
     question: &Question,
 ) -> Result<PoseAccuracyAnswer, StudyError> {
-    let check = || data_check::poses::slip(robot, &measured.poses, &measured.lines, question);
+    let check = || {
+        let frames = question.for_core(ParameterSet::BaseAndTool);
+        data_check::poses::slip(robot, &measured.poses, &measured.lines, &frames)
+    };
     let found = fit(
         robot,
         &measured.poses,

@@ -6,7 +6,7 @@
 use armill_core::robot::{Joint, Robot};
 use armill_core::source::{Arm, InputWithoutUncertainty};
 
-use crate::analysis::words::micrometres;
+use crate::number::micrometres;
 use crate::robot_answers::attachment_name;
 
 /// The words for an unknown uncertainty.

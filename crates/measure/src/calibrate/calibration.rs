@@ -70,7 +70,10 @@ pub fn calibrate(
     let lines = |places: &[usize]| places.iter().map(|place| measured.lines[*place]).collect();
     let poses = chosen(&kept);
     let by = |poses: &[MeasuredPose], requested| fit(robot, poses, &question.for_core(requested));
-    let check = || data_check::poses::slip(robot, &measured.poses, &measured.lines, question);
+    let check = || {
+        let frames = question.for_core(ParameterSet::BaseAndTool);
+        data_check::poses::slip(robot, &measured.poses, &measured.lines, &frames)
+    };
     let not_found = |error: Refusal| match &error {
         Refusal::NotFound => refused_by(shown, &error, check().as_ref()),
         _ => refused(shown, &error),

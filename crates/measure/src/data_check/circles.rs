@@ -8,6 +8,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use armill_core::measure::ballbar::joints::{BacklashOptions, Followed, Observed, fit_backlash};
 use armill_core::measure::ballbar::{CircularTest, Direction, Run};
+use armill_core::units::to_deg;
 
 use super::{SlipAnswer, Trial, likely_slip};
 
@@ -47,7 +48,7 @@ impl AngleChange {
     }
 
     fn words(&self) -> String {
-        let zero = format!("zero_deg changed by {:.0} deg", self.zero.to_degrees());
+        let zero = format!("zero_deg changed by {:.0} deg", to_deg(self.zero));
         match (self.mirrored, self.zero == 0.0) {
             (true, true) => "the angles mirrored (mirrored = true or false)".to_owned(),
             (true, false) => format!("the angles mirrored and {zero}"),

@@ -3,6 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use armill_core::robot::Robot;
+use armill_core::units::to_deg;
 
 /// Another reading of the joint columns.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,7 +45,7 @@ impl JointChange {
             JointChange::Radians => {
                 for (joint, q) in changed.iter_mut().enumerate() {
                     if !robot.slides(joint) {
-                        *q = q.to_degrees();
+                        *q = to_deg(*q);
                     }
                 }
             }
@@ -58,7 +59,7 @@ impl JointChange {
         match *self {
             JointChange::Negated(joint) => format!("joint {} negated", name(joint)),
             JointChange::Zero(joint, by) => {
-                format!("{:.0} deg added to joint {}", by.to_degrees(), name(joint))
+                format!("{:.0} deg added to joint {}", to_deg(by), name(joint))
             }
             JointChange::Exchanged(joint) => {
                 format!("joints {} and {} exchanged", name(joint), name(joint + 1))

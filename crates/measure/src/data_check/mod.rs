@@ -18,7 +18,7 @@ pub mod load_tests;
 pub mod poses;
 
 use armill_core::units::to_um;
-use armill_study::analysis::words::micrometres;
+use armill_study::number::micrometres;
 use schemars::JsonSchema;
 use serde::Serialize;
 

@@ -3,13 +3,12 @@
 //! The residual is the root mean square error of the positions with base and measured point fitted, and the chain of the
 //! robot file. The axes of the tracker are free: a rotated frame is no slip, and all mirrored ones look alike.
 
-use armill_core::calibrate::{MeasuredPose, ParameterSet, fit};
+use armill_core::calibrate::{MeasuredPose, Question, fit};
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::Robot;
 
 use super::joints::JointChange;
 use super::{BETTER, SlipAnswer, Trial, likely_slip};
-use crate::calibrate::question::Question;
 
 /// Units that were read as mm, by their size in mm; positions are then too small or too large by it.
 const UNITS: [(&str, f64); 4] = [
@@ -26,6 +25,7 @@ const ACCURATE: f64 = 3e-3;
 const MOST_POSES: usize = 200;
 
 /// The likely slip of `poses`, at these lines of their file; none of poses that the nominal chain predicts well.
+/// `question` asks for base and tool only.
 pub fn slip(
     robot: &Robot,
     poses: &[MeasuredPose],
@@ -46,8 +46,7 @@ pub fn slip(
             (pose, *line)
         })
         .unzip();
-    let asked = question.for_core(ParameterSet::BaseAndTool);
-    let errors = |poses: &[MeasuredPose]| fit(robot, poses, &asked).ok().map(|found| found.errors);
+    let errors = |poses: &[MeasuredPose]| fit(robot, poses, question).ok().map(|found| found.errors);
     let residual = |poses: &[MeasuredPose]| {
         let spread = errors(poses).and_then(|errors| errors.of_position());
         spread.map_or(f64::INFINITY, |spread| spread.rms)

@@ -12,7 +12,7 @@
 
 use armill_core::frame::fixed_angles;
 use armill_core::source::stiffness_model::FREE_FALL;
-use armill_core::units::{to_deg, to_mm};
+use armill_core::units::{from_deg, to_deg, to_mm};
 use armill_formats::robot::RobotDescription;
 
 use crate::input::setting::Setting;
@@ -30,8 +30,8 @@ const WRITTEN: f64 = 1.7e-3;
 /// The angle in deg that was probably meant where `deg` is an angle in rad; none of an ordinary angle.
 pub fn meant_in_rad(deg: f64) -> Option<f64> {
     let is_multiple = |of: f64, within: f64| {
-        let times = (deg.to_degrees() / of).round();
-        let away = (deg - (times * of).to_radians()).abs();
+        let times = (to_deg(deg) / of).round();
+        let away = (deg - from_deg(times * of)).abs();
         (times != 0.0 && times.abs() * of <= 360.0 && away < within).then_some(times * of)
     };
     // Whole numbers are degrees: 1 deg is no 1.0472 rad, and 3 no pi.
@@ -134,21 +134,21 @@ mod tests {
     #[test]
     fn angles_in_rad_as_people_write_them_are_recognised() {
         for (given, meant) in [
-            (1.5708, 90.0),
-            (1.571, 90.0),
-            (1.57, 90.0),
-            (-1.5708, -90.0),
-            (3.14159, 180.0),
-            (3.14, 180.0),
-            (0.7854, 45.0),
-            (0.785, 45.0),
-            (2.3562, 135.0),
-            (0.5236, 30.0),
-            (1.0472, 60.0),
-            (0.2618, 15.0),
-            (4.7124, 270.0),
+            ("1.5708", 90.0),
+            ("1.571", 90.0),
+            ("1.57", 90.0),
+            ("-1.5708", -90.0),
+            ("3.14159", 180.0),
+            ("3.14", 180.0),
+            ("0.7854", 45.0),
+            ("0.785", 45.0),
+            ("2.3562", 135.0),
+            ("0.5236", 30.0),
+            ("1.0472", 60.0),
+            ("0.2618", 15.0),
+            ("4.7124", 270.0),
         ] {
-            assert_eq!(meant_in_rad(given), Some(meant), "{given}");
+            assert_eq!(meant_in_rad(given.parse().unwrap()), Some(meant), "{given}");
         }
     }
 
