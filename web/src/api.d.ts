@@ -1924,7 +1924,7 @@ export interface components {
             compliance_rad_per_n_m: number | null;
             /**
              * Format: double
-             * @description Its standard uncertainty.
+             * @description Its standard uncertainty; none where it is not known.
              */
             compliance_u_rad_per_n_m: number | null;
             /**
@@ -1934,7 +1934,7 @@ export interface components {
             compliance_um_per_n: number | null;
             /**
              * Format: double
-             * @description Its standard uncertainty.
+             * @description Its standard uncertainty; none where it is not known.
              */
             compliance_u_um_per_n: number | null;
             /** @description Source of the compliance. */
@@ -2066,7 +2066,8 @@ export interface components {
             in_plane_um: number;
             /**
              * Format: double
-             * @description Its standard uncertainty, from compliances, load, tool length, repeatability and model error.
+             * @description Its standard uncertainty, from compliances, load, tool length, repeatability and model error; none where it is
+             *     not known, a lower bound where `inputs_without_uncertainty` of the setting names any.
              */
             in_plane_u_um: number | null;
             /**
@@ -2281,9 +2282,9 @@ export interface components {
             z_mm: number[];
             /** @description In-plane deviation; none without posture. */
             in_plane_um: (number | null)[];
-            /** @description Its standard uncertainty. */
+            /** @description Its standard uncertainty; none where it is not known. */
             in_plane_u_um: (number | null)[];
-            /** @description Probability that it is within the tolerance. */
+            /** @description Probability that it is within the tolerance; none where the uncertainty is not known. */
             probability_within: (number | null)[];
             /** @description Deviation along the outward normal. */
             normal_um: (number | null)[];
@@ -3329,9 +3330,10 @@ export interface components {
             with_scatter_um: number;
             /**
              * Format: double
-             * @description Standard uncertainty of the combined bias, root mean square over the circle, as far as it is known.
+             * @description Standard uncertainty of the combined bias, root mean square over the circle, as far as it is known; none if
+             *     nothing is.
              */
-            u_um: number;
+            u_um: number | null;
             /**
              * Format: double
              * @description Root of the squares of `load_um` and `unloaded_um`.
@@ -3420,9 +3422,9 @@ export interface components {
             radius_um: number;
             /**
              * Format: double
-             * @description Standard uncertainty of a point, from the study.
+             * @description Standard uncertainty of a point, from the study; none if it is not known.
              */
-            u_um: number;
+            u_um: number | null;
             /**
              * Format: double
              * @description Percentage of its mean square explained by all contributions.
@@ -3773,7 +3775,7 @@ export interface components {
             ][] | null;
             /**
              * @description Standard uncertainty of the displacement, from those of the compliances, the repeatability of the arm and the
-             *     error of its model.
+             *     error of its model; none where it is not known.
              */
             deviation_u_um: [
                 number,
@@ -4030,7 +4032,8 @@ export interface components {
             in_plane_um: number;
             /**
              * Format: double
-             * @description Its standard uncertainty, from compliances, load, tool length, repeatability and model error.
+             * @description Its standard uncertainty, from compliances, load, tool length, repeatability and model error; none where it is
+             *     not known.
              */
             in_plane_u_um: number | null;
             /**

@@ -202,7 +202,7 @@ pub fn load_tests() -> Vec<Slip> {
                 row.scale(
                     &["S_deg", "L_deg", "U_deg", "R_deg", "B_deg", "T_deg"],
                     1f64.to_radians(),
-                )
+                );
             },
             "if the values are radians, name the columns `..._rad`",
         ),

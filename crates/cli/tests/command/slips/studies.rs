@@ -213,6 +213,22 @@ pub fn all() -> Vec<Slip> {
             0,
             "The standard uncertainties are lower bounds",
         ),
+        Slip {
+            command: vec![
+                "place",
+                "study.toml",
+                "--rank-by",
+                "plus-two-sigma",
+                "--x-mm",
+                "900,1100",
+            ],
+            ..with_more(
+                "placements ranked by an uncertainty that is not known",
+                "[compliance]\nsource = \"me\"\nrad_per_n_m = [2e-6, 2e-6, 2e-6, 2e-6, 2e-6, 2e-6]\n[[analysis]]\nkind = \"path\"\ncircle = { radius_mm = 50 }\n",
+                2,
+                "requires the uncertainty of the compliances, which is not known",
+            )
+        },
         program(
             "a decimal comma in G-code",
             "G21 G90\nG0 X10,5 Y0 Z5\n",
