@@ -1924,7 +1924,7 @@ export interface components {
             compliance_rad_per_n_m: number | null;
             /**
              * Format: double
-             * @description Its standard uncertainty.
+             * @description Its standard uncertainty; none where it is not known.
              */
             compliance_u_rad_per_n_m: number | null;
             /**
@@ -1934,7 +1934,7 @@ export interface components {
             compliance_um_per_n: number | null;
             /**
              * Format: double
-             * @description Its standard uncertainty.
+             * @description Its standard uncertainty; none where it is not known.
              */
             compliance_u_um_per_n: number | null;
             /** @description Source of the compliance. */
@@ -1985,8 +1985,11 @@ export interface components {
             best: components["schemas"]["PointAnswer"] | null;
             /** @description The region within the tolerance, inside the joint limits. */
             region: components["schemas"]["RegionAnswer"];
-            /** @description Uncertainty of the region: points outside joint limits are treated as out of tolerance. */
-            certainty: components["schemas"]["CertaintyAnswer"];
+            /**
+             * @description Uncertainty of the region: points outside joint limits are treated as out of tolerance. None where the
+             *     uncertainty of the deviations is not known.
+             */
+            certainty: components["schemas"]["CertaintyAnswer"] | null;
             /** @description The common setting of all points. */
             setting: components["schemas"]["SettingAnswer"];
             /** @description The points. */
@@ -2063,9 +2066,10 @@ export interface components {
             in_plane_um: number;
             /**
              * Format: double
-             * @description Its standard uncertainty, from compliances, load, tool length, repeatability and model error.
+             * @description Its standard uncertainty, from compliances, load, tool length, repeatability and model error; none where it is
+             *     not known, a lower bound where `inputs_without_uncertainty` of the setting names any.
              */
-            in_plane_u_um: number;
+            in_plane_u_um: number | null;
             /**
              * Format: double
              * @description Deviation along the outward normal, of the case where it is largest.
@@ -2242,14 +2246,16 @@ export interface components {
             tool_length_u_mm: number;
             /**
              * Format: double
-             * @description Standard deviation of the repeated position of the tool, along any axis; zero if it is not known.
+             * @description Standard deviation of the repeated position of the tool, along any axis; none if it is not known.
              */
-            scatter_um: number;
+            scatter_um: number | null;
             /**
              * Format: double
-             * @description Standard uncertainty of the model, in addition to that of its compliances; zero if it is not known.
+             * @description Standard uncertainty of the model, in addition to that of its compliances; none if it is not known.
              */
-            model_error_percent: number;
+            model_error_percent: number | null;
+            /** @description Inputs that have an effect, but no uncertainty. */
+            inputs_without_uncertainty: string[];
             /**
              * Format: double
              * @description The tolerance.
@@ -2276,9 +2282,9 @@ export interface components {
             z_mm: number[];
             /** @description In-plane deviation; none without posture. */
             in_plane_um: (number | null)[];
-            /** @description Its standard uncertainty. */
+            /** @description Its standard uncertainty; none where it is not known. */
             in_plane_u_um: (number | null)[];
-            /** @description Probability that it is within the tolerance. */
+            /** @description Probability that it is within the tolerance; none where the uncertainty is not known. */
             probability_within: (number | null)[];
             /** @description Deviation along the outward normal. */
             normal_um: (number | null)[];
@@ -3324,9 +3330,10 @@ export interface components {
             with_scatter_um: number;
             /**
              * Format: double
-             * @description Standard uncertainty of the combined bias, root mean square over the circle, as far as it is known.
+             * @description Standard uncertainty of the combined bias, root mean square over the circle, as far as it is known; none if
+             *     nothing is.
              */
-            u_um: number;
+            u_um: number | null;
             /**
              * Format: double
              * @description Root of the squares of `load_um` and `unloaded_um`.
@@ -3415,9 +3422,9 @@ export interface components {
             radius_um: number;
             /**
              * Format: double
-             * @description Standard uncertainty of a point, from the study.
+             * @description Standard uncertainty of a point, from the study; none if it is not known.
              */
-            u_um: number;
+            u_um: number | null;
             /**
              * Format: double
              * @description Percentage of its mean square explained by all contributions.
@@ -3768,7 +3775,7 @@ export interface components {
             ][] | null;
             /**
              * @description Standard uncertainty of the displacement, from those of the compliances, the repeatability of the arm and the
-             *     error of its model.
+             *     error of its model; none where it is not known.
              */
             deviation_u_um: [
                 number,
@@ -4025,9 +4032,10 @@ export interface components {
             in_plane_um: number;
             /**
              * Format: double
-             * @description Its standard uncertainty, from compliances, load, tool length, repeatability and model error.
+             * @description Its standard uncertainty, from compliances, load, tool length, repeatability and model error; none where it is
+             *     not known.
              */
-            in_plane_u_um: number;
+            in_plane_u_um: number | null;
             /**
              * Format: double
              * @description Along the outward normal.

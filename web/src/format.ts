@@ -18,6 +18,11 @@ export function um(value: number | null | undefined): string {
   return fixed(value, Math.abs(value) < 99.95 ? 1 : 0);
 }
 
+/** A standard uncertainty after its value: unknown is not zero. */
+export function plusMinus(u: number | null | undefined): string {
+  return u === null || u === undefined ? "± not known" : `± ${um(u)} µm`;
+}
+
 export const mm = (value: number | null | undefined): string => trimmed(value, 1);
 export const newton = (value: number | null | undefined): string => trimmed(value, 1);
 export const percent = (share: number | null | undefined): string =>

@@ -1,7 +1,8 @@
 //! The command `armill`, for the terminal ([`command`]) and for programs ([`call`]).
 //!
 //! Results go to stdout, progress and messages to stderr. Exit code 0: success; 1: the tolerance is not met and
-//! `--strict` was given; 2: invalid input; 3: internal error of armill; 130: interrupted.
+//! `--strict` was given, or `robots check` finds a disagreement; 2: invalid input; 3: internal error of armill; 130:
+//! interrupted.
 //!
 //! | step | where |
 //! |---|---|
@@ -55,7 +56,7 @@ pub fn command(words: impl IntoIterator<Item = OsString>) -> u8 {
     };
     match inputs.during(|| run(&arguments.command)) {
         Ok(Outcome::Fine) => 0,
-        Ok(Outcome::ToleranceNotMet) => 1,
+        Ok(Outcome::ToleranceNotMet | Outcome::Disagreement) => 1,
         Err(error) => {
             terminal::show_error(&error, arguments.command.wants_json());
             exit_code(&error)

@@ -7,4 +7,6 @@ pub(crate) enum Outcome {
     Fine,
     /// `--strict` was given and the tolerance is not met everywhere.
     ToleranceNotMet,
+    /// The robot file disagrees with its pendant.
+    Disagreement,
 }

@@ -19,8 +19,9 @@ use armill_study::StudyError;
 use serde::Serialize;
 
 use crate::calibrate::answer::{ErrorsAnswer, FrameAnswer, errors_answer, frame_answer, reported};
-use crate::calibrate::calibration::refused;
+use crate::calibrate::calibration::refused_by;
 use crate::calibrate::question::Question;
+use crate::data_check::{self, SlipAnswer};
 
 /// Poses that were measured, in numbers.
 #[derive(Clone, Debug, Serialize)]
@@ -47,6 +48,8 @@ pub struct PoseAccuracyAnswer {
     pub unused: Vec<String>,
     /// Rows without a measured point.
     pub not_measured: usize,
+    /// The likely slip in the data: an axis, a unit, a joint or one pose with which they agree much better.
+    pub slip: Option<SlipAnswer>,
     /// What to know of these numbers.
     pub notes: Vec<String>,
     /// Sources of the definitions.
@@ -103,12 +106,16 @@ pub fn answer(
     measured: &MeasuredPoses,
     question: &Question,
 ) -> Result<PoseAccuracyAnswer, StudyError> {
+    let check = || {
+        let frames = question.for_core(ParameterSet::BaseAndTool);
+        data_check::poses::slip(robot, &measured.poses, &measured.lines, &frames)
+    };
     let found = fit(
         robot,
         &measured.poses,
         &question.for_core(ParameterSet::BaseAndTool),
     )
-    .map_err(|error| refused(shown, &error))?;
+    .map_err(|error| refused_by(shown, &error, check().as_ref()))?;
     let groups = groups(measured);
     let visits: Vec<[Attained; 2]> = (0..measured.poses.len())
         .map(|k| visit(measured, &found, k))
@@ -147,6 +154,7 @@ pub fn answer(
         flange_from_point: frame(ParameterLocation::Tool, &found.flange_from_point),
         unused: measured.unused.clone(),
         not_measured: measured.not_measured,
+        slip: check(),
         notes,
         sources: vec![
             "ISO 9283:1998, definitions from memory: compare with the standard before claiming conformity",

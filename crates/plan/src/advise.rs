@@ -19,6 +19,7 @@ use armill_study::file::resolve::Study;
 use armill_study::output::Picture;
 use armill_study::run::run;
 use armill_study::studies::FoundStudy;
+use armill_study::uncertainty_words::u_in_words;
 use serde::Serialize;
 
 use crate::compensate::{ErrorAnswer, compensate};
@@ -49,8 +50,9 @@ pub struct AdviceAnswer {
     pub out_of_tolerance: Vec<StretchAnswer>,
     /// Deviation of the tool from the path there, compensated.
     pub compensated: ErrorAnswer,
-    /// Standard uncertainty of the compensated deviation, where it is largest: what remains after compensation.
-    pub compensated_u_um: f64,
+    /// Standard uncertainty of the compensated deviation, where it is largest: what remains after compensation; none
+    /// where it is not known.
+    pub compensated_u_um: Option<f64>,
     /// What keeps the tolerance everywhere, of a program.
     pub limits: Option<LimitsAnswer>,
     /// By how much all forces may grow until the tolerance is used up; below 1 they must shrink.
@@ -166,7 +168,7 @@ pub fn advise(
         out_of_tolerance: out_of_tolerance(advised, analysis, of_path, &path),
         turns: path.search.filter(|_| turns),
         compensated,
-        compensated_u_um: path.worst.map_or(0.0, |worst| worst.in_plane_u_um),
+        compensated_u_um: path.worst.and_then(|worst| worst.in_plane_u_um),
         limits: path.limits,
         compliance_assumed: study.compliance_is_assumed(),
     };
@@ -296,15 +298,9 @@ impl AdviceAnswer {
         )];
         lines.extend(self.out_of_tolerance_text());
         lines.push(format!(
-            "Compensated (`armill compensate`), the predicted largest deviation from the path is {} µm, {}.",
+            "Compensated (`armill compensate`), the predicted largest deviation from the path is {} µm ({} from robot and force).",
             micrometres(self.compensated.max_um),
-            match self.compensated_u_um {
-                u if u > 0.0 => format!(
-                    "with a standard uncertainty of {} µm from robot and force",
-                    micrometres(u)
-                ),
-                _ => "without the uncertainty of robot and force".to_owned(),
-            }
+            u_in_words(self.compensated_u_um),
         ));
         lines.extend(self.permitted_text());
         if self.compliance_assumed {

@@ -219,7 +219,7 @@ fn the_same_point_has_the_same_total_and_parts_on_every_surface() {
         .flatten()
         .map(|case| Point {
             in_plane: case.in_plane_um,
-            u: case.in_plane_u_um,
+            u: case.in_plane_u_um.unwrap(),
             shares: case.share_um.clone(),
         })
         .collect();

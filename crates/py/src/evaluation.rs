@@ -213,7 +213,7 @@ impl PoseEvaluations {
                 each(&points, |point| point.worst_case as i64, -1),
             ),
             in_plane: numbers(|point| point.in_plane),
-            in_plane_uncertainty: numbers(|point| point.in_plane_uncertainty),
+            in_plane_uncertainty: numbers(|point| point.in_plane_uncertainty.unwrap_or(f64::NAN)),
             normal_deviation: numbers(|point| point.normal),
             magnitude: numbers(|point| point.full),
             joints: stored(&[shape.dof], joints),
@@ -310,7 +310,8 @@ impl PoseEvaluations {
         self.in_plane.array(py)
     }
 
-    /// -> (n,) standard uncertainty of the in-plane deviation from the compliances, m; NaN where unreachable.
+    /// -> (n,) standard uncertainty of the in-plane deviation from the compliances, m; NaN where it is not known or
+    /// unreachable.
     #[getter]
     fn in_plane_uncertainty<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         self.in_plane_uncertainty.array(py)

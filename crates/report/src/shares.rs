@@ -109,7 +109,7 @@ impl ShareBars {
             let remark = if self.bars.iter().any(|b| b.total_uncertainty_um.is_some()) {
                 "total, ± u"
             } else {
-                "total"
+                "total, u not known"
             };
             entries.push(Entry::new(Key::Diamond(total_style()), remark));
         }

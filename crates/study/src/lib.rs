@@ -7,8 +7,8 @@
 //! queries of a page that shows a study while it is edited, [`program_out`] writes a path as a robot program. The robot
 //! library and the example studies are embedded in the program ([`library`]); [`compliance_class`] assumes joint
 //! compliances if none are known. [`robots`] and [`studies`] find what a user names, [`robot_answers`] and
-//! [`materials`] report what is known of a robot or material, [`mod@new`] creates a study. [`joint_unit`] and
-//! [`number`] format numbers, [`naming`] and [`file_names`] names.
+//! [`materials`] report what is known of a robot or material, [`mod@new`] creates a study. [`joint_unit`],
+//! [`number`] and [`uncertainty_words`] format numbers, [`naming`] and [`file_names`] names.
 //!
 //! Command line, Python and web return the same bytes.
 
@@ -38,6 +38,7 @@ pub mod robot_answers;
 pub mod robots;
 pub mod run;
 pub mod studies;
+pub mod uncertainty_words;
 
 pub use compliance_class::ComplianceClass;
 pub use error::{ErrorKind, StudyError};

@@ -207,8 +207,21 @@ pub fn most_like(name: &str) -> Option<&'static str> {
         given(&lower) && (robot.name.starts_with(&lower) || kind.starts_with(&lower))
     };
     part.or_else(|| ROBOTS.iter().find(begins))
+        .or_else(|| typed_like(&lower))
         .map(|robot| robot.name)
         .or_else(|| spelt_like(ROBOTS, &lower))
+}
+
+/// The robot whose type begins as `lower` does without spaces, hyphens and the maker: `KUKA KR 120`, `mh-12`.
+fn typed_like(lower: &str) -> Option<&'static Embedded> {
+    let joined = |text: &str| -> String { text.chars().filter(char::is_ascii_alphanumeric).collect() };
+    let whole = joined(lower);
+    let fits = |robot: &&Embedded| {
+        let (maker, kind) = robot.name.split_once('/').unwrap_or_default();
+        let requested = whole.strip_prefix(&joined(maker)).unwrap_or(&whole);
+        requested.len() >= BEGUN && joined(kind).starts_with(requested)
+    };
+    ROBOTS.iter().find(fits)
 }
 
 /// The name that is spelt most like `lower`, if any is.
@@ -268,6 +281,9 @@ mod tests {
         assert_eq!(most_like("yaskawa/mh21"), Some("yaskawa/mh12"));
         assert_eq!(most_like("kuka/kr120"), Some("kuka/kr120r2500pro"));
         assert_eq!(most_like("kr120"), Some("kuka/kr120r2500pro"));
+        assert_eq!(most_like("KUKA KR 120"), Some("kuka/kr120r2500pro"));
+        assert_eq!(most_like("mh-12"), Some("yaskawa/mh12"));
+        assert_eq!(most_like("ABB IRB 6640"), Some("abb/irb6640-185-280"));
         assert_eq!(most_like("lathe"), None);
     }
 }

@@ -30,6 +30,17 @@ fn without_minus(value: f64) -> f64 {
     if value == 0.0 { 0.0 } else { value }
 }
 
+/// A deviation with its significant digits.
+pub fn micrometres(um: f64) -> String {
+    if um == um.round() && um < 1e6 {
+        format!("{um:.0}")
+    } else if um.abs() < 10.0 {
+        format!("{um:.2}")
+    } else {
+        format!("{um:.1}")
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -138,7 +138,7 @@ pub struct PostureAnswer {
     /// Share of each of `contributors` in the displacement.
     pub joint_share_um: Option<Vec<[f64; 3]>>,
     /// Standard uncertainty of the displacement, from those of the compliances, the repeatability of the arm and the
-    /// error of its model.
+    /// error of its model; none where it is not known.
     pub deviation_u_um: Option<[f64; 3]>,
 }
 
@@ -315,6 +315,7 @@ struct PostureDeflection {
     compliance: Option<Matrix6<f64>>,
     loaded_compliance: Option<Matrix6<f64>>,
     deviation: Option<Deviation>,
+    uncertainty_is_known: bool,
     unstable: Option<Unstable>,
 }
 
@@ -328,6 +329,7 @@ fn posture_deflection(
     arm_state.set_joints(&posture.joints);
     let mut found = PostureDeflection {
         compliance: arm_state.compliance(),
+        uncertainty_is_known: arm_state.arm().has_known_uncertainty(),
         ..PostureDeflection::default()
     };
     let Some(wrench) = wrench else { return found };
@@ -361,6 +363,7 @@ fn posture_answer(
         compliance,
         loaded_compliance,
         deviation,
+        uncertainty_is_known,
         unstable,
     } = deflection.unwrap_or_default();
     let from_si = |i: usize, value: f64| value * JointUnit::of(robot, i).scale;
@@ -399,6 +402,7 @@ fn posture_answer(
             .map(|d| d.shares.iter().map(|s| to_um(s.linear).into()).collect()),
         deviation_u_um: deviation
             .as_ref()
+            .filter(|_| uncertainty_is_known)
             .map(|d| to_um(d.covariance.diagonal().map(|v| v.max(0.0).sqrt())).into()),
     }
 }

@@ -152,10 +152,10 @@ pub struct StructureDetails {
     pub compensator: Option<CompensatorDetails>,
     /// Whether the covariance of the compliances is known.
     pub covariance_known: bool,
-    /// Standard deviation of the position of the tool in repeated visits, along any axis; zero if not known.
-    pub scatter_um: f64,
-    /// Standard uncertainty of the model apart from that of its compliances; zero if not known.
-    pub model_error_percent: f64,
+    /// Standard deviation of the position of the tool in repeated visits, along any axis; none if not known.
+    pub scatter_um: Option<f64>,
+    /// Standard uncertainty of the model apart from that of its compliances; none if not known.
+    pub model_error_percent: Option<f64>,
 }
 
 /// A direction in which the structure deflects.
@@ -179,14 +179,14 @@ pub enum SpringCompliance {
         /// Compliance.
         compliance_rad_per_n_m: f64,
         /// Its standard uncertainty.
-        compliance_u_rad_per_n_m: f64,
+        compliance_u_rad_per_n_m: Option<f64>,
     },
     /// Along a direction, which may rotate with the displacement, rad/m.
     Sliding {
         /// Compliance.
         compliance_um_per_n: f64,
         /// Its standard uncertainty.
-        compliance_u_um_per_n: f64,
+        compliance_u_um_per_n: Option<f64>,
     },
 }
 
@@ -312,7 +312,9 @@ impl JointDetails {
         let given = |value: f64| without_rounding(value * unit.scale);
         let compliance = robot.compliance().map(|all| all[index]);
         let value = compliance.map(|c| c.value * unit.compliance_scale);
-        let u = compliance.map(|c| c.standard_uncertainty * unit.compliance_scale);
+        let u = compliance
+            .and_then(|c| c.known_uncertainty())
+            .map(|u| u * unit.compliance_scale);
         let zero_offset = given(joint.zero_offset);
         let limits = joint
             .limits
@@ -350,9 +352,10 @@ impl StructureDetails {
     /// Data of the file apart from the drives, in the units of such files.
     fn of(robot: &Robot) -> StructureDetails {
         let structure = robot.structure();
+        let given = |value: f64| (value > 0.0).then_some(value);
         let name = |joint: usize| robot.joints()[joint].name.clone();
         let springs = structure.springs.iter().map(|spring| {
-            let (value, u) = (spring.compliance.value, spring.compliance.standard_uncertainty);
+            let (value, u) = (spring.compliance.value, spring.compliance.known_uncertainty());
             let turns = spring.direction.linear.norm() == 0.0;
             SpringDetails {
                 at: attachment_name(robot, spring.attachment),
@@ -365,7 +368,7 @@ impl StructureDetails {
                 } else {
                     SpringCompliance::Sliding {
                         compliance_um_per_n: to_um(value),
-                        compliance_u_um_per_n: to_um(u),
+                        compliance_u_um_per_n: u.map(to_um),
                     }
                 },
             }
@@ -397,8 +400,8 @@ impl StructureDetails {
                 angle_deg: to_deg(c.angle),
             }),
             covariance_known: structure.covariance.is_some(),
-            scatter_um: to_um(structure.repeatability),
-            model_error_percent: without_rounding(structure.model_error * 100.0),
+            scatter_um: given(structure.repeatability).map(to_um),
+            model_error_percent: given(structure.model_error).map(|part| without_rounding(part * 100.0)),
         }
     }
 }

@@ -229,7 +229,7 @@ fn a_posture_in_the_plane_has_the_deviation_of_the_map() {
     assert!((here.in_plane_um - worst["in_plane_um"].as_f64().unwrap()).abs() < 1e-6);
     // So do its uncertainty, its shares and what may act.
     let number = |key: &str| worst[key].as_f64().unwrap();
-    assert!((here.in_plane_u_um - number("in_plane_u_um")).abs() < 1e-6);
+    assert!((here.in_plane_u_um.unwrap() - number("in_plane_u_um")).abs() < 1e-6);
     let shares = &here.share_um;
     for (k, share) in shares.iter().enumerate() {
         assert!((share - worst["joint_share_um"][k].as_f64().unwrap()).abs() < 1e-6);
@@ -357,7 +357,7 @@ fn worst_and_pose(text: StudyText<'_>, analysis: &str, part: &str) -> [(f64, f64
     let shares = shares.iter().map(|share| share.as_f64().unwrap()).collect();
     [
         (number("in_plane_um"), number("in_plane_u_um"), shares),
-        (here.in_plane_um, here.in_plane_u_um, here.share_um),
+        (here.in_plane_um, here.in_plane_u_um.unwrap(), here.share_um),
     ]
 }
 

@@ -1,7 +1,7 @@
 // The deviation at the position of the robot: magnitude, in the plane, along the normal; as values and as a vector.
 
 import { h, type Child } from "../dom";
-import { DASH, fixed, mm, newton, um } from "../format";
+import { DASH, fixed, mm, newton, plusMinus, um } from "../format";
 import type { Live } from "../live";
 import { panel } from "./panel";
 
@@ -21,9 +21,9 @@ export function point(live: Live): HTMLElement {
       h(
         "div",
         { class: "three" },
-        figure("In the plane", values.in_plane_um, u, over ? "over" : "within"),
-        figure("Along the normal", values.normal_um, null),
-        figure("Full", values.full_um, null),
+        figure("In the plane", values.in_plane_um, over ? "over" : "within", u),
+        figure("Along the normal", values.normal_um),
+        figure("Full", values.full_um),
       ),
       h(
         "dl",
@@ -42,13 +42,14 @@ export function point(live: Live): HTMLElement {
   return root;
 }
 
-function figure(name: string, value: number, u: number | null, state = ""): Child {
+/** `u` is null where it is not known, and left out of a value without one. */
+function figure(name: string, value: number, state = "", u?: number | null): Child {
   return h(
     "div",
     { class: `figure ${state}` },
     h("span", { class: "figure-name" }, name),
     h("span", { class: "figure-value" }, um(value)),
-    h("span", { class: "figure-unit" }, u === null ? "µm" : `± ${um(u)} µm`),
+    h("span", { class: "figure-unit" }, u === undefined ? "µm" : `µm ${plusMinus(u)}`),
   );
 }
 

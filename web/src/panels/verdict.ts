@@ -1,7 +1,7 @@
 // The verdict: fraction within tolerance, extreme deviations, joint with the largest share.
 
 import { h, renew, type Child } from "../dom";
-import { DASH, percent, trimmed, um } from "../format";
+import { DASH, percent, plusMinus, trimmed, um } from "../format";
 import type { Live } from "../live";
 import type { Point } from "../types";
 
@@ -65,7 +65,7 @@ function extreme(live: Live, which: "worst" | "best", point: Point | null): Chil
     "button",
     { type: "button", class: "extreme", "data-follow": which, "data-key": which, "aria-pressed": String(live.follow === which), title: `Send the robot to the ${which} point`, onclick: () => live.followPoint(which) },
     h("span", { class: "extreme-name" }, which === "worst" ? "Worst" : "Best"),
-    h("span", { class: "extreme-value" }, um(point.in_plane_um), h("small", {}, ` ± ${um(point.in_plane_u_um)} µm`)),
+    h("span", { class: "extreme-value" }, um(point.in_plane_um), h("small", {}, ` µm ${plusMinus(point.in_plane_u_um)}`)),
   );
 }
 

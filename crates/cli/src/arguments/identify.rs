@@ -20,8 +20,8 @@ Groups of --unknowns: drives; bending (about the two axes perpendicular to each 
 (holder and tool, along the flange axes); lost-motion (backlash in drives). Guide: docs/guide/measure-stiffness.md
 
 Examples:
-  armill identify --plan 20 --robot yaskawa/mh12 --tool-mm 0,0,150 --out tests.csv
-  armill identify tests.csv --robot yaskawa/mh12 --tool-mm 0,0,150 --out my-mh12.toml
+  armill identify --plan 20 --robot yaskawa/mh12 --tool-mm 0,60,150 --out tests.csv
+  armill identify tests.csv --robot yaskawa/mh12 --tool-mm 0,60,150 --out my-mh12.toml
   armill identify tests.csv --robot arm.toml --unknowns drives --json"
 )]
 pub(crate) struct IdentifyArguments {
@@ -51,9 +51,9 @@ pub(crate) struct IdentifyArguments {
     /// Propose N tests to carry out, instead of evaluating a table
     #[arg(long, value_name = "N", conflicts_with = "tests")]
     pub plan: Option<usize>,
-    /// Force that you can apply (with --plan)
-    #[arg(long, value_name = "F", default_value_t = 150.0)]
-    pub pull_n: f64,
+    /// Force that you can apply, up to the weight of the payload (with --plan) [default: 150, or that weight if it is less]
+    #[arg(long, value_name = "F")]
+    pub pull_n: Option<f64>,
     /// Standard uncertainty of the displacement sensor (with --plan)
     #[arg(long, value_name = "U", default_value_t = 10.0)]
     pub gauge_um: f64,

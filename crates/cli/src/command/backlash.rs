@@ -65,6 +65,12 @@ fn estimated(arguments: &BacklashArguments, study: &Study, noise: Option<f64>) -
         output::write(&given, &found, &arguments.writing.writer("backlash").folder(out)?)?;
         say(&format!("result, table and pictures in {}", out.display()));
     }
+    if let Some(slip) = &given.slip {
+        say(&format!(
+            "warning: the backlash is not that of the robot: {}",
+            slip.sentence()
+        ));
+    }
     for warning in &given.warnings {
         say(&format!("warning: {warning}"));
     }

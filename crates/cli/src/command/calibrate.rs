@@ -44,11 +44,22 @@ pub(crate) fn run(arguments: &CalibrateArguments) -> Result<Outcome, StudyError>
     let measured = read(&shown, &arguments.poses_file, &found.robot, &given, &question)?;
     let calibration = calibrate(&found.robot, &shown, &measured, &question, &validation)?;
     let answer = answer(&found.robot, &calibration, &question);
+    print(&match arguments.json {
+        true => serde_json::to_string_pretty(&answer)?,
+        false => as_text(&answer),
+    })?;
+    if let Some(slip) = &answer.slip {
+        say(&format!(
+            "warning: the calibration is not usable: {}",
+            slip.sentence()
+        ));
+    }
     let writer = arguments.writing.writer("calibrate");
     if let Some(file) = &arguments.out {
+        calibration.check_usable()?;
         let [path, text] = robots::text_of(&arguments.robot, &found)?;
         let written = robot_file(&found.robot, [&path, &text], &calibration)?;
-        writer.write(file, written.as_bytes())?;
+        writer.clone().for_new_files().write(file, written.as_bytes())?;
         say(&format!("calibrated robot in {}", file.display()));
     }
     if let Some(file) = &arguments.residuals {
@@ -58,10 +69,6 @@ pub(crate) fn run(arguments: &CalibrateArguments) -> Result<Outcome, StudyError>
     if let Some(file) = &arguments.drawing {
         super::drawing::write(&writer, file, &drawing(&answer, &calibration))?;
     }
-    print(&match arguments.json {
-        true => serde_json::to_string_pretty(&answer)?,
-        false => as_text(&answer),
-    })?;
     Ok(Outcome::Fine)
 }
 

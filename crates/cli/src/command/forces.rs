@@ -52,6 +52,9 @@ pub(crate) fn run(arguments: &ForcesArguments) -> Result<Outcome, StudyError> {
     })?;
     let treated = treat(measured.record.clone(), &treatment).map_err(refused)?;
     let answer = answer(&shown, &measured, &treatment, &treated);
+    for warning in &answer.warnings {
+        say(&format!("warning: {warning}"));
+    }
     if let Some(out) = &arguments.out {
         output::write(
             &answer,

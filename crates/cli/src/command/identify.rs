@@ -16,6 +16,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use armill_core::nalgebra::Vector3;
+use armill_core::source::stiffness_model::FREE_FALL;
 use armill_core::units::{from_mm, from_um};
 use armill_formats::input;
 use armill_formats::measurement::load_tests;
@@ -57,7 +58,9 @@ fn question(arguments: &IdentifyArguments) -> Result<Question, StudyError> {
         Some(tool_mm) => three("--tool-mm", tool_mm)?,
         None => Vector3::zeros(),
     };
-    above_zero("--pull-n", arguments.pull_n)?;
+    if let Some(pull_n) = arguments.pull_n {
+        above_zero("--pull-n", pull_n)?;
+    }
     above_zero("--gauge-um", arguments.gauge_um)?;
     Ok(Question {
         unknowns: arguments.unknowns.clone(),
@@ -87,11 +90,12 @@ fn plan_tests(
     question: &Question,
     count: usize,
 ) -> Result<Outcome, StudyError> {
+    let pull_n = pull_n(arguments.pull_n, found.payload_kg)?;
     let plan = plan(
         &found.robot,
         question,
         count,
-        [arguments.pull_n, from_um(arguments.gauge_um)],
+        [pull_n, from_um(arguments.gauge_um)],
     )?;
     match &arguments.out {
         Some(file) => {
@@ -109,6 +113,25 @@ fn plan_tests(
     }
     say(&plan_text(&plan));
     Ok(Outcome::Fine)
+}
+
+/// Force of a plan unless the payload is less, N.
+const USUAL_PULL_N: f64 = 150.0;
+
+/// The force of a plan, N: as given, at most the weight of the payload, where that is known.
+fn pull_n(given: Option<f64>, payload_kg: Option<f64>) -> Result<f64, StudyError> {
+    let Some(weight) = payload_kg.map(|payload| payload * FREE_FALL) else {
+        return Ok(given.unwrap_or(USUAL_PULL_N));
+    };
+    match given {
+        Some(pull) if pull > weight => Err(StudyError::value(
+            format!("--pull-n: {pull} N is more than the weight of the payload, {weight:.0} N"),
+            "a force that the robot may hold in every posture",
+        )),
+        Some(pull) => Ok(pull),
+        // Whole newtons, as a spring scale is read.
+        None => Ok(USUAL_PULL_N.min(weight.floor())),
+    }
 }
 
 /// The expected uncertainty of each spring; springs determined less than half by the tests are reported as hardly
@@ -151,20 +174,28 @@ fn from_tests(
     })?;
     let tests = load_tests::read(&shown, bytes.as_slice(), &found.robot, question.tool_point)?;
     let answer = answer(&found.robot, &tests, question)?;
-    if let Some(file) = &arguments.out {
-        let [path, text] = robots::text_of(&arguments.robot, found)?;
-        let written = robot_file(&found.robot, [&path, &text], &answer, &shown)?;
-        arguments
-            .writing
-            .writer("identify")
-            .write(file, written.as_bytes())?;
-        say(&format!("robot with these compliances in {}", file.display()));
-    }
     print(&if arguments.json {
         serde_json::to_string_pretty(&answer)?
     } else {
         as_text(&answer)
     })?;
+    if let Some(slip) = &answer.slip {
+        say(&format!(
+            "warning: the compliances are not usable: {}",
+            slip.sentence()
+        ));
+    }
+    if let Some(file) = &arguments.out {
+        answer.check_usable()?;
+        let [path, text] = robots::text_of(&arguments.robot, found)?;
+        let written = robot_file(&found.robot, [&path, &text], &answer, &shown)?;
+        arguments
+            .writing
+            .writer("identify")
+            .for_new_files()
+            .write(file, written.as_bytes())?;
+        say(&format!("robot with these compliances in {}", file.display()));
+    }
     Ok(Outcome::Fine)
 }
 

@@ -27,6 +27,7 @@ use armill_study::input::quantities::pose_mm_deg;
 use armill_study::joint_unit::JointUnit;
 use armill_study::output::posture_drawing;
 use armill_study::pose::{At, PoseAnswer, PoseQuestion, PostureAnswer, answer};
+use armill_study::uncertainty_words::NOT_KNOWN;
 use armill_study::{ComplianceClass, StudyError, robots};
 
 use crate::arguments::PoseArguments;
@@ -66,7 +67,7 @@ pub(crate) fn run(arguments: &PoseArguments) -> Result<Outcome, StudyError> {
     Ok(Outcome::Fine)
 }
 
-/// Puts the compliances of `--compliance-rad-per-n-m` (exact) or `--compliance-class` into the robot;
+/// Puts the compliances of `--compliance-rad-per-n-m` (without uncertainty) or `--compliance-class` into the robot;
 /// returns a caution for the latter. Without either option the robot keeps its own.
 fn with_compliances(
     arguments: &PoseArguments,
@@ -200,17 +201,16 @@ fn posture_text(answer: &PoseAnswer, posture: &PostureAnswer) -> Vec<String> {
         ));
     }
     lines.extend(posture.unstable.iter().map(|why| format!("  UNSTABLE    {why}")));
-    if let (Some(deviation), Some(u), Some(shares)) = (
-        &posture.deviation_um,
-        &posture.deviation_u_um,
-        &posture.joint_share_um,
-    ) {
+    if let (Some(deviation), Some(shares)) = (&posture.deviation_um, &posture.joint_share_um) {
         let length = |v: &[f64; 3]| v.iter().map(|c| c * c).sum::<f64>().sqrt();
         lines.push(format!(
-            "  deviation   {} µm, {:.2} µm long (standard uncertainty {} µm)",
+            "  deviation   {} µm, {:.2} µm long (standard uncertainty {})",
             three(deviation),
             length(deviation),
-            three(u)
+            posture
+                .deviation_u_um
+                .as_ref()
+                .map_or_else(|| NOT_KNOWN.to_owned(), |u| format!("{} µm", three(u)))
         ));
         let shares = answer
             .contributors

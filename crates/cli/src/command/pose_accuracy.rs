@@ -16,7 +16,7 @@ use armill_study::{StudyError, robots};
 use super::poses::{errors_head, errors_text, frames_text, question};
 use crate::arguments::PoseAccuracyArguments;
 use crate::outcome::Outcome;
-use crate::terminal::print;
+use crate::terminal::{print, say};
 
 /// Number of poses listed.
 const MOST_LISTED: usize = 10;
@@ -35,6 +35,12 @@ pub(crate) fn run(arguments: &PoseAccuracyArguments) -> Result<Outcome, StudyErr
         true => serde_json::to_string_pretty(&answer)?,
         false => as_text(&answer),
     })?;
+    if let Some(slip) = &answer.slip {
+        say(&format!(
+            "warning: the accuracy is not that of the robot: {}",
+            slip.sentence()
+        ));
+    }
     Ok(Outcome::Fine)
 }
 

@@ -47,7 +47,7 @@ fn a_path_out_of_tolerance_is_improved_and_the_result_is_reported() {
         "of the path is then within 40 µm, largest deviation ",
         "(nominal: ",
         "Compensated (`armill compensate`), the predicted largest deviation from the path is ",
-        "µm from robot and force.",
+        "µm from robot and force).",
     ] {
         assert!(said.out.contains(words), "{words}: {}", said.out);
     }

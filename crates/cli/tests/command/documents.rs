@@ -133,6 +133,7 @@ guide! {
     guide_many_machines: "many-machines",
     guide_plotting: "plotting",
     guide_ballbar_day: "ballbar-day",
+    guide_common_mistakes: "common-mistakes",
     guide_how_far_to_trust_it: "how-far-to-trust-it",
     guide_readme: "README",
 }

@@ -5,7 +5,7 @@
 //! `pose`, `place`, `advise`, `springs`, `assumed`, `robots_check`, `import`, `materials`, `identify`, `calibrate`,
 //! `forces`, `roundness`, `ballbar`, `budget`, `path_accuracy`, `compare`, `holes`, `unloaded` (backlash). What goes
 //! wrong: `refused`, `guarded` (files of the user), `hostile` (numbers and bytes),
-//! `terminal`, `killed`, `rough` (places and inputs).
+//! `terminal`, `killed`, `rough` (places and inputs), `slips` (mistakes that are easily made).
 
 // A panic is how a test says that its claim is false; helper functions too.
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
@@ -42,6 +42,7 @@ mod roundness;
 mod run;
 mod serve;
 mod shell;
+mod slips;
 mod springs;
 mod terminal;
 mod unloaded;

@@ -1,6 +1,6 @@
 //! `armill robots check`: a robot file compared with readings of its pendant.
 
-use crate::cell::Cell;
+use crate::cell::{Cell, Said};
 
 /// Yaskawa MH12, relative to the frame of the controller, computed by hand-written 4 x 4 products; two decimals as a
 /// pendant shows.
@@ -28,6 +28,13 @@ fn changed(from: &str, to: &str) -> Cell {
     cell
 }
 
+/// What was said of a file that disagrees: exit code 1.
+#[track_caller]
+fn disagrees(said: Said) -> Said {
+    assert_eq!(said.code, 1, "stdout:\n{}\nstderr:\n{}", said.out, said.err);
+    said
+}
+
 #[test]
 fn the_library_arm_agrees_with_its_pendant() {
     let said = Cell::new()
@@ -44,24 +51,51 @@ fn the_library_arm_agrees_with_its_pendant() {
 #[test]
 fn a_wrong_sign_and_the_base_are_named_in_the_words_of_the_file() {
     let cell = changed("name = \"U\"\nsign = -1", "name = \"U\"\nsign = 1");
-    let said = cell.armill(&check("arm.toml", &[])).fine();
+    let said = disagrees(cell.armill(&check("arm.toml", &[])));
     for words in [
         "joint U has the opposite sign: sign = -1 in place of 1",
         "450.00 mm above base_link, its frame `controller`",
     ] {
         assert!(said.out.contains(words), "no `{words}` in:\n{}", said.out);
     }
-    let json = cell.armill(&check("arm.toml", &["--json"])).fine().json();
+    let json = disagrees(cell.armill(&check("arm.toml", &["--json"]))).json();
     assert_eq!(json["verdict"], "explained");
     assert_eq!(json["explanations"][0]["changes"].as_array().unwrap().len(), 2);
     assert!(json["readings"][0]["apart_mm"].as_f64().unwrap() > 100.0);
 }
 
 #[test]
+fn signs_zeros_the_flange_frame_and_the_base_are_found_together() {
+    let text = include_str!("../../../../robots/yaskawa/mh12.toml");
+    let mut other = text.to_owned();
+    for [from, to] in [
+        ["name = \"S\"\nsign = 1", "name = \"S\"\nsign = -1"],
+        ["name = \"L\"\nsign = 1", "name = \"L\"\nsign = -1"],
+        ["name = \"U\"\nsign = -1", "name = \"U\"\nsign = 1"],
+        ["name = \"R\"\nsign = -1", "name = \"R\"\nsign = 1"],
+        ["name = \"B\"\nsign = -1", "name = \"B\"\nsign = 1"],
+    ] {
+        assert!(other.contains(from), "the robot file has no `{from}`");
+        other = other.replacen(from, to, 1);
+    }
+    let cell = Cell::new();
+    cell.file("arm.toml", other);
+    let json = disagrees(cell.armill(&check("arm.toml", &["--json"]))).json();
+    assert_eq!(json["verdict"], "explained", "{json}");
+    // Five signs and the height of the base: one more than was searched before.
+    let changes = json["explanations"][0]["changes"].as_array().unwrap();
+    assert_eq!(changes.len(), 6, "{json}");
+}
+
+#[test]
 fn a_wrong_length_is_not_explained() {
     let cell = changed("length_mm = 614", "length_mm = 640");
-    let said = cell.armill(&check("arm.toml", &[])).fine();
-    assert!(said.out.contains("no sign, zero, coupling"), "{}", said.out);
+    let said = disagrees(cell.armill(&check("arm.toml", &[])));
+    assert!(
+        said.out.contains("no combination of signs, zeros, coupling"),
+        "{}",
+        said.out
+    );
 }
 
 #[test]

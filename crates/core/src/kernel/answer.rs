@@ -35,8 +35,8 @@ pub struct Evaluation {
     /// Largest in-plane deviation of all cases.
     pub in_plane: f64,
     /// Its standard uncertainty: from compliances, load and tool as far as these are known, and the repeatability of
-    /// the arm.
-    pub in_plane_uncertainty: f64,
+    /// the arm. `None` where it is not known ([`Arm::has_known_uncertainty`](crate::source::Arm)) or not computed.
+    pub in_plane_uncertainty: Option<f64>,
     /// Deviation along the outward normal, of the load case where its magnitude is largest.
     pub normal: f64,
     /// Largest magnitude of the deviation of all load cases.

@@ -30,6 +30,7 @@ pub(super) struct General<'q> {
     joints: Vec<f64>,
     deviations: Vec<Vector3<f64>>,
     shares: Vec<f64>,
+    uncertainty_is_known: bool,
     /// The same three for the best posture so far.
     kept: (Vec<f64>, Vec<Vector3<f64>>, Vec<f64>),
 }
@@ -63,6 +64,7 @@ impl<'q> General<'q> {
             joints: vec![0.0; joints],
             deviations: vec![Vector3::zeros(); cases],
             shares: vec![0.0; contributors.len()],
+            uncertainty_is_known: question.arm.has_known_uncertainty(),
             kept: (
                 vec![0.0; joints],
                 vec![Vector3::zeros(); cases],
@@ -215,7 +217,7 @@ impl<'q> General<'q> {
             singularity: found.singularity,
             worst_case: 0,
             in_plane: 0.0,
-            in_plane_uncertainty: 0.0,
+            in_plane_uncertainty: None,
             normal: 0.0,
             full: 0.0,
         };
@@ -234,7 +236,8 @@ impl<'q> General<'q> {
         }
         evaluation.take_envelope(&self.deviations, question.normal);
         if !self.contributors.is_empty() {
-            evaluation.in_plane_uncertainty = self.share(question, &evaluation, base_from_tool)?;
+            let uncertainty = self.share(question, &evaluation, base_from_tool)?;
+            evaluation.in_plane_uncertainty = self.uncertainty_is_known.then_some(uncertainty);
         }
         Ok(evaluation)
     }

@@ -98,7 +98,7 @@ impl Rows<'_> {
                     *deviation = response.under(wrench);
                 }
                 evaluation.take_envelope(deviations, stop(first + i).normal);
-                evaluation.in_plane_uncertainty = 0.0;
+                evaluation.in_plane_uncertainty = None;
             }
         }
         Ok(())

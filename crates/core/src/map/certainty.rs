@@ -10,7 +10,7 @@
 //! | `e` | tolerance | m |
 //!
 //! `P(within) = Phi((e - m) / u)`; robustly within where `m + 2 u <= e`, possibly where `m - 2 u <= e`: coverage about
-//! 95 % (JCGM 100:2008, 6.3).
+//! 95 % (JCGM 100:2008, 6.3). Where `u` is not known there is neither a probability nor a robust region.
 
 use super::plane::PlaneMap;
 use super::region::{Region, region_within};
@@ -19,13 +19,15 @@ use crate::kernel::Evaluation;
 /// Coverage factor.
 pub const COVERAGE: f64 = 2.0;
 
-/// Probability that the in-plane deviation of a point is at most `tolerance` (m).
-pub fn probability_within(evaluation: &Evaluation, tolerance: f64) -> f64 {
+/// Probability that the in-plane deviation of a point is at most `tolerance` (m); `None` where its uncertainty is not
+/// known.
+pub fn probability_within(evaluation: &Evaluation, tolerance: f64) -> Option<f64> {
     let room = tolerance - evaluation.in_plane;
-    if evaluation.in_plane_uncertainty == 0.0 {
-        return if room >= 0.0 { 1.0 } else { 0.0 };
+    match evaluation.in_plane_uncertainty? {
+        // Such as at a point without load.
+        0.0 => Some(if room >= 0.0 { 1.0 } else { 0.0 }),
+        u => Some(0.5 * libm::erfc(-room / (u * std::f64::consts::SQRT_2))),
     }
-    0.5 * libm::erfc(-room / (evaluation.in_plane_uncertainty * std::f64::consts::SQRT_2))
 }
 
 /// Robust and possible region of a map; only points inside the joint limits.
@@ -44,12 +46,17 @@ pub struct Certainty {
 }
 
 impl PlaneMap {
-    /// Robust and possible region for `tolerance` (m).
-    pub fn certainty(&self, tolerance: f64) -> Certainty {
+    /// Robust and possible region for `tolerance` (m); `None` where the uncertainty of a reached point is not known.
+    pub fn certainty(&self, tolerance: f64) -> Option<Certainty> {
         let points = self.answers.points.len().max(1) as f64;
-        let away = |uncertainties: f64| {
+        let reached = self.answers.points.iter().flatten();
+        let mut uncertainties = reached.map(|evaluation| evaluation.in_plane_uncertainty);
+        if uncertainties.any(|u| u.is_none()) {
+            return None;
+        }
+        let away = |multiple: f64| {
             self.inside_joint_limits(|evaluation| {
-                evaluation.in_plane + uncertainties * evaluation.in_plane_uncertainty
+                evaluation.in_plane + multiple * evaluation.in_plane_uncertainty.unwrap_or_default()
             })
         };
         let (most, least) = (away(COVERAGE), away(-COVERAGE));
@@ -60,14 +67,15 @@ impl PlaneMap {
                 .count();
             within as f64 / points
         };
-        let probabilities = self.inside_joint_limits(|evaluation| probability_within(evaluation, tolerance));
-        Certainty {
+        let probabilities = self
+            .inside_joint_limits(|evaluation| probability_within(evaluation, tolerance).unwrap_or_default());
+        Some(Certainty {
             fraction_robust: fraction(&most),
             fraction_possibly: fraction(&least),
             expected_fraction: probabilities.iter().flatten().sum::<f64>() / points,
             robust: region_within(&self.grid, &most, tolerance),
             possibly: region_within(&self.grid, &least, tolerance),
-        }
+        })
     }
 }
 
@@ -76,7 +84,7 @@ mod tests {
     use super::*;
     use crate::robot::{Branch, PostureName};
 
-    fn evaluation(in_plane: f64, in_plane_uncertainty: f64) -> Evaluation {
+    fn evaluation(in_plane: f64, in_plane_uncertainty: Option<f64>) -> Evaluation {
         Evaluation {
             name: PostureName::Branch(Branch::ALL[0]),
             limit_margin: f64::INFINITY,
@@ -94,14 +102,16 @@ mod tests {
     fn probabilities_are_those_of_the_normal_distribution() {
         // Phi(1), Phi(1.96), Phi(-2) as printed in tables of the standard normal distribution.
         for (in_plane, printed) in [(40e-6, 0.841_345), (30.4e-6, 0.975_002), (70e-6, 0.022_750)] {
-            let p = probability_within(&evaluation(in_plane, 10e-6), 50e-6);
+            let p = probability_within(&evaluation(in_plane, Some(10e-6)), 50e-6).unwrap();
             assert!((p - printed).abs() < 5e-7, "{p} against {printed}");
         }
     }
 
     #[test]
-    fn without_uncertainty_a_point_is_within_or_not() {
-        assert_eq!(probability_within(&evaluation(50e-6, 0.0), 50e-6), 1.0);
-        assert_eq!(probability_within(&evaluation(50.1e-6, 0.0), 50e-6), 0.0);
+    fn an_exact_point_is_within_or_not_and_unknown_is_not_exact() {
+        let of = |um: f64, u| probability_within(&evaluation(um * 1e-6, u), 50e-6);
+        assert_eq!(of(50.0, Some(0.0)), Some(1.0));
+        assert_eq!(of(50.1, Some(0.0)), Some(0.0));
+        assert_eq!(of(10.0, None), None);
     }
 }

@@ -63,7 +63,7 @@ mod tests {
             singularity: None,
             worst_case: 0,
             in_plane,
-            in_plane_uncertainty: 0.0,
+            in_plane_uncertainty: None,
             normal: 0.0,
             full: in_plane,
         };

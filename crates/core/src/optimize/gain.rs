@@ -86,9 +86,7 @@ pub fn gain(
 ) -> Result<Gain, Cancelled> {
     let [before, after] = predict(question, None)?;
     let inputs = UncertainInput::all(&question.arm, &question.uncertainty);
-    let known = inputs
-        .iter()
-        .any(|input| matches!(input, UncertainInput::Compliances(_)));
+    let known = question.arm.has_known_uncertainty();
     if !known || !(before - after).is_finite() {
         return Ok(Gain {
             before,

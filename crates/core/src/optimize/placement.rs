@@ -87,8 +87,8 @@ pub struct Score {
 pub struct PlacementEvaluation {
     /// The score with nominal values: its cost in m.
     pub score: Score,
-    /// Standard uncertainty of the cost, m; zero where points are unreachable.
-    pub uncertainty: f64,
+    /// Standard uncertainty of the cost, m; `None` where it is not known, or points are unreachable.
+    pub uncertainty: Option<f64>,
 }
 
 /// The points of `path` with these indices, relative to its part, with their wrenches.
@@ -212,12 +212,12 @@ impl Score {
 }
 
 impl PlacementEvaluation {
-    /// Probability that the cost is above `tolerance` (m), for a normal distribution with its uncertainty; `None` for
-    /// zero uncertainty.
+    /// Probability that the cost is above `tolerance` (m), for a normal distribution with its uncertainty; `None` where
+    /// this is not known.
     pub fn probability_above(&self, tolerance: f64) -> Option<f64> {
         let room = tolerance - self.score.cost;
-        let scaled = room / (self.uncertainty * std::f64::consts::SQRT_2);
-        (self.uncertainty > 0.0).then(|| 0.5 * libm::erfc(scaled))
+        let u = self.uncertainty.filter(|u| *u > 0.0)?;
+        Some(0.5 * libm::erfc(room / (u * std::f64::consts::SQRT_2)))
     }
 }
 
@@ -254,12 +254,13 @@ impl Placeable<'_> {
         let mut evaluators = self.evaluators(&off);
         let nothing = PlacementEvaluation {
             score: Score::NONE,
-            uncertainty: 0.0,
+            uncertainty: None,
         };
         let score = self.nominal(&mut evaluators.nominal, placement, self.objective.branches, None);
         score.map_or(nothing, |score| PlacementEvaluation {
             score,
-            uncertainty: self.uncertainty(&mut evaluators, placement, &score),
+            uncertainty: (self.question.arm.has_known_uncertainty() && score.unreachable == 0)
+                .then(|| self.uncertainty(&mut evaluators, placement, &score)),
         })
     }
 
@@ -288,7 +289,7 @@ impl Placeable<'_> {
             after: after.2.cost,
             uncertainty: None,
         };
-        if off.is_empty() {
+        if !self.question.arm.has_known_uncertainty() {
             return gain;
         }
         let structure = &self.question.arm.model.structure;

@@ -38,8 +38,15 @@ impl Limits {
 pub struct JointCompliance {
     /// `c`, rad/(N m) or m/N.
     pub value: f64,
-    /// Standard uncertainty of `c`, same unit.
+    /// Standard uncertainty of `c`, same unit; zero where it is not known.
     pub standard_uncertainty: f64,
+}
+
+impl JointCompliance {
+    /// The standard uncertainty; `None` where it is not known.
+    pub fn known_uncertainty(&self) -> Option<f64> {
+        (self.standard_uncertainty > 0.0).then_some(self.standard_uncertainty)
+    }
 }
 
 /// Softest joint, rad/(N m) (m/N): a newton metre turns no machining joint by a radian.

@@ -8,7 +8,7 @@
 //! [`arm_state`]: one arm in one posture, and the effect of each source there; `predict.rs` adds them.
 //!
 //! `deviation`: the sum of all sources; `contributor`: what it is shared out to; `uncertain_input`: an arm with one input
-//! changed by its standard uncertainty. `linear_system`: small systems of equations in reused memory.
+//! changed by its standard uncertainty; `known_uncertainty`: which inputs have one. `linear_system`: small systems of equations in reused memory.
 
 pub mod arm_state;
 pub mod backlash;
@@ -18,6 +18,7 @@ pub mod elastic;
 pub mod equilibrium;
 pub mod geometric;
 pub mod gravity;
+mod known_uncertainty;
 mod linear_system;
 pub mod repeatability;
 pub mod stiffness_model;
@@ -28,6 +29,7 @@ pub use arm_state::{ArmState, Links};
 pub use contributor::Contributor;
 pub use deviation::Deviation;
 pub use equilibrium::Unstable;
+pub use known_uncertainty::InputWithoutUncertainty;
 pub use stiffness_model::{Arm, Gravity, StiffnessModel};
 pub use thermal::ThermalGrowth;
 pub(crate) use uncertain_input::compliance_changes;

@@ -383,7 +383,7 @@ pub fn answers_at(joints: &[[f64; 2]]) -> Answers {
         singularity: None,
         worst_case: 0,
         in_plane: 0.0,
-        in_plane_uncertainty: 0.0,
+        in_plane_uncertainty: None,
         normal: 0.0,
         full: 0.0,
     };

@@ -52,7 +52,7 @@ fn whole_answers_agree_with_predict_and_add_up() {
                             let along = along.normalize();
                             let variance = (along.transpose() * witness.covariance * along).x;
                             assert!(
-                                (variance.sqrt() - evaluation.in_plane_uncertainty).abs()
+                                (variance.sqrt() - evaluation.in_plane_uncertainty.unwrap()).abs()
                                     < 1e-10 * evaluation.full
                             );
                         }

@@ -73,7 +73,7 @@ fn maps_and_known_joints_agree_with_predict_on_any_number_of_threads() {
                 "{sum} {}",
                 point.in_plane
             );
-            assert!(point.in_plane_uncertainty > 0.0);
+            assert!(point.in_plane_uncertainty.unwrap() > 0.0);
         }
         let arm = Arm {
             robot: &robot,

@@ -170,6 +170,10 @@ impl Checker<'_> {
                 Some(format!("write the number without quotes: `{}`", text.trim()))
             }
             (Shape::Integer(_), Value::Real(_)) => Some("write it without a decimal point".to_owned()),
+            (Shape::List(list), Value::Whole(_) | Value::Real(_)) if list.fewest <= 1 => Some(format!(
+                "write a list: `[{}]`",
+                &self.source.text()[value.span.clone()]
+            )),
             (Shape::List(_), Value::Table(_)) => {
                 Some(format!("tables that repeat are written `[[{}]]`", place.path))
             }
@@ -241,7 +245,11 @@ impl Checker<'_> {
             );
             let noun = if count == 1 { "entry" } else { "entries" };
             let message = format!("`{}` has {count} {noun}: expected {expected}", place.path);
-            self.report(value.span.clone(), message, None);
+            self.report(
+                value.span.clone(),
+                message,
+                pose_hint(value, entries, place, self.source),
+            );
         }
         for (index, entry) in entries.iter().enumerate() {
             let shape = list.first.get(index).unwrap_or(&list.others);
@@ -397,6 +405,15 @@ fn same(choice: &Json, given: &Value) -> bool {
         Value::Real(real) => choice.as_f64() == Some(*real),
         _ => false,
     }
+}
+
+/// A hint for a pose of three numbers: its rotations are missing.
+fn pose_hint(value: &Node, entries: &[Node], place: &ValuePosition<'_>, source: &Source) -> Option<String> {
+    let is_number = |entry: &Node| matches!(entry.value, Value::Whole(_) | Value::Real(_));
+    let is_position = place.field.ends_with("_mm_deg") && entries.len() == 3 && entries.iter().all(is_number);
+    let text = source.text().get(value.span.clone())?;
+    let numbers = text.strip_suffix(']')?.trim_end().trim_end_matches(',');
+    is_position.then(|| format!("add the rotations in deg: `{numbers}, 0, 0, 0]`"))
 }
 
 /// A hint that lists the fields of a table, unless they are many.

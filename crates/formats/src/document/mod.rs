@@ -186,12 +186,37 @@ fn syntax_problems(source: &Source, errors: &[toml::de::Error]) -> Problems {
             continue;
         }
         let message = format!("not valid TOML: {}", error.message().trim());
-        problems.push(source.problem(span, message, syntax_hint(error.message())));
+        let hint = decimal_comma(source.text(), &span).or_else(|| syntax_hint(error.message()));
+        problems.push(source.problem(span, message, hint));
         if problems.len() == MOST_SYNTAX_PROBLEMS {
             break;
         }
     }
     Problems::from(problems)
+}
+
+/// Advice where a comma between two digits, at `span` or just before, is a decimal comma: `0,1`.
+fn decimal_comma(text: &str, span: &Range<usize>) -> Option<String> {
+    let bytes = text.as_bytes();
+    let is_digit = |at: Option<usize>| at.and_then(|at| bytes.get(at)).is_some_and(u8::is_ascii_digit);
+    let is_decimal = |at: &usize| {
+        bytes.get(*at) == Some(&b',') && is_digit(at.checked_sub(1)) && is_digit(at.checked_add(1))
+    };
+    // A parser may notice it only behind the decimals.
+    let decimals = bytes[..span.start.min(bytes.len())]
+        .iter()
+        .rev()
+        .take_while(|byte| byte.is_ascii_digit())
+        .count();
+    let before = span.start.saturating_sub(1);
+    let at = [span.start, before, before.saturating_sub(decimals)]
+        .into_iter()
+        .find(is_decimal)?;
+    let digits = |byte: &&u8| byte.is_ascii_digit();
+    let before = bytes[..at].iter().rev().take_while(digits).count();
+    let after = bytes[at + 1..].iter().take_while(digits).count();
+    let [whole, part] = [&text[at - before..at], &text[at + 1..at + 1 + after]];
+    Some(format!("write decimals with a point: `{whole}.{part}`"))
 }
 
 /// Advice for the two slips that are made most often, by what the parser says of them.

@@ -103,7 +103,12 @@ pub(super) fn split(name: &str) -> Option<(&str, Unit)> {
 
 /// The unit of the value at `path` in a field of this name, as people read it: of a number of a pose its own.
 pub(super) fn of_value(field: &str, path: &str) -> Option<String> {
-    let (_, unit) = split(field)?;
+    let unit = match split(field) {
+        Some((_, unit)) => unit,
+        // A name that is a quotient of units alone, such as `rad_per_n_m`.
+        None if field.contains("_per_") => split(&format!("value_{field}"))?.1,
+        None => return None,
+    };
     let index = path.strip_suffix(']').and_then(|path| path.rsplit_once('['));
     let index = index.and_then(|(_, index)| index.parse::<usize>().ok());
     Some(match index {
@@ -143,6 +148,9 @@ pub(super) fn renamed<'a>(old: &str, mut known: impl Iterator<Item = &'a str>) -
 pub(crate) fn suggestion<'a>(unknown: &str, known: &[&'a str]) -> Option<(&'a str, String)> {
     let plain = |name: &str| name.to_lowercase().replace('-', "_");
     let requested = plain(unknown);
+    if let Some(inverse) = inverse_of_stiffness(&requested, known) {
+        return Some(inverse);
+    }
     let base = split(&requested).map_or(requested.as_str(), |(base, _)| base);
     for name in known {
         let Some((known_base, unit)) = split(name) else {
@@ -169,9 +177,35 @@ pub(crate) fn suggestion<'a>(unknown: &str, known: &[&'a str]) -> Option<(&'a st
         .map(|(_, name)| (name, format!("did you mean `{name}`?")))
 }
 
+/// Units of stiffness, each with that of the compliance.
+const INVERSE: [(&str, &str); 2] = [("n_m_per_rad", "rad_per_n_m"), ("n_per_um", "um_per_n")];
+
+/// The compliance to write for an unknown field that is a stiffness, and the advice.
+fn inverse_of_stiffness<'a>(requested: &str, known: &[&'a str]) -> Option<(&'a str, String)> {
+    let (_, compliance) = INVERSE
+        .iter()
+        .find(|(stiffness, _)| requested.ends_with(stiffness))?;
+    let is_it = |name: &&&str| name.ends_with(compliance) && !name.starts_with("u_") && !name.contains("_u_");
+    let name = known.iter().find(is_it)?;
+    Some((
+        name,
+        format!("a compliance is 1/stiffness: write `{name}` with 1/k for each stiffness k"),
+    ))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_stiffness_is_given_as_its_inverse() {
+        let known = ["u_rad_per_n_m", "rad_per_n_m", "class"];
+        let advice = suggestion("stiffness_n_m_per_rad", &known).unwrap();
+        assert_eq!(advice.0, "rad_per_n_m");
+        assert!(advice.1.contains("1/k"), "{}", advice.1);
+        // A field that exists is no inverse of another.
+        assert_eq!(suggestion("stiffness_n_per_um", &["class"]), None);
+    }
 
     fn shown(name: &str) -> Option<(&str, String)> {
         split(name).map(|(base, unit)| (base, unit.shown))

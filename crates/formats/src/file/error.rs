@@ -43,6 +43,13 @@ pub enum FileError {
         /// The paths as they were given; at least one.
         paths: Vec<PathBuf>,
     },
+    /// Files that no command replaces unasked.
+    #[error("cannot write {}: {}; choose another place, or replace with --force", listed(paths),
+            if paths.len() == 1 { "the file exists" } else { "the files exist" })]
+    Exists {
+        /// The paths as they were given; at least one.
+        paths: Vec<PathBuf>,
+    },
     /// The file is an input of the same command.
     #[error("cannot write `{}`: this command reads that file; choose another name", path.display())]
     IsInput {
@@ -127,7 +134,9 @@ impl FileError {
             | Self::NoSpace { path, .. }
             | Self::Other { path, .. } => path,
             Self::InUse { folder, .. } => folder,
-            Self::NotOurs { paths } => paths.first().map_or(Path::new(""), PathBuf::as_path),
+            Self::NotOurs { paths } | Self::Exists { paths } => {
+                paths.first().map_or(Path::new(""), PathBuf::as_path)
+            }
         }
     }
 

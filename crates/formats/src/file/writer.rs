@@ -24,6 +24,8 @@ pub struct Writer {
     force: bool,
     /// Whether what is written is armill's, to be replaced by later commands.
     lists: bool,
+    /// Whether files that armill made are replaced without `force`.
+    replaces: bool,
     inputs: Inputs,
 }
 
@@ -34,6 +36,7 @@ impl Writer {
             by,
             force,
             lists: true,
+            replaces: true,
             inputs: Inputs::current(),
         }
     }
@@ -42,6 +45,16 @@ impl Writer {
     #[must_use]
     pub fn for_the_user(self) -> Writer {
         Writer { lists: false, ..self }
+    }
+
+    /// One that replaces no file without `force`, not even one that armill made: a robot file may be the only record of a
+    /// measurement.
+    #[must_use]
+    pub fn for_new_files(self) -> Writer {
+        Writer {
+            replaces: false,
+            ..self
+        }
     }
 
     /// Writes one file. A device or pipe is written directly.
@@ -151,13 +164,15 @@ impl Writer {
             if self.inputs.contains(&identity) {
                 return Err(FileError::IsInput { path: path.clone() });
             }
-            if path.is_file() && !self.force && !ledger.is_ours(name, path) {
+            let may_replace = self.replaces && ledger.is_ours(name, path);
+            if path.is_file() && !self.force && !may_replace {
                 refused.push(path.clone());
             }
         }
-        match refused.is_empty() {
-            true => Ok(()),
-            false => Err(FileError::NotOurs { paths: refused }),
+        match (refused.is_empty(), self.replaces) {
+            (true, _) => Ok(()),
+            (false, true) => Err(FileError::NotOurs { paths: refused }),
+            (false, false) => Err(FileError::Exists { paths: refused }),
         }
     }
 
@@ -294,6 +309,20 @@ mod tests {
 
     fn is_not_ours(result: Result<(), FileError>) -> bool {
         matches!(result, Err(FileError::NotOurs { .. }))
+    }
+
+    #[test]
+    fn a_file_of_ours_is_kept_by_a_writer_for_new_files_unless_forced() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("robot.toml");
+        Writer::new("calibrate", false).write(&file, b"first").unwrap();
+        let careful = Writer::new("calibrate", false).for_new_files();
+        let refused = careful.write(&file, b"second");
+        assert!(matches!(refused, Err(FileError::Exists { .. })), "{refused:?}");
+        assert_eq!(fs::read(&file).unwrap(), b"first");
+        let forced = Writer::new("calibrate", true).for_new_files();
+        forced.write(&file, b"second").unwrap();
+        assert_eq!(fs::read(&file).unwrap(), b"second");
     }
 
     #[test]

@@ -49,14 +49,18 @@ pub struct LoadTests {
     pub names: Vec<String>,
     /// Number of rows without a reading.
     pub empty_rows: usize,
+    /// Joint positions a little outside the limits of the robot file, each a sentence: a measured posture is a fact.
+    pub outside_limits: Vec<String>,
     /// Whether every reading has a standard uncertainty.
     pub uncertainties_stated: bool,
 }
 
 /// Standard uncertainty of a displacement (m) and of a rotation (rad) if none is given. Only their ratio matters.
 const UNSTATED: [f64; 2] = [1e-5, 1e-5];
-/// A joint position further outside the limits than this (rad, m) is not a posture of this robot.
-const OUTSIDE: f64 = 0.0175;
+/// A joint position further outside the limits than this, 10 deg in rad and 17.5 mm in m, is not a posture of this robot.
+const OUTSIDE: [f64; 2] = [0.1745, 0.0175];
+/// A joint outside its limits by less is at its limit, rad (m): limits of robot files are rounded.
+const AT_LIMIT: f64 = 2e-3;
 /// An angle above this value in radians is in degrees.
 const TURNS: f64 = 4.0 * std::f64::consts::PI;
 /// If all angles are below this many degrees, they were radians: tests so close together would give no information.
@@ -96,6 +100,7 @@ pub fn read(
         sheet: &sheet,
         robot,
         tool_point,
+        outside_limits: Vec::new(),
         problems: Vec::new(),
     };
     if let Some(cell) = sheet.heads().get(MOST_COLUMNS) {
@@ -108,6 +113,7 @@ pub fn read(
         tests: Vec::new(),
         names: Vec::new(),
         empty_rows: 0,
+        outside_limits: Vec::new(),
         uncertainties_stated: true,
     };
     for row in &sheet.rows {
@@ -117,6 +123,7 @@ pub fn read(
         reader.row(row, &columns, &mut found);
     }
     reader.angles(&columns);
+    found.outside_limits = std::mem::take(&mut reader.outside_limits);
     if found.tests.is_empty() && reader.problems.is_empty() {
         let message = format!("none of the {} rows has a reading", sheet.rows.len());
         let hint = "fill in the measured values: dx_mm, dy_mm, dz_mm; one of them is enough";
@@ -136,6 +143,8 @@ struct Reader<'a> {
     robot: &'a Robot,
     /// Force point and gauge point if no column gives them; flange frame, m.
     tool_point: Vector3<f64>,
+    /// Joint positions a little outside the limits.
+    outside_limits: Vec<String>,
     /// Problems found so far.
     problems: Vec<Problem>,
 }
@@ -329,19 +338,18 @@ impl Reader<'_> {
         None
     }
 
-    /// Reports a joint position that is outside the limits of its joint by more than [`OUTSIDE`]: about 1 deg,
-    /// or 17.5 mm. `value` is the value in the file, `scale` its factor to SI.
+    /// Reports a joint position that is outside the limits of its joint by more than [`OUTSIDE`], and notes one that is
+    /// by less. `value` is the value in the file, `scale` its factor to SI.
     fn within_limits(&mut self, cell: &Place<'_>, joint: usize, [value, scale]: [f64; 2]) {
         let position = value * scale;
         let described = &self.robot.joints()[joint];
         let Some(limits) = described.limits else { return };
         // An angle of many turns is reported once per column, as degrees read as radians.
-        if limits.margin(position) >= -OUTSIDE
-            || (!self.robot.slides(joint) && scale == 1.0 && value.abs() > TURNS)
-        {
+        let slides = self.robot.slides(joint);
+        if limits.margin(position) >= -AT_LIMIT || (!slides && scale == 1.0 && value.abs() > TURNS) {
             return;
         }
-        let (scale, unit) = if self.robot.slides(joint) {
+        let (scale, unit) = if slides {
             (1e3, "mm")
         } else {
             (to_deg(1f64), "deg")
@@ -353,6 +361,11 @@ impl Reader<'_> {
             limits.lower * scale,
             limits.upper * scale
         );
+        if limits.margin(position) >= -OUTSIDE[usize::from(slides)] {
+            return self
+                .outside_limits
+                .push(format!("line {}: {message}", cell.line.number));
+        }
         self.report(
             cell,
             message,

@@ -10,6 +10,7 @@ use armill_study::file::resolve::Study;
 use serde::Serialize;
 
 use super::circles::{BacklashEstimate, FollowedCircle};
+use crate::data_check::SlipAnswer;
 
 /// Backlash of each joint.
 #[derive(Clone, Debug, Serialize)]
@@ -30,6 +31,8 @@ pub struct BacklashAnswer {
     pub rms_before_um: f64,
     /// The same with backlash fitted too.
     pub rms_after_um: f64,
+    /// The likely slip in the angles of the files.
+    pub slip: Option<SlipAnswer>,
     /// What a user must know, each a sentence.
     pub warnings: Vec<String>,
 }
@@ -125,7 +128,7 @@ pub(super) fn answer(study: &Study, found: &BacklashEstimate<'_>) -> BacklashAns
     }
     for gap in gaps.estimates.iter().filter(|gap| gap.gap < -BELOW_ZERO * gap.u) {
         warnings.push(format!(
-            "{}: the backlash is below zero: check the angles of the files (zero_deg, mirrored), or the link is ahead of its motor",
+            "{}: the backlash is below zero: check the angles of the files (zero_deg, mirrored), their direction and the sign of the radii, or the link is ahead of its motor",
             name(gap.joint)
         ));
     }
@@ -144,6 +147,7 @@ pub(super) fn answer(study: &Study, found: &BacklashEstimate<'_>) -> BacklashAns
         samples: gaps.samples,
         rms_before_um: to_um(gaps.rms_before),
         rms_after_um: to_um(gaps.rms_after),
+        slip: None,
         warnings,
     }
 }

@@ -1,12 +1,15 @@
 //! The backlash of the joints from measurements on circles of the study.
 
-use armill_core::measure::ballbar::joints::{BacklashOptions, Observed, fit_backlash};
+use armill_core::measure::ballbar::CircularTest;
+use armill_core::measure::ballbar::joints::{BacklashOptions, Followed, Observed, fit_backlash};
 use armill_core::watch::Watch;
 use armill_study::error::StudyError;
 use armill_study::file::circles::MeasuredCircle;
 use armill_study::file::resolve::Study;
 
 use super::answer::{BacklashAnswer, answer};
+use crate::data_check;
+
 use super::circles::{BacklashEstimate, CircleAnalysis, FollowedCircle, circles, followed};
 
 /// Options of the estimate.
@@ -81,6 +84,13 @@ pub fn estimate<'a>(
         )
     })?;
     let estimated = BacklashEstimate { circles, gaps };
-    let given = answer(study, &estimated);
+    let observed: Vec<(&Followed, &CircularTest)> = (estimated.circles.iter())
+        .map(|of| (&of.followed, &of.measured.test))
+        .collect();
+    let slip = data_check::circles::slip(&observed, &requested, estimated.gaps.rms_after);
+    let given = BacklashAnswer {
+        slip,
+        ..answer(study, &estimated)
+    };
     Ok((estimated, given))
 }

@@ -9,6 +9,7 @@ use serde::Serialize;
 
 use super::calibration::{Calibration, PoseSet};
 use super::question::Question;
+use crate::data_check::SlipAnswer;
 
 /// Number of poses reported individually: the worst of each set.
 const WORST: usize = 5;
@@ -43,6 +44,8 @@ pub struct CalibrateAnswer {
     pub unused: Vec<String>,
     /// Rows without a measured point.
     pub not_measured: usize,
+    /// The likely slip in the data: an axis, a unit, a joint or one pose with which they agree much better.
+    pub slip: Option<SlipAnswer>,
     /// Notes on these numbers.
     pub notes: Vec<String>,
     /// Sources of the methods.
@@ -184,6 +187,7 @@ pub fn answer(robot: &Robot, calibration: &Calibration, question: &Question) -> 
         standard_deviation_mm: reported(to_mm(after.standard_deviation)),
         unused: calibration.unused.clone(),
         not_measured: calibration.not_measured,
+        slip: calibration.slip.clone(),
         notes,
         sources: vec![
             "Everett, Driels, Mooring 1987: how many parameters a chain has",

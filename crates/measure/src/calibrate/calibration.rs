@@ -3,10 +3,12 @@
 
 use armill_core::calibrate::{Calibrated, MeasuredPose, ParameterSet, PoseErrors, Refusal, fit};
 use armill_core::robot::Robot;
+use armill_core::units::to_mm;
 use armill_formats::measurement::poses::MeasuredPoses;
 use armill_study::StudyError;
 
 use super::question::{Question, ValidationPoses, read};
+use crate::data_check::{self, SlipAnswer};
 
 /// Fewest training and validation poses for a fraction.
 const FEWEST: usize = 4;
@@ -39,6 +41,8 @@ pub struct Calibration {
     pub training: PoseSet,
     /// Validation poses.
     pub validation: Option<PoseSet>,
+    /// The likely slip in the data.
+    pub slip: Option<SlipAnswer>,
     /// Columns that were passed over.
     pub unused: Vec<String>,
     /// Rows without a measured point.
@@ -66,8 +70,16 @@ pub fn calibrate(
     let lines = |places: &[usize]| places.iter().map(|place| measured.lines[*place]).collect();
     let poses = chosen(&kept);
     let by = |poses: &[MeasuredPose], requested| fit(robot, poses, &question.for_core(requested));
-    let before = by(&poses, ParameterSet::BaseAndTool).map_err(|error| refused(shown, &error))?;
-    let after = by(&poses, question.requested).map_err(|error| refused(shown, &error))?;
+    let check = || {
+        let frames = question.for_core(ParameterSet::BaseAndTool);
+        data_check::poses::slip(robot, &measured.poses, &measured.lines, &frames)
+    };
+    let not_found = |error: Refusal| match &error {
+        Refusal::NotFound => refused_by(shown, &error, check().as_ref()),
+        _ => refused(shown, &error),
+    };
+    let before = by(&poses, ParameterSet::BaseAndTool).map_err(not_found)?;
+    let after = by(&poses, question.requested).map_err(not_found)?;
     let training = PoseSet {
         file: shown.to_owned(),
         lines: lines(&kept),
@@ -112,10 +124,45 @@ pub fn calibrate(
         after,
         training,
         validation,
+        slip: check(),
         unused: measured.unused.clone(),
         not_measured: measured.not_measured,
     })
 }
+
+impl Calibration {
+    /// Whether the calibrated chain may be written to a robot file.
+    ///
+    /// # Errors
+    /// Data with a likely slip; validation poses that the calibrated chain predicts worse than the nominal one.
+    pub fn check_usable(&self) -> Result<(), StudyError> {
+        if let Some(slip) = &self.slip {
+            return Err(StudyError::value(
+                format!("--out: the calibration is not usable: {}", slip.sentence()),
+                "correct the data, or leave --out out to see the result",
+            ));
+        }
+        let rms = |errors: &PoseErrors| errors.of_position().map(|spread| spread.rms);
+        let of = |set: &PoseSet| rms(&set.before).zip(rms(&set.after));
+        let Some((before, after)) = self.validation.as_ref().and_then(of) else {
+            return Ok(());
+        };
+        if after > MOST_WORSE * before {
+            return Err(StudyError::value(
+                format!(
+                    "--out: the calibration is not usable: validation poses are missed by {:.3} mm rms, {:.3} mm with the robot file as it is",
+                    to_mm(after),
+                    to_mm(before)
+                ),
+                "more training poses, over the same range of the joints; or fewer parameters: --unknowns zeros",
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// Errors of validation poses over those before, above which a calibration makes no robot file.
+const MOST_WORSE: f64 = 1.3;
 
 /// Poses measured in another set-up: base and tool are fitted again, for both chains.
 fn elsewhere(
@@ -183,6 +230,20 @@ fn parted(
         ));
     }
     Ok((kept, apart))
+}
+
+/// What the core refuses, of a file with this likely slip.
+pub(crate) fn refused_by(shown: &str, error: &Refusal, slip: Option<&SlipAnswer>) -> StudyError {
+    match slip {
+        Some(slip) => StudyError::value(
+            format!(
+                "{shown}: no geometry near the nominal one was found; {}",
+                slip.sentence()
+            ),
+            "correct the data",
+        ),
+        None => refused(shown, error),
+    }
 }
 
 /// What the core refuses, of a file.

@@ -11,6 +11,8 @@ use armill_study::measured::treatment::{ProcessedRecord, Treatment};
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::data_check;
+
 /// A record in numbers.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct ForcesAnswer {
@@ -42,6 +44,8 @@ pub struct ForcesAnswer {
     pub before: SummaryAnswer,
     /// As it was treated.
     pub after: SummaryAnswer,
+    /// What is implausible in the record, each a sentence.
+    pub warnings: Vec<String>,
     /// Turns of the spindle.
     pub revolutions: Option<RevolutionsAnswer>,
 }
@@ -144,6 +148,7 @@ pub fn answer(
             .map(|drift| DriftAnswer::of(drift, &treatment.air)),
         low_pass_hz: treatment.low_pass_hz,
         spindle_rpm: treatment.spindle_rpm,
+        warnings: data_check::force_records::warnings(record),
         before: SummaryAnswer::of(record),
         after: SummaryAnswer::of(&treated.after),
         revolutions: treated.turns.as_ref().map(|turns| RevolutionsAnswer {

@@ -16,6 +16,8 @@ use armill_study::StudyError;
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::data_check::{self, SlipAnswer};
+
 use super::question::{PointsModel, PriorModel, Question, Units, attachment_name, spring_name};
 
 /// Result of load tests. The fields are those of the JSON result.
@@ -47,6 +49,8 @@ pub struct Answer {
     pub not_identifiable: Vec<Vec<String>>,
     /// Every test.
     pub by_test: Vec<TestAnswer>,
+    /// The likely slip in the data: a sign, an order of columns or a zero with which they agree much better.
+    pub slip: Option<SlipAnswer>,
     /// What a user should know.
     pub notes: Vec<String>,
     /// The numbers as the core has them.
@@ -142,6 +146,8 @@ pub struct TestAnswer {
 const TOO_LARGE: f64 = 300.0;
 /// The same to the other side.
 const TOO_SMALL: f64 = 0.01;
+/// Left-out tests that are missed by a larger fraction of their displacement make no robot file.
+const MOST_MISSED: f64 = 0.3;
 /// Springs of which the tests determine less than this are listed.
 const HARDLY_KNOWN: f64 = 0.5;
 
@@ -153,6 +159,7 @@ pub fn answer(robot: &Robot, tests: &LoadTests, question: &Question) -> Result<A
     let unknowns = question.unknowns(robot, &tests.tests)?;
     if question.units == Units::Checked {
         check_units(robot, &tests.tests)?;
+        check_direction(robot, tests)?;
     }
     let method = Method {
         prior: question.prior(),
@@ -169,7 +176,56 @@ pub fn answer(robot: &Robot, tests: &LoadTests, question: &Question) -> Result<A
     };
     let identified =
         identify(robot, &unknowns, &tests.tests, method).map_err(|refusal| refused(&refusal, question))?;
-    Ok(reported(robot, tests, question, unknowns, identified))
+    let slip = data_check::load_tests::slip(robot, &tests.tests, &tests.names);
+    let mut answer = reported(robot, tests, question, unknowns, identified);
+    answer.slip = slip;
+    Ok(answer)
+}
+
+impl Answer {
+    /// Whether these compliances may be written to a robot file.
+    ///
+    /// # Errors
+    /// Data with a likely slip; tests that the others predict too badly.
+    pub fn check_usable(&self) -> Result<(), StudyError> {
+        if let Some(slip) = &self.slip {
+            return Err(StudyError::value(
+                format!("--out: the compliances are not usable: {}", slip.sentence()),
+                "correct the data, or leave --out out to see the result",
+            ));
+        }
+        let missed = self
+            .left_out
+            .as_ref()
+            .map_or(0.0, |errors| errors.fraction_of_measured);
+        if missed > MOST_MISSED {
+            return Err(StudyError::value(
+                format!(
+                    "--out: the compliances are not usable: left-out tests are missed by {:.0} % of their displacement, at most {:.0} % is accepted",
+                    missed * 100.0,
+                    MOST_MISSED * 100.0
+                ),
+                "check the worst tests (--json: by_test), the force points and the posture of each test; or add --unknowns drives+bending",
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// Refuses displacements against the force in most tests: no elastic arm moves so.
+fn check_direction(robot: &Robot, tests: &LoadTests) -> Result<(), StudyError> {
+    let Some([against, all]) = data_check::load_tests::against_force(&tests.tests) else {
+        return Ok(());
+    };
+    if 2 * against <= all {
+        return Ok(());
+    }
+    let slip = data_check::load_tests::slip(robot, &tests.tests, &tests.names);
+    let slip = slip.map_or_else(String::new, |slip| format!("; {}", slip.sentence()));
+    Err(StudyError::value(
+        format!("the displacement is against the force in {against} of {all} tests{slip}"),
+        "give the force on the tool, not its reaction, and loaded minus unloaded displacements: reverse the sign of one of them; --trust-units accepts the values",
+    ))
 }
 
 /// Refuses readings so far from those of a typical robot that a unit must be wrong.
@@ -313,6 +369,7 @@ fn reported(
             .map(|set| set.iter().map(|k| names[*k].clone()).collect())
             .collect(),
         by_test,
+        slip: None,
         notes: notes(tests, &names, &identified),
         identified,
         unknowns,
@@ -350,6 +407,15 @@ fn notes(tests: &LoadTests, names: &[String], identified: &Identified) -> Vec<St
         notes.push(format!(
             "{} rows without a reading were passed over",
             tests.empty_rows
+        ));
+    }
+    if let Some(first) = tests.outside_limits.first() {
+        let more = match tests.outside_limits.len() - 1 {
+            0 => String::new(),
+            more => format!(", and {more} more"),
+        };
+        notes.push(format!(
+            "postures outside the limits of the robot file are used as measured: {first}{more}"
         ));
     }
     let hardly: Vec<&str> = identified

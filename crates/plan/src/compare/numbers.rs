@@ -152,7 +152,7 @@ fn numbers(
         mean_in_plane_um: (reached > 0).then(|| deviations.iter().sum::<f64>() / reached as f64),
         p95_in_plane_um: nearest_rank(&deviations, 0.95),
         max_in_plane_um: deviations.last().copied(),
-        max_in_plane_u_um: worst.map(|worst| worst.in_plane_u_um).filter(|u| *u > 0.0),
+        max_in_plane_u_um: worst.and_then(|worst| worst.in_plane_u_um),
         max_normal_um: normal.max_by(f64::total_cmp),
         fraction_within: counts.fraction_within(),
         fraction_within_and_inside_joint_limits: counts.fraction_within_and_inside_joint_limits(),

@@ -3,6 +3,7 @@
 use armill_core::optimize::{PlacementEvaluation, RankBy};
 use armill_core::units::to_um;
 use armill_study::analysis::words::micrometres;
+use armill_study::uncertainty_words::{plus_minus, u_in_words};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -65,8 +66,9 @@ pub struct PlacementAnswer {
 pub struct OutcomeAnswer {
     /// The objective, over the reachable points.
     pub cost_um: f64,
-    /// Its standard uncertainty, from those of the joints' compliances and of the size of the load.
-    pub cost_u_um: f64,
+    /// Its standard uncertainty, from those of the joints' compliances and of the size of the load; none where it is not
+    /// known.
+    pub cost_u_um: Option<f64>,
     /// Probability that it is above the tolerance, if it is not certain.
     pub probability_above_tolerance: Option<f64>,
     /// Points that the robot does not reach inside its limits and away from singularities.
@@ -95,7 +97,7 @@ impl OutcomeAnswer {
         let cost = if score.cost.is_finite() { score.cost } else { 0.0 };
         OutcomeAnswer {
             cost_um: to_um(cost),
-            cost_u_um: to_um(uncertainty),
+            cost_u_um: uncertainty.map(to_um),
             probability_above_tolerance: evaluated.probability_above(limit),
             unreachable_points: score.unreachable,
             branch: score.branch.map(|branch| branch.to_string()),
@@ -113,12 +115,9 @@ impl PlacementAnswer {
         };
         let value = |outcome: &OutcomeAnswer| match outcome.unreachable_points {
             0 => format!(
-                "{}{} µm",
+                "{} {} µm",
                 micrometres(outcome.cost_um),
-                match outcome.cost_u_um {
-                    0.0 => String::new(),
-                    u => format!(" ± {}", micrometres(u)),
-                }
+                plus_minus(outcome.cost_u_um.map(micrometres))
             ),
             lost => format!("no posture at {lost} of {} points", self.points),
         };
@@ -202,10 +201,7 @@ impl PlacementAnswer {
 
     /// The gain, its uncertainty, and whether it counts.
     fn gain_in_words(&self) -> String {
-        let u = match self.gain_u_um {
-            Some(u) => format!("u = {} µm", micrometres(u)),
-            None => "u not known".to_owned(),
-        };
+        let u = u_in_words(self.gain_u_um);
         let amount = format!("{} µm ({u})", micrometres(self.gain_um.max(0.0)));
         let least = micrometres(self.least_gain_um);
         match self.is_improvement {

@@ -33,7 +33,7 @@ pub use result::PlacementResult;
 
 use armill_core::kernel::{BranchChoice, PartPlacement};
 use armill_core::nalgebra::{Point3, UnitQuaternion, Vector3};
-use armill_core::optimize::{PlacementObjective, PostureSearch, PostureSelection, ToolTurn, on_part};
+use armill_core::optimize::{PlacementObjective, PostureSearch, PostureSelection, RankBy, ToolTurn, on_part};
 use armill_core::path::{LoadedTrack, Spin};
 use armill_core::robot::BranchPattern;
 use armill_core::units::{from_deg, from_mm, to_deg, to_mm, to_um};
@@ -384,16 +384,31 @@ impl<'a> PlacementSearch<'a> {
                 Some(search) => PostureSelection::PerPoint(search.spins),
                 None => PostureSelection::ForPath,
             },
-            rank_by: table
-                .rank_by
-                .unwrap_or(RankByName::Nominal)
-                .rank_by(setting.tolerance),
+            rank_by: self.rank_by()?,
             wrist: match (table.least_wrist_deg, self.holes) {
                 (Some(least), _) => from_deg(least),
                 (None, Some(search)) => search.wrist,
                 (None, None) => from_deg(USUAL_WRIST_DEG),
             },
         })
+    }
+
+    /// What placements are ranked by; not an uncertainty that is not known.
+    fn rank_by(&self) -> Result<RankBy, StudyError> {
+        let setting = &self.analysis.setting;
+        let name = self.table.rank_by.unwrap_or(RankByName::Nominal);
+        let rank_by = name.rank_by(setting.tolerance);
+        if rank_by != RankBy::Nominal && !setting.arm(&self.study.robot.robot).has_known_uncertainty() {
+            let message = format!(
+                "place.rank_by = \"{}\" requires the uncertainty of the compliances, which is not known",
+                rank_by_name(rank_by)
+            );
+            return Err(StudyError::value(
+                message,
+                "give `u_rad_per_n_m` in [compliance], or rank by `nominal`",
+            ));
+        }
+        Ok(rank_by)
     }
 
     /// Position of the rail in the study, m; 0 without one.

@@ -10,8 +10,8 @@
 //! | `branch`, `singularity` | the posture, and a singularity that is near |
 //! | others | the quantities of [`crate::analysis::quantity`] |
 //!
-//! A point without posture has its position and state alone. Uncertainty, probability and shares are left out if the
-//! core does not compute them: along a path whose load differs from point to point, or with a tilted tool.
+//! A point without posture has its position and state alone; uncertainty and probability are empty where no input has an
+//! uncertainty. Uncertainty, probability and shares are left out if the core does not compute them: along a path whose load differs from point to point, or with a tilted tool.
 
 use std::fmt::Display;
 
@@ -108,17 +108,17 @@ pub fn table(
     Ok(Table::new(name, columns)?)
 }
 
-/// A value of an evaluation, in the unit of its quantity.
-pub type EvaluationValue = fn(&Evaluation) -> f64;
+/// A value of an evaluation, in the unit of its quantity; none where it is not known.
+pub type EvaluationValue = fn(&Evaluation) -> Option<f64>;
 
 /// The envelope of the load cases at a point: quantities that need the evaluation alone.
 pub const ENVELOPE: [(&Quantity, EvaluationValue); 4] = [
-    (&quantity::IN_PLANE, |evaluation| to_um(evaluation.in_plane)),
+    (&quantity::IN_PLANE, |evaluation| Some(to_um(evaluation.in_plane))),
     (&quantity::IN_PLANE_U, |evaluation| {
-        to_um(evaluation.in_plane_uncertainty)
+        evaluation.in_plane_uncertainty.map(to_um)
     }),
-    (&quantity::NORMAL, |evaluation| to_um(evaluation.normal)),
-    (&quantity::FULL, |evaluation| to_um(evaluation.full)),
+    (&quantity::NORMAL, |evaluation| Some(to_um(evaluation.normal))),
+    (&quantity::FULL, |evaluation| Some(to_um(evaluation.full))),
 ];
 
 /// Quantities without values at points where shares are not computed.

@@ -22,10 +22,11 @@ pub struct Numbers<'a> {
 pub type Fill<'a> = Box<dyn Fn(&Rows<'_>, Range<usize>, &mut Vec<Option<f64>>) + Send + Sync + 'a>;
 
 impl<'a> Numbers<'a> {
-    /// The column of a quantity: `value` gives it at a point with a posture, in the unit of the quantity.
-    pub fn of(
+    /// The column of a quantity: `value` gives it at a point with a posture, in the unit of the quantity; none where it
+    /// is not known.
+    pub fn of<V: Into<Option<f64>>>(
         quantity: &'static Quantity,
-        value: impl Fn(&Rows<'_>, usize, &Evaluation) -> f64 + Send + Sync + 'a,
+        value: impl Fn(&Rows<'_>, usize, &Evaluation) -> V + Send + Sync + 'a,
     ) -> Numbers<'a> {
         Numbers {
             quantity,

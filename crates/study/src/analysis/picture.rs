@@ -78,7 +78,7 @@ pub fn share_bar(label: &str, point: &PointAnswer) -> ShareBar {
         label: label.to_owned(),
         shares_um: point.joint_share_um.clone(),
         total_um: Some(point.in_plane_um),
-        total_uncertainty_um: Some(point.in_plane_u_um),
+        total_uncertainty_um: point.in_plane_u_um,
     }
 }
 

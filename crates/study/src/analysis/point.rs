@@ -21,6 +21,7 @@ use serde::Serialize;
 use crate::input::setting::Setting;
 use crate::model_words::parts;
 use crate::number::without_rounding;
+use crate::uncertainty_words::inputs_without_uncertainty;
 
 /// The common setting of all points of an analysis. Positions are relative to the frame `base`.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -49,10 +50,12 @@ pub struct SettingAnswer {
     pub load_u_n: [[f64; 3]; 3],
     /// Standard uncertainty of the position of the TCP along the tool axis.
     pub tool_length_u_mm: f64,
-    /// Standard deviation of the repeated position of the tool, along any axis; zero if it is not known.
-    pub scatter_um: f64,
-    /// Standard uncertainty of the model, in addition to that of its compliances; zero if it is not known.
-    pub model_error_percent: f64,
+    /// Standard deviation of the repeated position of the tool, along any axis; none if it is not known.
+    pub scatter_um: Option<f64>,
+    /// Standard uncertainty of the model, in addition to that of its compliances; none if it is not known.
+    pub model_error_percent: Option<f64>,
+    /// Inputs that have an effect, but no uncertainty.
+    pub inputs_without_uncertainty: Vec<String>,
     /// The tolerance.
     pub tolerance_um: f64,
     /// Active parts of the stiffness model.
@@ -65,6 +68,7 @@ pub struct SettingAnswer {
 impl SettingAnswer {
     /// The setting in the reference frame of the study; a load that turns with the feed in axes of the feed.
     pub fn of(robot: &Robot, setting: &Setting) -> SettingAnswer {
+        let given = |value: f64| (value > 0.0).then_some(value);
         let turns = setting.load.frame == LoadFrame::Feed;
         let cases = if turns {
             &setting.load.cases
@@ -85,8 +89,10 @@ impl SettingAnswer {
             load_u_percent: without_rounding(setting.uncertainty.relative * 100.0),
             load_u_n: setting.uncertainty.forces.map(|u| clean(u.into())),
             tool_length_u_mm: without_rounding(to_mm(setting.uncertainty.tool_length)),
-            scatter_um: to_um(setting.model.structure.repeatability),
-            model_error_percent: without_rounding(setting.model.structure.model_error * 100.0),
+            scatter_um: given(setting.model.structure.repeatability).map(to_um),
+            model_error_percent: given(setting.model.structure.model_error)
+                .map(|part| without_rounding(part * 100.0)),
+            inputs_without_uncertainty: inputs_without_uncertainty(&setting.arm(robot)),
             tolerance_um: without_rounding(to_um(setting.tolerance)),
             model: parts(robot, &setting.model),
             contributors: setting.model.contributor_names(robot.joints()),
@@ -125,8 +131,9 @@ pub struct PointAnswer {
     pub worst_case: usize,
     /// Largest in-plane deviation of all cases.
     pub in_plane_um: f64,
-    /// Its standard uncertainty, from compliances, load, tool length, repeatability and model error.
-    pub in_plane_u_um: f64,
+    /// Its standard uncertainty, from compliances, load, tool length, repeatability and model error; none where it is
+    /// not known, a lower bound where `inputs_without_uncertainty` of the setting names any.
+    pub in_plane_u_um: Option<f64>,
     /// Deviation along the outward normal, of the case where it is largest.
     pub normal_um: f64,
     /// Largest length of the deviation of all cases.
@@ -191,7 +198,7 @@ impl PointAnswer {
             singularity: evaluation.singularity.map(|s| s.to_string()),
             worst_case: evaluation.worst_case + 1,
             in_plane_um: to_um(evaluation.in_plane),
-            in_plane_u_um: to_um(evaluation.in_plane_uncertainty),
+            in_plane_u_um: evaluation.in_plane_uncertainty.map(to_um),
             normal_um: to_um(evaluation.normal),
             full_um: to_um(evaluation.full),
             joint_share_um: answers.shares_at(index).iter().map(to_um).collect(),

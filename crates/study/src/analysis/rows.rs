@@ -146,15 +146,17 @@ pub fn of_points<T>(series: &[Rows<'_>], value: impl Fn(&Rows<'_>, usize) -> T) 
     values
 }
 
-/// A number of each of these points that has a posture.
-pub fn of_reached<'r>(
+/// A number of each of these points that has a posture; none where it is not known.
+pub fn of_reached<'r, V: Into<Option<f64>>>(
     rows: &'r Rows<'_>,
     points: Range<usize>,
-    value: impl Fn(&Rows<'_>, usize, &Evaluation) -> f64 + 'r,
+    value: impl Fn(&Rows<'_>, usize, &Evaluation) -> V + 'r,
 ) -> impl Iterator<Item = Option<f64>> + 'r {
     points.map(move |index| {
         let evaluation = rows.answers.points[index].as_ref().ok()?;
-        Some(value(rows, index, evaluation)).filter(|value| value.is_finite())
+        value(rows, index, evaluation)
+            .into()
+            .filter(|value| value.is_finite())
     })
 }
 

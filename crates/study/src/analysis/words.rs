@@ -4,6 +4,8 @@ use armill_core::robot::Robot;
 
 use crate::analysis::point::PointAnswer;
 
+pub use crate::number::micrometres;
+
 /// The largest contributor and its share.
 pub fn largest_contributor(robot: &Robot, point: &PointAnswer, contributors: &[String]) -> String {
     point
@@ -16,15 +18,4 @@ pub fn largest_contributor(robot: &Robot, point: &PointAnswer, contributors: &[S
                 None => name,
             }
         })
-}
-
-/// A deviation with its significant digits.
-pub fn micrometres(um: f64) -> String {
-    if um == um.round() && um < 1e6 {
-        format!("{um:.0}")
-    } else if um.abs() < 10.0 {
-        format!("{um:.2}")
-    } else {
-        format!("{um:.1}")
-    }
 }

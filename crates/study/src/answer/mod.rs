@@ -49,9 +49,11 @@ use crate::analysis::{AnalysisResult, Subject};
 use crate::answer::by_kind::AnalysisAnswers;
 use crate::budget::{self, BudgetAnswer};
 use crate::file::resolve::Study;
+use crate::file::slips;
 use crate::input::setting::Setting;
 use crate::joint_unit::JointUnit;
 use crate::model_words::left_out;
+use crate::uncertainty_words;
 
 /// The whole answer.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -109,11 +111,11 @@ pub struct JointAnswer {
     pub name: String,
     /// Compliance of a revolute joint.
     pub compliance_rad_per_n_m: Option<f64>,
-    /// Its standard uncertainty.
+    /// Its standard uncertainty; none where it is not known.
     pub compliance_u_rad_per_n_m: Option<f64>,
     /// Compliance of a prismatic joint.
     pub compliance_um_per_n: Option<f64>,
-    /// Its standard uncertainty.
+    /// Its standard uncertainty; none where it is not known.
     pub compliance_u_um_per_n: Option<f64>,
     /// Source of the compliance.
     pub compliance_source: String,
@@ -163,9 +165,9 @@ fn robot_answer(study: &Study) -> RobotAnswer {
         JointAnswer {
             name: joint.name.clone(),
             compliance_rad_per_n_m: turning.map(|c| c.value),
-            compliance_u_rad_per_n_m: turning.map(|c| c.standard_uncertainty),
+            compliance_u_rad_per_n_m: turning.and_then(|c| c.known_uncertainty()),
             compliance_um_per_n: sliding.map(|c| c.value * scale),
-            compliance_u_um_per_n: sliding.map(|c| c.standard_uncertainty * scale),
+            compliance_u_um_per_n: sliding.and_then(|c| Some(c.known_uncertainty()? * scale)),
             compliance_source: own
                 .clone()
                 .or_else(|| study.robot.joint_notes[i].compliance_source.clone())
@@ -259,6 +261,16 @@ fn sources(study: &Study) -> Vec<Source> {
 fn warnings(study: &Study, answers: &AnalysisAnswers) -> Vec<String> {
     let mut warnings = Vec::new();
     warnings.extend(study.own_compliance.iter().filter_map(|own| own.caution.clone()));
+    for setting in study.settings() {
+        let slips = slips::warnings(&study.robot, setting);
+        let new: Vec<String> = slips
+            .into_iter()
+            .filter(|slip| !warnings.contains(slip))
+            .collect();
+        warnings.extend(new);
+        let unknown = uncertainty_words::warning(&setting.arm(&study.robot.robot));
+        warnings.extend(unknown.filter(|warning| !warnings.contains(warning)));
+    }
     for (i, joint) in study.robot.joint_notes.iter().enumerate() {
         for limits in &joint.other_limits {
             let OtherLimits {

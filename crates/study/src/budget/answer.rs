@@ -128,8 +128,9 @@ pub struct SumsAnswer {
     pub as_functions_um: f64,
     /// The same with twice the scatter.
     pub with_scatter_um: f64,
-    /// Standard uncertainty of the combined bias, root mean square over the circle, as far as it is known.
-    pub u_um: f64,
+    /// Standard uncertainty of the combined bias, root mean square over the circle, as far as it is known; none if
+    /// nothing is.
+    pub u_um: Option<f64>,
     /// Root of the squares of `load_um` and `unloaded_um`.
     pub root_sum_square_um: f64,
     /// `load_um` and `unloaded_um` added plainly, as the paper does.
@@ -151,8 +152,8 @@ pub struct PartAnswer {
     pub centre_mm: Option<[f64; 2]>,
     /// Radius relative to the nominal one, if it was removed.
     pub radius_um: f64,
-    /// Standard uncertainty of a point, from the study.
-    pub u_um: f64,
+    /// Standard uncertainty of a point, from the study; none if it is not known.
+    pub u_um: Option<f64>,
     /// Percentage of its mean square explained by all contributions.
     pub explained_percent: f64,
     /// Percentage that can be explained: the rest is known scatter.
@@ -254,7 +255,7 @@ pub fn answer(experiment: &Experiment, path: &PathAnalysis, combined: &CombinedC
             unloaded_um: to_um(sums.of_origin[1]),
             as_functions_um: to_um(sums.largest),
             with_scatter_um: to_um(sums.largest_with_scatter),
-            u_um: to_um(sums.u),
+            u_um: (sums.u > 0.0).then(|| to_um(sums.u)),
             root_sum_square_um: to_um(sums.root_sum_square),
             plain_um: to_um(sums.plain),
         },
@@ -349,7 +350,7 @@ fn part(experiment: &Experiment, combined: &CombinedCurves, given: &Comparison) 
             .and_then(|part| part.centre)
             .map(|centre| centre.map(to_mm)),
         radius_um: to_um(given.datum.radius),
-        u_um: of_file.map_or(0.0, |part| to_um(part.u)),
+        u_um: of_file.map(|part| to_um(part.u)).filter(|u| *u > 0.0),
         explained_percent: percent(given.together.explained),
         explainable_percent: percent(given.explainable),
         likeness_percent: given.together.likeness.map(percent),

@@ -183,7 +183,9 @@ fn uncertainty(uncertainties: &[Vec<f64>], turn: &Turn, experiment: &Experiment)
         let (_, form) = Datum::remove(turn, &turn.of_even(curve), experiment.removed);
         turn.rms(&form)
     };
-    (!uncertainties.is_empty()).then(|| uncertainties.iter().map(of).fold(0.0, f64::hypot))
+    let u = uncertainties.iter().map(of).fold(0.0, f64::hypot);
+    // Without an uncertain input nothing is known of it.
+    (u > 0.0).then_some(u)
 }
 
 /// The path without load as predicted and as measured by the ball-bar, in the cutting direction.

@@ -7,7 +7,7 @@
 //! [`format`](mod@format) is the file as written; [`resolve`] checks it and resolves each analysis (`names`, `memory`),
 //! its [`compliance`] and the [`positioner`]. `calibrated` is the calibrated arm; [`placement`] the permitted placements
 //! of a part, [`experiment`] the measurements of a circle, [`circles`] circular tests for the backlash of joints;
-//! [`search_postures`] searches spins and branches of a study without such a search.
+//! [`slips`] finds values that are probably slips. [`search_postures`] searches spins and branches of a study without such a search.
 
 pub mod circles;
 pub mod compliance;
@@ -17,6 +17,7 @@ pub mod placement;
 pub mod positioner;
 pub mod resolve;
 pub mod search_postures;
+pub mod slips;
 
 mod calibrated;
 mod memory;

@@ -59,14 +59,19 @@ impl Setting {
         }
     }
 
-    /// Compliance of the unloaded arm at joint positions `q` (rad, m), SI; zeros if the arm is not stable.
-    pub fn compliance_at(&self, robot: &Robot, q: &[f64]) -> Matrix6<f64> {
-        let mut arm_state = ArmState::new(Arm {
+    /// The arm with its tool; without compliances if `robot` has none.
+    pub fn arm<'a>(&'a self, robot: &'a Robot) -> Arm<'a> {
+        Arm {
             robot,
             compliance: robot.compliance().unwrap_or_default(),
             model: &self.model,
             flange_from_tool: &self.flange_from_tool,
-        });
+        }
+    }
+
+    /// Compliance of the unloaded arm at joint positions `q` (rad, m), SI; zeros if the arm is not stable.
+    pub fn compliance_at(&self, robot: &Robot, q: &[f64]) -> Matrix6<f64> {
+        let mut arm_state = ArmState::new(self.arm(robot));
         arm_state.set_joints(q);
         arm_state.compliance().unwrap_or_else(Matrix6::zeros)
     }

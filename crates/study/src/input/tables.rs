@@ -139,10 +139,10 @@ pub struct LoadTable {
     /// feed, y to the left, z from the tip towards the spindle).
     pub frame: Option<LoadFrameName>,
     /// Force on the tool, x, y, z, one for each case.
-    #[schemars(inner(inner(range(min = -1e9, max = 1e9))))]
+    #[schemars(inner(inner(range(min = -1e6, max = 1e6))))]
     pub cases_n: Vec<[f64; 3]>,
     /// Moment on the tool about the TCP, one for each case.
-    #[schemars(inner(inner(range(min = -1e9, max = 1e9))))]
+    #[schemars(inner(inner(range(min = -1e6, max = 1e6))))]
     pub moments_n_m: Option<Vec<[f64; 3]>>,
     /// Standard uncertainty of the size of all cases, fully correlated.
     #[schemars(range(min = 0.0, max = 1e3))]

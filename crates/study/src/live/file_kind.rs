@@ -41,6 +41,7 @@ pub fn kind_of(path: &Path, name: &str) -> (FileKind, String) {
         FileKind::Forces => format!("program = {{ file = \"...\", forces = {{ file = \"{name}\" }} }}"),
         FileKind::Ballbar => format!("[measured] ballbar = [\"{name}\"]"),
         FileKind::Profile => format!("[measured] part = \"{name}\""),
+        FileKind::Unknown if head.is_empty() => "the file is empty".to_owned(),
         FileKind::Unknown => "armill reads no kind of file with this name".to_owned(),
     };
     (kind, line)
@@ -55,6 +56,10 @@ fn guess(name: &Path, head: &str) -> FileKind {
         .find(|line| !line.trim().is_empty() && !line.starts_with('#'));
     let titles = titles.unwrap_or_default().to_lowercase();
     let has = |words: &[&str]| words.iter().any(|word| titles.contains(word));
+    // An empty file has no kind, whatever its name.
+    if head.trim().is_empty() {
+        return FileKind::Unknown;
+    }
     match ending.as_deref() {
         Some("qif") => FileKind::Profile,
         Some("b5r" | "b52" | "b5t") => FileKind::Ballbar,
@@ -79,5 +84,7 @@ mod tests {
         assert_eq!(of("record.csv", "time_s,Fx_N,Fy_N,Fz_N\n"), FileKind::Forces);
         assert_eq!(of("rim.csv", "angle_deg,deviation_um\n"), FileKind::Profile);
         assert_eq!(of("notes.doc", "hello"), FileKind::Unknown);
+        assert_eq!(of("empty.csv", ""), FileKind::Unknown);
+        assert_eq!(of("arm.urdf", " \n"), FileKind::Unknown);
     }
 }

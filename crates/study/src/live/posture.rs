@@ -143,8 +143,9 @@ pub struct ChainPosition {
 pub struct CaseAnswer {
     /// Length of its component in the plane.
     pub in_plane_um: f64,
-    /// Its standard uncertainty, from compliances, load, tool length, repeatability and model error.
-    pub in_plane_u_um: f64,
+    /// Its standard uncertainty, from compliances, load, tool length, repeatability and model error; none where it is
+    /// not known.
+    pub in_plane_u_um: Option<f64>,
     /// Along the outward normal.
     pub normal_um: f64,
     /// Its length.
@@ -369,7 +370,7 @@ fn deviations(
             .map(|f| permissible_force(&compliance_by_force, normal, f, setting.tolerance));
         Some(CaseAnswer {
             in_plane_um: to_um(evaluation.in_plane),
-            in_plane_u_um: to_um(evaluation.in_plane_uncertainty),
+            in_plane_u_um: evaluation.in_plane_uncertainty.map(to_um),
             normal_um: to_um(evaluation.normal),
             full_um: to_um(evaluation.full),
             deviation_um: to_um(answers.deviations_at(0)[0]).into(),

@@ -157,7 +157,7 @@ fn sheets(series: &[Rows<'_>]) -> Result<PolyData, StudyError> {
 
 /// Values for VTK: the envelope, and the deviation vector of each case.
 fn arrays(series: &[Rows<'_>]) -> Vec<PointArray> {
-    let scalar = |name: &str, um: fn(&Evaluation) -> f64| PointArray {
+    let scalar = |name: &str, um: fn(&Evaluation) -> Option<f64>| PointArray {
         name: name.to_owned(),
         values: PointValues::Scalar(
             series

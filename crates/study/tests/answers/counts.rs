@@ -39,7 +39,7 @@ fn counts_add_up_and_the_fraction_is_those_within_over_all() {
             "{}",
             map.name
         );
-        let certainty = &map.certainty;
+        let certainty = map.certainty.as_ref().unwrap();
         assert!(
             certainty.fraction_robustly_within <= map.fraction_within,
             "{}",

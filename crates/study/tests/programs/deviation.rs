@@ -57,7 +57,7 @@ fn the_worst_point_carries_shares_uncertainty_line_and_cause() {
     let worst = part.worst.as_ref().unwrap();
     assert!((worst.in_plane_um - part.max_in_plane_um.unwrap()).abs() < 1e-9);
     let shares: f64 = worst.joint_share_um.iter().sum();
-    assert!((shares - worst.in_plane_um).abs() < 1e-9 && worst.in_plane_u_um > 0.0);
+    assert!((shares - worst.in_plane_um).abs() < 1e-9 && worst.in_plane_u_um.unwrap() > 0.0);
     let point = &part.worst_points[0];
     assert_eq!(point.line, 5);
     assert!(point.cause.contains('%'), "{}", point.cause);

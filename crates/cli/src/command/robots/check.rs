@@ -2,7 +2,7 @@
 //!
 //! Each `--pose` is a reading of the pendant in the angles of `--convention`, with the tool `--tool-mm` active,
 //! relative to `--base`; `--within-mm` and `--within-deg` are the limits of agreement. The verdict is data: it goes to
-//! stdout.
+//! stdout; the exit code is 1 if the file disagrees.
 
 use armill_core::robot::convention::PoseDifference;
 use armill_core::units::{from_deg, from_mm};
@@ -50,7 +50,10 @@ pub(super) fn run(arguments: &RobotsCheckArguments) -> Result<Outcome, StudyErro
     } else {
         as_text(&answer, arguments)
     })?;
-    Ok(Outcome::Fine)
+    Ok(match answer.verdict {
+        "agrees" => Outcome::Fine,
+        _ => Outcome::Disagreement,
+    })
 }
 
 /// The convention of this name.
@@ -88,7 +91,7 @@ fn as_text(answer: &PendantAnswer, arguments: &RobotsCheckArguments) -> String {
             "They disagree, and {} explanations are equally simple. Read another pose, with every joint away from 0 and 90 deg:",
             answer.explanations.len()
         ),
-        _ => "They disagree, and no sign, zero, coupling, base, flange frame or unit explains it: compare the lengths of the links, the tool, and the type of the arm.".to_owned(),
+        _ => "They disagree, and no combination of signs, zeros, coupling, base, flange frame and unit that was searched explains it: compare the lengths of the links, the tool, and the type of the arm.".to_owned(),
     });
     for (index, explanation) in answer.explanations.iter().enumerate() {
         if answer.explanations.len() > 1 {

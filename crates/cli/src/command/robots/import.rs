@@ -32,6 +32,7 @@ pub(super) fn run(arguments: &ImportArguments) -> Result<Outcome, StudyError> {
         arguments
             .writing
             .writer("robots import")
+            .for_new_files()
             .write(path, text.as_bytes())?;
     }
     if arguments.json {

@@ -16,6 +16,7 @@ use armill_core::robot::{JointCompliance, Robot};
 use armill_core::units::{to_mm, to_per_mm, to_um};
 use armill_study::joint_unit::JointUnit;
 use armill_study::robot_answers::attachment_name;
+use armill_study::uncertainty_words::plus_minus;
 
 /// Lines of text; none if only drives are known.
 pub(super) fn as_text(robot: &Robot) -> Vec<String> {
@@ -110,9 +111,9 @@ fn axis(v: &Vector3<f64>) -> String {
 /// A compliance with its standard uncertainty, in the unit of its joint: revolute or
 /// prismatic.
 pub(super) fn compliance_text(c: JointCompliance, unit: JointUnit) -> String {
-    let (value, u) = (
-        c.value * unit.compliance_scale,
-        c.standard_uncertainty * unit.compliance_scale,
-    );
-    format!("{value:.2e} ± {u:.1e} {}", unit.compliance_name)
+    let value = c.value * unit.compliance_scale;
+    let u = c
+        .known_uncertainty()
+        .map(|u| format!("{:.1e}", u * unit.compliance_scale));
+    format!("{value:.2e} {} {}", plus_minus(u), unit.compliance_name)
 }

@@ -11,7 +11,7 @@ fn evaluation(in_plane: f64) -> Evaluation {
         singularity: None,
         worst_case: 9,
         in_plane,
-        in_plane_uncertainty: 0.0,
+        in_plane_uncertainty: None,
         normal: 7.0,
         full: 7.0,
     }

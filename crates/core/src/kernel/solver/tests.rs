@@ -71,12 +71,16 @@ fn lanes_and_single_points_agree_for_every_arm() {
                         continue;
                     }
                     compared += 1;
+                    assert_eq!(a.in_plane_uncertainty.is_some(), b.in_plane_uncertainty.is_some());
                     let size = b.full;
                     for (a, b) in [
                         (a.in_plane, b.in_plane),
                         (a.full, b.full),
                         (a.normal.abs(), b.normal.abs()),
-                        (a.in_plane_uncertainty, b.in_plane_uncertainty),
+                        (
+                            a.in_plane_uncertainty.unwrap_or(0.0),
+                            b.in_plane_uncertainty.unwrap_or(0.0),
+                        ),
                     ] {
                         assert!((a - b).abs() < accuracy * size, "{}: {a} {b}", robot.name());
                     }

@@ -12,8 +12,13 @@ use crate::robot::forward::{forward, joint_axis};
 use crate::robot::inverse::posture_at;
 use crate::watch::{Cancelled, Watch};
 
-/// Greatest complexity that is searched: beyond it, write the file again.
-const MOST: usize = 5;
+/// Greatest complexity that is searched for an arm of up to [`FEW_TURNING`] revolute joints: the signs of three joints,
+/// the zeros of two, the flange frame and the base height, as between a maker's pendant and a model in ROS.
+const MOST: usize = 7;
+/// The same for more joints.
+const MOST_OF_MANY: usize = 5;
+/// Revolute joints of an arm without external axes.
+const FEW_TURNING: usize = 6;
 /// Maximum number of revolute joints: the number of sets of changes grows with its fifth power.
 pub const MOST_TURNING: usize = 12;
 
@@ -93,7 +98,14 @@ pub fn inspect(comparison: &Comparison<'_>, watch: Watch<'_>) -> Result<Inspecti
 
 fn verdict(comparison: &Comparison<'_>, watch: Watch<'_>) -> Result<Verdict, Cancelled> {
     let listed = joint_changes(comparison.robot);
-    for count in 0..=MOST {
+    let turning = (0..comparison.robot.joints().len())
+        .filter(|joint| !comparison.robot.slides(*joint))
+        .count();
+    let most = match turning <= FEW_TURNING {
+        true => MOST,
+        false => MOST_OF_MANY,
+    };
+    for count in 0..=most {
         let mut found = explanations(comparison, &listed, count, watch)?;
         found.sort_by(|a, b| a.apart.metres.total_cmp(&b.apart.metres));
         match found.len() {

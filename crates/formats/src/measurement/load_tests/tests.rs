@@ -162,14 +162,25 @@ fn detects_degrees_named_radians_and_radians_named_degrees() {
 
 #[test]
 fn a_posture_outside_the_limits_is_reported_with_value_limit_and_unit() {
-    let given = problems("A1_deg,A2_deg,Z_mm,fz_n,dz_mm\n175,20,900,-98,0.1\n");
+    let given = problems("A1_deg,A2_deg,Z_mm,fz_n,dz_mm\n181,20,900,-98,0.1\n");
     assert!(
-        given.contains("joint A1 at 175.0 deg is outside its limits -170.0 to 170.0 deg"),
+        given.contains("joint A1 at 181.0 deg is outside its limits -170.0 to 170.0 deg"),
         "{given}"
     );
     assert!(
         given.contains("joint Z at 900.0 mm is outside its limits -800.0 to 800.0 mm"),
         "{given}"
+    );
+}
+
+#[test]
+fn a_measured_posture_a_little_outside_the_limits_is_used_and_noted() {
+    let text = b"A1_deg,A2_deg,Z_mm,fz_n,dz_mm\n173.9,20,0,-98,0.1\n";
+    let found = read("tests.csv", &text[..], &arm(), Vector3::zeros()).unwrap();
+    assert_eq!(found.tests.len(), 1);
+    assert_eq!(
+        found.outside_limits,
+        ["line 2: joint A1 at 173.9 deg is outside its limits -170.0 to 170.0 deg"]
     );
 }
 

@@ -181,7 +181,11 @@ impl Block {
             });
         }
         if !letter.is_ascii_lowercase() {
-            return Err(Refusal::NotAWord(char::from(letter)));
+            let follows_digit = start > 0 && reader.text.get(start - 1).is_some_and(u8::is_ascii_digit);
+            return Err(match letter {
+                b',' if follows_digit => Refusal::DecimalComma,
+                _ => Refusal::NotAWord(char::from(letter)),
+            });
         }
         reader.at += 1;
         let value = reader.value()?;

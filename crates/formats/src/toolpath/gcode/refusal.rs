@@ -18,6 +18,8 @@ pub enum Refusal {
     LineTooLong { limit: usize },
     #[error("`{0}` begins no word")]
     NotAWord(char),
+    #[error("`,` begins no word: write decimals with a point, such as X10.5")]
+    DecimalComma,
     #[error("comment without `)` at its end")]
     CommentOpen,
     #[error("expected a number, found `{0}`")]

@@ -264,7 +264,7 @@ fn hole(robot: &Robot, analysis: &HolesAnalysis, found: &HolesFound, index: usiz
         y_um: error.map(|error| error.y),
         depth_um: error.map(|error| error.z),
         in_plane_um: evaluation.map(|evaluation| to_um(evaluation.in_plane)),
-        in_plane_u_um: evaluation.map(|evaluation| to_um(evaluation.in_plane_uncertainty)),
+        in_plane_u_um: evaluation.and_then(|evaluation| evaluation.in_plane_uncertainty.map(to_um)),
         joints_deg: match evaluation {
             Some(_) => joints.iter().enumerate().map(|(i, q)| q * scale(i)).collect(),
             None => Vec::new(),

@@ -4,6 +4,7 @@ use armill_report::html::{Report, Table};
 
 use crate::analysis::cells::{COUNT, NONE, columns, percent, um, without_empty_columns};
 use crate::analysis::holes::answer::{HoleAnswer, HolesAnswer};
+use crate::uncertainty_words::deviation_in_words;
 
 /// Holes that the table lists at most; `result.json` and the tables have all.
 const MOST: usize = 40;
@@ -60,10 +61,10 @@ fn each(holes: &HolesAnswer) -> Table {
     let deg = |value: Option<f64>| value.map_or_else(|| NONE.to_owned(), |deg| format!("{deg:.0}"));
     let row = |hole: &HoleAnswer| {
         let [x, y, z] = hole.xyz_mm.map(|mm| format!("{mm:.1}"));
-        let across = match hole.in_plane_um.zip(hole.in_plane_u_um) {
-            Some((um, u)) => format!("{um:.1} ± {u:.1}"),
-            None => NONE.to_owned(),
-        };
+        let across = hole.in_plane_um.map_or_else(
+            || NONE.to_owned(),
+            |um| deviation_in_words(um, hole.in_plane_u_um),
+        );
         let margin = hole.limit_joint.as_ref().zip(hole.limit_margin_deg);
         vec![
             hole.hole.to_string(),

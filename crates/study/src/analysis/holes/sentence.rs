@@ -4,6 +4,7 @@ use armill_core::robot::Robot;
 
 use crate::analysis::holes::answer::HolesAnswer;
 use crate::analysis::words::{largest_contributor, micrometres};
+use crate::uncertainty_words::u_in_words;
 
 /// How many holes are within the tolerance, the largest deviation with its hole, and what is out of reach.
 pub fn sentence(robot: &Robot, holes: &HolesAnswer) -> String {
@@ -19,14 +20,14 @@ pub fn sentence(robot: &Robot, holes: &HolesAnswer) -> String {
     };
     let good = (holes.fraction_within * holes.holes as f64).round();
     format!(
-        "{}: {} of {} holes are within {} µm; hole {} deviates by {} µm (u = {} µm) from its position; largest contribution: {}; holes are up to {} µm too deep or too shallow{lost}.",
+        "{}: {} of {} holes are within {} µm; hole {} deviates by {} µm ({}) from its position; largest contribution: {}; holes are up to {} µm too deep or too shallow{lost}.",
         holes.name,
         good,
         holes.holes,
         micrometres(holes.setting.tolerance_um),
         worst.hole,
         micrometres(worst.point.in_plane_um),
-        micrometres(worst.point.in_plane_u_um),
+        u_in_words(worst.point.in_plane_u_um),
         largest_contributor(robot, &worst.point, &holes.setting.contributors),
         micrometres(holes.max_depth_um.unwrap_or(0.0)),
     )

@@ -3,6 +3,7 @@
 //! In-plane coordinates are y' and z', mm from the centre of the plane: `y' = -x`, `z' = y` of the part frame. On a
 //! plane that is given by its tilt, y' is along base y.
 
+use armill_core::kernel::Evaluation;
 use armill_core::map::{COVERAGE, Certainty, Counts, PlaneMap, Region, probability_within};
 use armill_core::nalgebra::Point2;
 use armill_core::robot::Robot;
@@ -42,8 +43,9 @@ pub struct MapAnswer {
     pub best: Option<PointAnswer>,
     /// The region within the tolerance, inside the joint limits.
     pub region: RegionAnswer,
-    /// Uncertainty of the region: points outside joint limits are treated as out of tolerance.
-    pub certainty: CertaintyAnswer,
+    /// Uncertainty of the region: points outside joint limits are treated as out of tolerance. None where the
+    /// uncertainty of the deviations is not known.
+    pub certainty: Option<CertaintyAnswer>,
     /// The common setting of all points.
     pub setting: SettingAnswer,
     /// The points.
@@ -131,9 +133,9 @@ pub struct GridAnswer {
     pub z_mm: Vec<f64>,
     /// In-plane deviation; none without posture.
     pub in_plane_um: Vec<Option<f64>>,
-    /// Its standard uncertainty.
+    /// Its standard uncertainty; none where it is not known.
     pub in_plane_u_um: Vec<Option<f64>>,
-    /// Probability that it is within the tolerance.
+    /// Probability that it is within the tolerance; none where the uncertainty is not known.
     pub probability_within: Vec<Option<f64>>,
     /// Deviation along the outward normal.
     pub normal_um: Vec<Option<f64>>,
@@ -181,7 +183,7 @@ pub fn answer(robot: &Robot, name: &str, setting: &Setting, map: &PlaneMap) -> M
         worst,
         best,
         region: region_answer(&map.region(setting.tolerance)),
-        certainty: certainty_answer(&map.certainty(setting.tolerance)),
+        certainty: map.certainty(setting.tolerance).as_ref().map(certainty_answer),
         setting: SettingAnswer::of(robot, setting),
         grid: grid_answer(map, setting.tolerance),
     }
@@ -227,15 +229,13 @@ fn in_plane(at: &Point2<f64>) -> [f64; 2] {
 fn grid_answer(map: &PlaneMap, tolerance: f64) -> GridAnswer {
     let grid = &map.grid;
     let four_decimals = |value: f64| (value * 1e4).round() / 1e4;
-    let of = |get: &dyn Fn(&armill_core::kernel::Evaluation) -> f64| -> Vec<Option<f64>> {
+    let of = |get: &dyn Fn(&Evaluation) -> Option<f64>| -> Vec<Option<f64>> {
         map.answers
             .points
             .iter()
             .map(|point| {
-                point
-                    .as_ref()
-                    .ok()
-                    .map(|evaluation| four_decimals(get(evaluation)))
+                let evaluation = point.as_ref().ok()?;
+                get(evaluation).map(four_decimals)
             })
             .collect()
     };
@@ -247,11 +247,11 @@ fn grid_answer(map: &PlaneMap, tolerance: f64) -> GridAnswer {
         z_mm: (0..grid.rows)
             .map(|i| without_rounding(to_mm(grid.coordinate(i, grid.rows))))
             .collect(),
-        in_plane_um: of(&|evaluation| to_um(evaluation.in_plane)),
-        in_plane_u_um: of(&|evaluation| to_um(evaluation.in_plane_uncertainty)),
+        in_plane_um: of(&|evaluation| Some(to_um(evaluation.in_plane))),
+        in_plane_u_um: of(&|evaluation| evaluation.in_plane_uncertainty.map(to_um)),
         probability_within: of(&|evaluation| probability_within(evaluation, tolerance)),
-        normal_um: of(&|evaluation| to_um(evaluation.normal)),
-        full_um: of(&|evaluation| to_um(evaluation.full)),
+        normal_um: of(&|evaluation| Some(to_um(evaluation.normal))),
+        full_um: of(&|evaluation| Some(to_um(evaluation.full))),
         flags: flags(map),
     }
 }

@@ -30,13 +30,15 @@ pub fn pictures(
     pictures
 }
 
-/// Expanded uncertainty of each deviation; none if no point is uncertain.
+/// Expanded uncertainty of each deviation; 0 where it is not known: the region has no uncertain border then.
 fn spread_um(map: &PlaneMap) -> Vec<f64> {
     let points = map.answers.points.iter();
     let uncertainty = |point: &Result<Evaluation, Unreachable>| {
         point
             .as_ref()
-            .map_or(0.0, |evaluation| evaluation.in_plane_uncertainty)
+            .ok()
+            .and_then(|evaluation| evaluation.in_plane_uncertainty)
+            .unwrap_or(0.0)
     };
     points.map(|point| to_um(COVERAGE * uncertainty(point))).collect()
 }

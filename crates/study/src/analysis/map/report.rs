@@ -4,6 +4,7 @@ use armill_report::html::Table;
 
 use crate::analysis::cells::{COUNT, columns, percent, um};
 use crate::analysis::map::answer::MapAnswer;
+use crate::uncertainty_words::NOT_KNOWN;
 
 /// Every map and section, with the fraction within the tolerance and its uncertainty.
 pub fn table(maps: &[MapAnswer]) -> Table {
@@ -29,10 +30,15 @@ pub fn table(maps: &[MapAnswer]) -> Table {
                     map.branch.clone(),
                     percent(map.fraction_within),
                     percent(map.fraction_within_and_inside_joint_limits),
-                    format!(
-                        "{} … {}",
-                        percent(map.certainty.fraction_robustly_within),
-                        percent(map.certainty.fraction_possibly_within)
+                    map.certainty.as_ref().map_or_else(
+                        || NOT_KNOWN.to_owned(),
+                        |certainty| {
+                            format!(
+                                "{} … {}",
+                                percent(certainty.fraction_robustly_within),
+                                percent(certainty.fraction_possibly_within)
+                            )
+                        },
                     ),
                     um(map.min_in_plane_um),
                     um(map.max_in_plane_um),

@@ -4,6 +4,7 @@ use armill_core::robot::Robot;
 
 use crate::analysis::map::answer::MapAnswer;
 use crate::analysis::words::{largest_contributor, micrometres};
+use crate::uncertainty_words::u_in_words;
 
 /// Fraction of a plane, least and largest deviation, and how many points are outside joint limits.
 pub fn sentence(robot: &Robot, map: &MapAnswer) -> String {
@@ -37,12 +38,12 @@ pub fn sentence(robot: &Robot, map: &MapAnswer) -> String {
         ),
     };
     format!(
-        "{}, branch {}: {evaluation}{limits}; the in-plane deviation ranges from {} to {} µm (u = {} µm) and is largest at ({:.0}, {:.0}, {:.0}) mm; largest contribution: {}.",
+        "{}, branch {}: {evaluation}{limits}; the in-plane deviation ranges from {} to {} µm ({}) and is largest at ({:.0}, {:.0}, {:.0}) mm; largest contribution: {}.",
         map.name,
         map.branch,
         micrometres(best.in_plane_um),
         micrometres(worst.in_plane_um),
-        micrometres(worst.in_plane_u_um),
+        u_in_words(worst.in_plane_u_um),
         worst.xyz_mm[0],
         worst.xyz_mm[1],
         worst.xyz_mm[2],

@@ -9,6 +9,7 @@ use crate::analysis::cells::{COUNT, NONE, columns, percent, um, without_empty_co
 use crate::analysis::path::answer::{
     FeatureAnswer, LimitAnswer, LimitsAnswer, OperationAnswer, PathAnswer, ProgramAnswer, WorstPoint,
 };
+use crate::uncertainty_words::deviation_in_words;
 
 /// Operations that a table lists at most; `result.json` has all.
 const MOST_OPERATIONS: usize = 40;
@@ -184,10 +185,7 @@ fn worst_points(name: &str, points: &[WorstPoint]) -> Table {
             worst.line.to_string(),
             format!("{:.1}", worst.distance_mm),
             format!("{x}, {y}, {z}"),
-            format!(
-                "{:.1} ± {:.1}",
-                worst.point.in_plane_um, worst.point.in_plane_u_um
-            ),
+            deviation_in_words(worst.point.in_plane_um, worst.point.in_plane_u_um),
             along,
             cross,
             axial,

@@ -4,6 +4,7 @@ use armill_core::robot::Robot;
 
 use crate::analysis::volume::answer::VolumeAnswer;
 use crate::analysis::words::{largest_contributor, micrometres};
+use crate::uncertainty_words::u_in_words;
 
 /// Fraction of a box, and where in it the deviation is largest.
 pub fn sentence(robot: &Robot, volume: &VolumeAnswer) -> String {
@@ -14,13 +15,13 @@ pub fn sentence(robot: &Robot, volume: &VolumeAnswer) -> String {
         );
     };
     format!(
-        "{}, branch {}: {:.1} % of the box is within {} µm; the in-plane deviation is at most {} µm (u = {} µm), at ({:.0}, {:.0}, {:.0}) mm; largest contribution: {}.",
+        "{}, branch {}: {:.1} % of the box is within {} µm; the in-plane deviation is at most {} µm ({}), at ({:.0}, {:.0}, {:.0}) mm; largest contribution: {}.",
         volume.name,
         volume.branch,
         volume.fraction_within * 100.0,
         micrometres(volume.setting.tolerance_um),
         micrometres(worst.in_plane_um),
-        micrometres(worst.in_plane_u_um),
+        u_in_words(worst.in_plane_u_um),
         worst.xyz_mm[0],
         worst.xyz_mm[1],
         worst.xyz_mm[2],

@@ -11,6 +11,7 @@ use crate::file::resolve::Study;
 use crate::joint_unit::JointUnit;
 use crate::output::report::cut;
 use crate::output::report::sources::{THE_STUDY, place};
+use crate::uncertainty_words::plus_minus;
 
 /// Robot and compliances, load or cut, tolerance, tool, stiffness model.
 pub(super) fn rows(study: &Study, answer: &StudyAnswer) -> Vec<Input> {
@@ -50,15 +51,15 @@ fn robot(study: &Study, answer: &StudyAnswer) -> Vec<Input> {
         &place(answer, &chain),
     )];
     for joint in &answer.robot.joints {
-        let turning = joint.compliance_rad_per_n_m.zip(joint.compliance_u_rad_per_n_m);
-        let sliding = joint.compliance_um_per_n.zip(joint.compliance_u_um_per_n);
-        let unit = if sliding.is_some() {
-            JointUnit::SLIDING
-        } else {
-            JointUnit::TURNING
+        let (unit, value, u) = match joint.compliance_um_per_n {
+            Some(value) => (JointUnit::SLIDING, value, joint.compliance_u_um_per_n),
+            None => (
+                JointUnit::TURNING,
+                joint.compliance_rad_per_n_m.unwrap_or_default(),
+                joint.compliance_u_rad_per_n_m,
+            ),
         };
-        let (value, u) = turning.or(sliding).unwrap_or_default();
-        let value = format!("{value:.3e} ± {u:.1e}");
+        let value = format!("{value:.3e} {}", plus_minus(u.map(|u| format!("{u:.1e}"))));
         let assumed = if answer.robot.compliance_assumed {
             ", assumed"
         } else {

@@ -22,6 +22,7 @@ pub(in crate::kernel) const POINTS: usize = BLOCK;
 pub(in crate::kernel) struct Points<'q> {
     question: &'q Question<'q>,
     batch: Batch<f64>,
+    uncertainty_is_known: bool,
     room: Box<Room>,
 }
 
@@ -44,6 +45,7 @@ impl<'q> Points<'q> {
         Points {
             question,
             batch: Batch::new(question, arm, Backend::fastest()),
+            uncertainty_is_known: question.arm.has_known_uncertainty(),
             room: Box::new(Room {
                 stances: Stances {
                     joints: planes(),
@@ -103,7 +105,7 @@ impl<'q> Points<'q> {
             margin: &stances.room,
             nearest: &stances.joint,
             worst,
-            uncertainty,
+            uncertainty: self.uncertainty_is_known.then_some(uncertainty),
             deviations,
             shares,
         };

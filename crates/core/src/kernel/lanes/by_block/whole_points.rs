@@ -19,6 +19,7 @@ pub(in crate::kernel) struct WholePoints<'q> {
     tool_from_flange: Isometry,
     branches: BranchSolver,
     model: WholeModel,
+    uncertainty_is_known: bool,
     answers: WholeAnswers,
     /// Two directions across the normal, then the normal, base.
     plane: [Vector3<f64>; 3],
@@ -61,6 +62,7 @@ impl<'q> WholePoints<'q> {
             branches,
             answers: WholeAnswers::with(question.cases.len(), model.contributors()),
             model,
+            uncertainty_is_known: question.arm.has_known_uncertainty(),
             plane: [first, second, question.normal.into_inner()],
             best: Best {
                 posture: BranchPlanes::of(question.arm.robot.joints().len()),
@@ -179,7 +181,7 @@ impl<'q> WholePoints<'q> {
             margin: &posture.margin,
             nearest: &posture.nearest,
             worst: &self.answers.worst,
-            uncertainty: &self.answers.uncertainty,
+            uncertainty: self.uncertainty_is_known.then_some(&self.answers.uncertainty),
             deviations: &self.answers.deviations,
             shares: &self.answers.shares,
         };

@@ -19,8 +19,8 @@ pub(super) struct SolvedAnswers<'a> {
     pub margin: &'a Plane<f64>,
     pub nearest: &'a Plane<f64>,
     pub worst: &'a Worst<f64>,
-    /// Standard uncertainty of the largest in-plane deviation, m.
-    pub uncertainty: &'a Plane<f64>,
+    /// Standard uncertainty of the largest in-plane deviation, m; none where it is not known.
+    pub uncertainty: Option<&'a Plane<f64>>,
     /// Of each load case, m, base.
     pub deviations: &'a [Planes<f64, 3>],
     pub shares: &'a [Plane<f64>],
@@ -67,7 +67,7 @@ impl SolvedAnswers<'_> {
             singularity,
             worst_case: worst.case[index] as usize,
             in_plane: worst.in_plane[index],
-            in_plane_uncertainty: self.uncertainty[index],
+            in_plane_uncertainty: self.uncertainty.map(|plane| plane[index]),
             normal: worst.normal[index],
             full: worst.full[index],
         }

@@ -14,6 +14,7 @@ use crate::analysis::path::PathAnalysis;
 use crate::analysis::path::run::PathResult;
 use crate::analysis::words::micrometres;
 use crate::number::decimals;
+use crate::uncertainty_words::u_in_words;
 
 /// The search for spins and branches along a path.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -164,10 +165,7 @@ impl SearchAnswer {
             true => format!("{by} µm more"),
             false => format!("a reduction by {by} µm"),
         };
-        let u = match self.gain_u_um {
-            Some(u) => format!("u = {} µm", micrometres(u)),
-            None => "u not known".to_owned(),
-        };
+        let u = u_in_words(self.gain_u_um);
         format!(
             "{change} in {of} ({u}; significant from {} µm)",
             micrometres(self.least_gain_um)
