@@ -5,7 +5,7 @@
 //! ```
 //!
 //! `freedom`: free degrees; `rail`: the joint that is one; `search`: from spread placements to the best; `certificate`:
-//! whether grids contain a better one; `rounds`: all of that for every fixture and margin; [`journal`]: state of an
+//! whether grids contain a better one; `followed`: turns of the joints and forces along the path there; `rounds`: all of that for every fixture and margin; [`journal`]: state of an
 //! interrupted search; [`answer`]: the values of the result; `result`: the study at the placement; `pictures`;
 //! [`evaluate`]: scores of given placements. Theory: `docs/theory/placement.md`.
 //!
@@ -16,6 +16,7 @@ pub mod answer;
 mod certificate;
 pub mod evaluate;
 mod fixture;
+mod followed;
 mod freedom;
 pub mod journal;
 mod pictures;
@@ -52,8 +53,9 @@ use armill_study::number::decimals;
 
 use self::answer::rank_by_name;
 use self::fixture::plane_of;
+use self::followed::{FollowedPath, Outcome};
 use self::freedom::Freedom;
-use self::rail::{check_rail, rail_of};
+use self::rail::{check_rail, home_at, rail_of};
 use self::rounds::{Best, FoundPlacements, MARGINS_DEG, Prepared, Site, SiteSearch};
 use self::search::Effort;
 
@@ -192,6 +194,12 @@ impl<'a> PlacementSearch<'a> {
             |indices: &[usize]| on_part(LoadedTrack { track, load: &load }, objective.component, indices);
         let question = runner.question(&self.analysis.setting);
         let (all, some) = (on_part(&all), on_part(&some));
+        let followed = FollowedPath {
+            question: &question,
+            path: LoadedTrack { track, load: &load },
+            some: track.every(stride),
+            watch: quiet,
+        };
         let turn = ToolTurn::of(track);
         let sites = self.sites(turn);
         let prepared = Prepared {
@@ -200,6 +208,7 @@ impl<'a> PlacementSearch<'a> {
             seed: self.seed,
             question: &question,
             paths: [&some, &all],
+            followed: &followed,
             sites: &sites,
             effort,
             watch,
@@ -226,7 +235,7 @@ impl<'a> PlacementSearch<'a> {
             certificate,
             front,
         };
-        let answer = self.answer(&prepared, objective, &found, journal.taken());
+        let answer = self.answer(&prepared, objective, &found, journal.taken())?;
         let best = found.best;
         let freedom = &sites[best.site].freedom;
         let mut pictures = prepared
@@ -250,7 +259,7 @@ impl<'a> PlacementSearch<'a> {
         objective: PlacementObjective,
         found: &FoundPlacements,
         rounds_taken_up: usize,
-    ) -> PlacementAnswer {
+    ) -> Result<PlacementAnswer, StudyError> {
         let (track, setting) = (&self.analysis.track, &self.analysis.setting);
         let turn = ToolTurn::of(track);
         let drawn = self.nominal();
@@ -261,25 +270,20 @@ impl<'a> PlacementSearch<'a> {
             },
             ..objective
         };
+        let followed = prepared.followed;
         let outcome = |freedom: &Freedom, objective: PlacementObjective, at: &[f64]| {
-            let searched = prepared.searched(freedom, objective, prepared.effort);
-            OutcomeAnswer::of(
-                &searched.all.evaluated(&freedom.part_placement(at)),
-                setting.tolerance,
-            )
+            followed.outcome(objective, &freedom.part_placement(at))
         };
         let of = |best: &Best| &prepared.sites[best.site];
         let best = &found.best;
         let place = of(best).freedom.answer(&best.spot.at);
-        let nominal = outcome(&drawn, as_requested, &[]);
+        let nominal = outcome(&drawn, as_requested, &[])?;
         // The branch of the nominal placement, unless another one is a significant improvement.
         let there = &of(best).freedom;
-        let placement = there.part_placement(&best.spot.at);
-        let all = prepared.searched(there, objective, prepared.effort).all;
-        let (least, open) = (&setting.least_gain, objective.branches);
-        let any = outcome(there, objective, &best.spot.at);
-        let kept = nominal.branch.as_deref().and_then(|words| words.parse().ok());
-        let kept = kept.and_then(|branches: BranchPattern| {
+        let least = &setting.least_gain;
+        let mut recommended = outcome(there, objective, &best.spot.at)?;
+        if let Some(branch) = nominal.evaluation.score.branch {
+            let branches = BranchPattern::from(branch);
             let kept = outcome(
                 there,
                 PlacementObjective {
@@ -287,19 +291,27 @@ impl<'a> PlacementSearch<'a> {
                     ..objective
                 },
                 &best.spot.at,
-            );
-            let gain = all.gain((&placement, branches), (&placement, open));
-            let enough = kept.unreachable_points == any.unreachable_points && !gain.is_significant(least);
-            enough.then_some((branches, kept))
-        });
-        let (branches, recommended) = kept.unwrap_or((open, any));
-        let gain = all.gain(
-            (&drawn.part_placement(&[]), as_requested.branches),
-            (&placement, branches),
-        );
+            )?;
+            let lost = [&kept, &recommended].map(|outcome| outcome.evaluation.score.unreachable);
+            if lost[0] == lost[1] && !followed.gain(&kept, &recommended).is_significant(least) {
+                recommended = kept;
+            }
+        }
+        let gain = followed.gain(&nominal, &recommended);
+        let answer_of = |outcome: &Outcome| OutcomeAnswer::of(&outcome.evaluation, setting.tolerance);
+        let (nominal, recommended) = (answer_of(&nominal), answer_of(&recommended));
         let (lost, before) = (recommended.unreachable_points, nominal.unreachable_points);
         let is_improvement = lost < before || (lost == before && gain.is_significant(least));
-        PlacementAnswer {
+        let mut by_margin = Vec::new();
+        for (margin, best) in &found.front {
+            by_margin.push(MarginAnswer {
+                margin_deg: decimals(to_deg(*margin), 4),
+                cost_um: answer_of(&outcome(&of(best).freedom, objective, &best.spot.at)?).cost_um,
+                fixture: of(best).name.map(str::to_owned),
+                place: of(best).freedom.answer(&best.spot.at),
+            });
+        }
+        Ok(PlacementAnswer {
             format: 1,
             analysis: self.name.to_owned(),
             component: component_name(objective.component),
@@ -317,35 +329,26 @@ impl<'a> PlacementSearch<'a> {
             place,
             free: of(best).freedom.reported(&best.spot.at),
             certificate: found.certificate.clone(),
-            by_margin: (found.front)
-                .iter()
-                .map(|(margin, best)| MarginAnswer {
-                    margin_deg: decimals(to_deg(margin), 4),
-                    cost_um: outcome(&of(best).freedom, objective, &best.spot.at).cost_um,
-                    fixture: of(best).name.map(str::to_owned),
-                    place: of(best).freedom.answer(&best.spot.at),
-                })
-                .collect(),
+            by_margin,
             seed: self.seed,
             points: track.len(),
             rounds_taken_up,
             tool_turns_with_part: turn == ToolTurn::WithPart
                 && !matches!(track.placing.spin, Spin::AlongFeed(_)),
-        }
+        })
     }
 
     /// `posture.home_deg` of the study with its rail at `rail_mm`.
     fn home_with_rail(&self, rail_mm: f64) -> Option<Vec<f64>> {
         let robot = &self.study.robot.robot;
-        let rail = rail_of(robot)?;
-        let home = self.analysis.setting.home.as_deref();
-        let given = |joint: usize| {
-            let middle = robot.joints()[joint].limits.map_or(0.0, |limits| limits.middle());
-            home.map_or(middle, |home| home[joint]) * JointUnit::of(robot, joint).scale
-        };
-        let mut all: Vec<f64> = (0..robot.joints().len()).map(given).collect();
-        all[rail] = rail_mm;
-        Some(all)
+        rail_of(robot)?;
+        let home = home_at(robot, self.analysis.setting.home.as_deref(), from_mm(rail_mm));
+        let scaled = home.iter().enumerate();
+        Some(
+            scaled
+                .map(|(joint, at)| at * JointUnit::of(robot, joint).scale)
+                .collect(),
+        )
     }
 
     /// The tool on the part at each point, with its spin at this placement.
