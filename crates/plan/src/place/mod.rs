@@ -4,7 +4,7 @@
 //! free degrees -> placements spread over them -> best regions -> local search on all points -> certificate -> the study there
 //! ```
 //!
-//! `freedom`: free degrees; `rail`: the joint that is one; `search`: from spread placements to the best; `certificate`:
+//! `chosen`: the path; `freedom`: free degrees; `rail`: the joint that is one; `search`: from spread placements to the best; `certificate`:
 //! whether grids contain a better one; `followed`: turns of the joints and forces along the path there; `rounds`: all of that for every fixture and margin; [`journal`]: state of an
 //! interrupted search; [`answer`]: the values of the result; `result`: the study at the placement; `pictures`;
 //! [`evaluate`]: scores of given placements. Theory: `docs/theory/placement.md`.
@@ -14,6 +14,7 @@
 
 pub mod answer;
 mod certificate;
+mod chosen;
 pub mod evaluate;
 mod fixture;
 mod followed;
@@ -39,7 +40,6 @@ use armill_core::path::{LoadedTrack, Spin};
 use armill_core::robot::BranchPattern;
 use armill_core::units::{from_deg, from_mm, to_deg, to_mm, to_um};
 use armill_core::watch::Watch;
-use armill_study::analysis::Subject;
 use armill_study::analysis::path::PathAnalysis;
 use armill_study::analysis::path::answer::search::{component_name, objective_name};
 use armill_study::analysis::runner::Runner;
@@ -52,6 +52,7 @@ use armill_study::joint_unit::JointUnit;
 use armill_study::number::decimals;
 
 use self::answer::rank_by_name;
+use self::chosen::chosen;
 use self::fixture::plane_of;
 use self::followed::{FollowedPath, Outcome};
 use self::freedom::Freedom;
@@ -75,6 +76,16 @@ pub struct PlacementSearch<'a> {
     holes: Option<&'a PostureSearch>,
     table: PlaceTable,
     seed: u64,
+    depth: SearchDepth,
+}
+
+/// How much a search does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum SearchDepth {
+    /// All.
+    Full,
+    /// A quarter of the placements, without further margins and with a coarse grid.
+    Brief,
 }
 
 impl<'a> PlacementSearch<'a> {
@@ -132,7 +143,18 @@ impl<'a> PlacementSearch<'a> {
             holes,
             table,
             seed,
+            depth: SearchDepth::Full,
         })
+    }
+
+    /// The same with a quarter of the effort: for one placement of several that are compared. Margins other than the
+    /// requested one are not searched.
+    #[must_use]
+    pub fn brief(self) -> PlacementSearch<'a> {
+        PlacementSearch {
+            depth: SearchDepth::Brief,
+            ..self
+        }
     }
 
     /// Its study.
@@ -153,7 +175,10 @@ impl<'a> PlacementSearch<'a> {
     /// Approximate number of placements evaluated: the end of its progress.
     pub fn place_count(&self) -> usize {
         let effort = self.effort();
-        let margins = MARGINS_DEG.len() - 1;
+        let margins = match self.depth {
+            SearchDepth::Full => MARGINS_DEG.len() - 1,
+            SearchDepth::Brief => 0,
+        };
         let sites = self.table.fixture.len().max(1);
         sites * (effort.most() + margins * effort.cheaper().most() + effort.grid)
     }
@@ -164,7 +189,14 @@ impl<'a> PlacementSearch<'a> {
             true => Effort::lanes(self.analysis.track.len()),
             false => Effort::ONE_BY_ONE,
         };
-        effort.shared_by(self.holes.map_or(1, |search| search.spins.count))
+        let effort = effort.shared_by(self.holes.map_or(1, |search| search.spins.count));
+        match self.depth {
+            SearchDepth::Full => effort,
+            SearchDepth::Brief => Effort {
+                grid: effort.grid / 4,
+                ..effort.cheaper()
+            },
+        }
     }
 
     /// Searches; `given` receives the best so far, `watch` every placement.
@@ -222,7 +254,10 @@ impl<'a> PlacementSearch<'a> {
             also: None,
         };
         let mut best = prepared.best(&search, journal)?;
-        let mut front = prepared.front(objective, &best, journal)?;
+        let mut front = match self.depth {
+            SearchDepth::Full => prepared.front(objective, &best, journal)?,
+            SearchDepth::Brief => Vec::new(),
+        };
         if let Some((_, first)) = front.first() {
             best = first.clone();
         }
@@ -432,54 +467,5 @@ impl<'a> PlacementSearch<'a> {
             freedom: at(fixture),
         });
         sites.collect()
-    }
-}
-
-/// A path, or a set of holes with the permitted spins.
-type Placed<'a> = (&'a PathAnalysis, Option<&'a PostureSearch>);
-
-/// The analysis that is placed: its index, its name, and its path.
-fn chosen<'a>(
-    study: &'a Study,
-    requested: Option<&str>,
-) -> Result<(usize, (&'a str, Placed<'a>)), StudyError> {
-    let all: Vec<(usize, (&str, Placed<'_>))> = study
-        .analyses
-        .iter()
-        .enumerate()
-        .filter_map(|(index, analysis)| {
-            let about: Placed<'_> = match &analysis.subject {
-                Subject::Path(path) => (path, None),
-                Subject::Holes(holes) => (&holes.path, Some(&holes.search)),
-                _ => return None,
-            };
-            Some((index, (analysis.name.as_str(), about)))
-        })
-        .collect();
-    let names = || {
-        let names = all.iter().map(|(_, (name, _))| format!("`{name}`"));
-        names.collect::<Vec<_>>().join(", ")
-    };
-    match (requested, &all[..]) {
-        (None, []) => Err(StudyError::value(
-            "the study has no path that could be placed",
-            "[[analysis]] kind = \"path\" with a program or a shape, or kind = \"holes\"",
-        )),
-        (None, [one]) => Ok(*one),
-        (None, _) => {
-            let message = format!("the study has several paths: {}", names());
-            Err(StudyError::value(
-                message,
-                "select one: --analysis NAME, or `place.analysis`",
-            ))
-        }
-        (Some(requested), _) => all
-            .iter()
-            .find(|(_, (name, _))| *name == requested)
-            .copied()
-            .ok_or_else(|| {
-                let message = format!("the study has no path called `{requested}`");
-                StudyError::value(message, format!("its paths: {}", names()))
-            }),
     }
 }
