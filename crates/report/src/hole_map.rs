@@ -2,7 +2,7 @@
 //!
 //! Arrows are drawn at one magnification, 1, 2 or 5 times a power of ten, so that the longest takes about a sixth of
 //! the extent of the holes; the scale is below the drawing with an arrow of known length. A hole without a value is a
-//! cross.
+//! cross; one whose every posture is rejected has its value and a cross.
 
 use crate::arrow::draw_arrow;
 use crate::axis::extent;
@@ -34,6 +34,8 @@ pub struct HoleMark {
     pub error_um: [f64; 2],
     /// The evaluated component of the deviation; none where it is out of reach.
     pub deviation_um: Option<f64>,
+    /// Whether the posture of its value must not be used, so that the hole cannot be drilled.
+    pub is_rejected: bool,
     /// Its label; empty for most.
     pub name: String,
 }
@@ -141,6 +143,9 @@ impl HoleMap {
                 let band = levels.inner_um().iter().take_while(|edge| um > **edge).count();
                 let fill = Style::fill(levels.colour(band, self.scale)).outlined(INK, 0.8 * small);
                 svg.circle(at, HOLE_PX * small, &fill);
+                if hole.is_rejected {
+                    draw_cross(svg, at, RING_PX * small, &rejected_style());
+                }
             }
             None => {
                 draw_cross(svg, at, HOLE_PX * small, &unreachable_style());
@@ -173,11 +178,18 @@ impl HoleMap {
             }
             tolerance => entries.extend(tolerance::entry_over(
                 tolerance,
-                self.holes.iter().filter_map(value),
+                self.holes.iter().map(usable_value),
             )),
         }
         if self.holes.iter().any(|hole| value(hole).is_none()) {
             entries.push(Entry::new(Key::Cross(unreachable_style()), "out of reach"));
+        }
+        if self
+            .holes
+            .iter()
+            .any(|hole| value(hole).is_some() && hole.is_rejected)
+        {
+            entries.push(Entry::new(Key::Cross(rejected_style()), "cannot be drilled"));
         }
         entries
     }
@@ -185,6 +197,15 @@ impl HoleMap {
 
 fn value(hole: &HoleMark) -> Option<f64> {
     hole.deviation_um.filter(|um| um.is_finite())
+}
+
+/// The value of a hole that can be drilled; of any other not a number.
+fn usable_value(hole: &HoleMark) -> f64 {
+    value(hole).filter(|_| !hole.is_rejected).unwrap_or(f64::NAN)
+}
+
+fn rejected_style() -> Style {
+    Style::line(INK, 2.0)
 }
 
 fn unreachable_style() -> Style {
@@ -200,6 +221,7 @@ mod tests {
             at_mm: [x, 10.0],
             error_um: [um.unwrap_or(f64::NAN), 3.0],
             deviation_um: um,
+            is_rejected: false,
             name: String::new(),
         }
     }
@@ -223,6 +245,13 @@ mod tests {
         assert!(mixed.contains("deviations drawn ×") && !mixed.contains("NaN"));
         let fine = of(vec![hole(0.0, Some(20.0)), hole(50.0, Some(30.0))]);
         assert!(!fine.contains("over the tolerance") && !fine.contains("out of reach"));
+        assert!(fine.contains("(met everywhere)") && !fine.contains("cannot be drilled"));
+        let rejected = HoleMark {
+            is_rejected: true,
+            ..hole(50.0, Some(30.0))
+        };
+        let lost = of(vec![hole(0.0, Some(20.0)), rejected]);
+        assert!(lost.contains("(met at every usable point)") && lost.contains("cannot be drilled"));
     }
 
     #[test]

@@ -104,7 +104,13 @@ impl DeviationMap {
             obstacles: &self.obstacles(&plane),
         };
         draw_field(&mut page.svg, &plane, &self.grid, &look);
-        let tolerance = tolerance::entry_over(self.tolerance_um, self.grid.values_um());
+        let tolerance = tolerance::entry_over(
+            self.tolerance_um,
+            self.grid
+                .points
+                .iter()
+                .map(|point| point.value_um().unwrap_or(f64::NAN)),
+        );
         let mut entries: Vec<Entry> = tolerance.into_iter().collect();
         entries.extend(zone_entries(&mut page.svg, std::iter::once(&self.grid), paint));
         entries.extend(self.entries_on_top());

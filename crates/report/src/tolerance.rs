@@ -36,10 +36,16 @@ pub(crate) fn entry(tolerance_um: f64, remark: &str) -> Entry {
 }
 
 /// The entry of a tolerance over these values, with a remark where no line shows it; none for a tolerance that is not a
-/// number.
+/// number. A value that is not a number is a point without a usable result.
 pub(crate) fn entry_over(tolerance_um: Option<f64>, values_um: impl Iterator<Item = f64>) -> Option<Entry> {
     let tolerance = tolerance_um.filter(|tolerance| tolerance.is_finite())?;
-    let remark = match extent(values_um) {
+    let mut all_have_a_result = true;
+    let finite = values_um.filter(|value| {
+        all_have_a_result &= value.is_finite();
+        value.is_finite()
+    });
+    let remark = match extent(finite) {
+        Some((_, high)) if tolerance > high && !all_have_a_result => " (met at every usable point)",
         Some((low, _)) if tolerance <= low => " (exceeded everywhere)",
         Some((_, high)) if tolerance > high => " (met everywhere)",
         _ => "",
@@ -62,8 +68,10 @@ mod tests {
         assert_eq!(given(Some(15.0)).as_deref(), Some("tolerance 15 µm"));
         assert_eq!(
             given(Some(20.5)).as_deref(),
-            Some("tolerance 20.5 µm (met everywhere)")
+            Some("tolerance 20.5 µm (met at every usable point)")
         );
+        let reached = entry_over(Some(20.5), [10.0, 20.0].into_iter()).map(|entry| entry.label);
+        assert_eq!(reached.as_deref(), Some("tolerance 20.5 µm (met everywhere)"));
         assert_eq!(given(Some(f64::INFINITY)), None);
         assert_eq!(given(None), None);
     }

@@ -13,7 +13,8 @@ Examples:
   armill compare cell --robot kuka/kr120r2500pro --robot yaskawa/mh50
   armill compare studies/* --out decision --json
 A robot given with --robot has its own compliances or, if they are not known, those assumed for its payload; all other
-inputs are those of the study.")]
+inputs are those of the study. Where robots differ, the first common path or set of holes is also compared at the best
+placement of the part for each robot.")]
 pub(crate) struct CompareArguments {
     /// Studies: folders with a study.toml, files, or names of example studies
     #[arg(required = true, value_name = "STUDY")]
@@ -21,6 +22,9 @@ pub(crate) struct CompareArguments {
     /// Add, for each study, a cell with this robot in place of its own (repeatable): library name or robot file
     #[arg(long = "robot", value_name = "NAME")]
     pub robots: Vec<String>,
+    /// Compare at the given placement only: no search for the best placement of the part for each robot
+    #[arg(long)]
+    pub given_placement: bool,
     /// Folder for the results [default: compare, next to the first study]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,

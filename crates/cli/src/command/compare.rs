@@ -4,7 +4,7 @@
 //! its ranking as text, the differences, and what limits the comparison; or with `--json` all of `result.json`.
 
 use armill_plan::compare::{
-    CellNumbers, ComparedAnswer, ComparisonAnswer, cells, comparable, compare, write,
+    CellNumbers, ComparedAnswer, ComparisonAnswer, Placing, cells, comparable, compare, write,
 };
 use armill_study::output::Pictures;
 use armill_study::{StudyError, studies};
@@ -33,9 +33,14 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<Outcome, StudyError> {
     } else {
         Pictures::Drawn
     };
+    let placing = match arguments.given_placement {
+        true => Placing::Given,
+        false => Placing::BestForEach,
+    };
     let compared = in_pool(arguments.threads, || {
-        let progress = Progress::new(of.point_count());
-        let compared = progress.watch(|watch| compare(&of, watch))?;
+        let progress = Progress::of("points and placements", of.count(placing));
+        let note = |what: &str| progress.set_message(what);
+        let compared = progress.watch(|watch| compare(&of, placing, watch, &note))?;
         write(&compared, &out, requested, &|name| progress.set_message(name))?;
         Ok::<_, StudyError>(compared)
     })??;
@@ -116,7 +121,11 @@ fn of_analysis(analysis: &ComparedAnswer) -> Vec<String> {
         Align::Left,
     ];
     let mut lines = vec![analysis.answer.clone()];
-    lines.push("In-plane deviation in µm, best cell first:".to_owned());
+    let order = match analysis.is_ranked {
+        true => "best cell first",
+        false => "in the order of the nominal numbers, which is no ranking",
+    };
+    lines.push(format!("In-plane deviation in µm, {order}:"));
     lines.extend(
         columns(&rows, &aligned)
             .into_iter()

@@ -335,3 +335,76 @@ fn a_rail_moves_the_robot_as_far_as_the_part_would_move() {
     cell.armill(&["place", "fixed.toml", "--rail-mm", "0,500"])
         .refused(&["has no rail"]);
 }
+
+/// A ring behind an R-2000iC: axis 1, whose range is 366.7 deg, turns through 180 deg along it.
+const BEHIND: &str = r#"format = 1
+robot = "fanuc/r2000ic"
+tolerance_um = 300
+tool = { flange_from_tool_mm_deg = [0, 90, 260, 0, 0, 0] }
+plane = { centre_mm = [-1700, 0, 900], tilt_deg = 90, half_size_mm = 100, step_mm = 50 }
+load = { cases_n = [[100, 50, 0]] }
+posture = { branch = "front elbow-up" }
+[[analysis]]
+kind = "path"
+name = "ring"
+circle.radius_mm = 60
+"#;
+
+#[test]
+fn the_margin_is_kept_along_the_whole_path() {
+    let cell = Cell::new();
+    cell.file("study.toml", BEHIND);
+    let args = [
+        "place",
+        "study.toml",
+        "--x-mm=-1900,-1500",
+        "--y-mm=95,135",
+        "--margin-deg",
+        "2",
+    ];
+    cell.armill(&args).fine();
+    let placed = placement(&cell, "place");
+    assert_eq!(placed["recommended"]["unreachable_points"], 0, "{placed}");
+    let table = std::fs::read_to_string(cell.at("place/ring.csv")).unwrap();
+    let mut lines = table.lines();
+    let names: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let column = |name: &str| names.iter().position(|other| *other == name).unwrap();
+    let [margin, joint] = ["limit_margin_deg", "joint_J1_deg"].map(column);
+    let rows: Vec<Vec<f64>> = lines
+        .map(|line| {
+            line.split(',')
+                .map(|cell| cell.parse().unwrap_or(f64::NAN))
+                .collect()
+        })
+        .collect();
+    let least = rows.iter().map(|row| row[margin]).fold(f64::INFINITY, f64::min);
+    assert!((2.0 - 1e-6..3.0).contains(&least), "{least}");
+    // Axis 1 turns past 180 deg: point by point, a position of the other side would keep more than 2 deg.
+    assert!(rows.iter().any(|row| row[joint] > 180.5));
+}
+
+#[test]
+fn the_nominal_placement_has_the_number_of_a_run() {
+    let cell = Cell::new();
+    cell.armill(&["new", "pocket", "--example", "r2000ic-pocket"])
+        .fine();
+    let run = cell
+        .armill(&["run", "pocket", "--no-pictures", "--json"])
+        .fine()
+        .json();
+    let run = &run["paths"][0];
+    cell.armill(&["place", "pocket", "--no-pictures", "--out", "placed"])
+        .fine();
+    let nominal = &placement(&cell, "placed")["nominal"];
+    // The forces are those at equilibrium with the deflection, which is 5 um less than under the nominal forces.
+    let apart = number(&nominal["cost_um"]) - number(&run["max_in_plane_um"]);
+    assert!(apart.abs() < 1e-3, "{nominal}");
+    let apart = number(&nominal["cost_u_um"]) - number(&run["worst"]["in_plane_u_um"]);
+    assert!(apart.abs() < 0.5, "{nominal}");
+    let there = std::fs::read_to_string(cell.at("placed/result.json")).unwrap();
+    let there: serde_json::Value = serde_json::from_str(&there).unwrap();
+    let recommended = number(&placement(&cell, "placed")["recommended"]["cost_um"]);
+    let apart = recommended - number(&there["paths"][0]["max_in_plane_um"]);
+    // The placement is rounded to a tenth of a micrometre.
+    assert!(apart.abs() < 1e-3, "{recommended}");
+}

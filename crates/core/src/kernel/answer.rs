@@ -209,6 +209,17 @@ impl Answers {
             .find(|(_, evaluation)| evaluation.in_plane <= least * (1.0 + SAME))
     }
 
+    /// The point with the largest deviation along the normal, by size, if any point is reachable; of equal ones the
+    /// first.
+    pub fn largest_along_normal(&self) -> Option<(usize, &Evaluation)> {
+        let most = self
+            .evaluations()
+            .map(|(_, evaluation)| evaluation.normal.abs())
+            .max_by(f64::total_cmp)?;
+        self.evaluations()
+            .find(|(_, evaluation)| evaluation.normal.abs() >= most * (1.0 - SAME))
+    }
+
     /// The reachable points, with their index.
     pub fn evaluations(&self) -> impl Iterator<Item = (usize, &Evaluation)> {
         self.points

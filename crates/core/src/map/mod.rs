@@ -32,7 +32,7 @@ pub use backlash_geometry::BacklashGeometry;
 pub use certainty::{COVERAGE, Certainty, probability_within};
 pub use depth_by_feed::DepthByFeed;
 pub use limits::{CutLimits, Permitted, ProgramLimits, program_limits};
-pub use obstacles::{Obstacle, ObstacleKind, obstacles};
+pub use obstacles::{Obstacle, ObstacleKind, TurnsAlong, obstacles, turns_along};
 pub use plane::{Counts, PlaneMap, plane_map};
 pub use point_limits::{PermittedForces, PointLimits};
 pub use radial::{RadialDeviation, radial_deviations};

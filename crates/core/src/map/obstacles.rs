@@ -9,10 +9,17 @@
 //!
 //! Rapids are excluded: there the arm may move in any way. The speed of a joint is its mean over the move between two
 //! points; a controller also needs time to accelerate.
+//!
+//! [`turns_along`]: limits and whole turns alone, for the placements of a search.
 
-use crate::kernel::{AT_LIMIT, Answers};
-use crate::path::{Pace, SampledPath};
+use std::f64::consts::PI;
+
+use super::turns::continue_turns;
+use crate::kernel::{AT_LIMIT, Answers, Question, evaluate_in_order};
+use crate::path::{Pace, SampledPath, Track};
 use crate::robot::Robot;
+use crate::spatial::Wrench;
+use crate::watch::{Cancelled, Watch};
 
 /// A joint that turns farther than this from one point to the next jumps, rad.
 const FAR: f64 = 0.5;
@@ -74,6 +81,63 @@ pub fn obstacles<'a>(
         let all = here.into_iter().chain(moved);
         all.map(move |kind| Obstacle { index, kind })
     })
+}
+
+/// How far the joints are from their limits along a path, with the whole turns that they make on each cut.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TurnsAlong {
+    /// Points that are unreachable, where a revolute joint is nearer to a limit than the margin, or where it must turn
+    /// back a whole turn on a cut.
+    pub lost: usize,
+    /// Smallest distance of a revolute joint from its limits, less the margin, rad; infinite without limits.
+    pub room: f64,
+    /// Farthest that a revolute joint turns from one point of a cut to the next, rad.
+    pub largest_step: f64,
+}
+
+/// The joints along `track` in the branch of `question`, at least `margin` (rad) from their limits. Loads are not used.
+///
+/// # Errors
+/// [`Cancelled`] if the watch cancels.
+pub fn turns_along(
+    question: &Question<'_>,
+    track: &Track,
+    margin: f64,
+    watch: Watch<'_>,
+) -> Result<TurnsAlong, Cancelled> {
+    let robot = question.arm.robot;
+    let unloaded = Question {
+        cases: &[Wrench::ZERO],
+        ..*question
+    };
+    let pose = |index: usize| track.stop(index).base_from_tool;
+    let mut answers = evaluate_in_order(&unloaded, track.len(), pose, watch)?;
+    continue_turns(robot, &track.path, &mut answers);
+    let revolute: Vec<usize> = (0..answers.joint_count)
+        .filter(|joint| !robot.slides(*joint))
+        .collect();
+    let mut found = TurnsAlong {
+        lost: 0,
+        room: f64::INFINITY,
+        largest_step: 0.0,
+    };
+    for (index, point) in answers.points.iter().enumerate() {
+        let q = answers.joints_at(index);
+        let follows = index > 0 && !track.path.begins(index) && answers.points[index - 1].is_ok();
+        let (mut room, mut step) = (f64::INFINITY, 0.0f64);
+        for joint in revolute.iter().copied().filter(|_| point.is_ok()) {
+            if let Some(limits) = robot.joints()[joint].limits {
+                room = room.min(limits.margin(q[joint]) - margin);
+            }
+            if follows {
+                step = step.max((q[joint] - answers.joints_at(index - 1)[joint]).abs());
+            }
+        }
+        found.lost += usize::from(point.is_err() || room < -AT_LIMIT || step > PI);
+        found.room = found.room.min(room);
+        found.largest_step = found.largest_step.max(step);
+    }
+    Ok(found)
 }
 
 /// The obstacle of the point itself.

@@ -127,7 +127,7 @@ pub struct FollowedTrack<'a> {
 
 impl FollowedTrack<'_> {
     /// The objective along it, m.
-    fn objective(
+    pub(super) fn objective(
         &self,
         question: &Question<'_>,
         (component, objective): (Component, Objective),

@@ -5,7 +5,8 @@
 //! - [`placement`]: score of a placement of the part.
 //! - [`compensation`]: the commanded path for which the tool follows the nominal path.
 //! - [`nodes`]: the same with few targets and straight moves between them.
-//! - [`gain`](fn@gain): decrease of an objective by a change, with its uncertainty.
+//! - [`gain`](fn@gain): decrease of an objective by a change, with its uncertainty; [`sensitivity`](fn@sensitivity): the same
+//!   of two robots.
 //! - [`reversals`](fn@reversals): number of reversals of each joint.
 //!
 //! `spins`: the turns that are tried; `chain`: the chain of postures with the lowest cost; `links`: transitions between
@@ -24,6 +25,7 @@ pub mod placement;
 pub mod posture;
 mod rank_by;
 mod reversals;
+mod sensitivity;
 mod smooth;
 mod spins;
 mod winding;
@@ -39,4 +41,5 @@ pub use placement::{
 pub use posture::{Component, Objective, PostureFound, PostureSearch, postures_along};
 pub use rank_by::RankBy;
 pub use reversals::reversals;
+pub use sensitivity::{InputKind, Sensitivity, SharedInputs, sensitivity};
 pub use spins::Spins;

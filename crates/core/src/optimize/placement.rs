@@ -264,29 +264,30 @@ impl Placeable<'_> {
         })
     }
 
-    /// The gain of the cost from one placement to another, each in the best of its open branches with nominal values.
+    /// The gain of the cost from a placement to that of `other`, each in the best of its open branches with nominal
+    /// values; the arm and the settings are those of the first.
     pub fn gain(
         &self,
         before: (&PartPlacement, BranchPattern),
+        other: &Placeable<'_>,
         after: (&PartPlacement, BranchPattern),
     ) -> Gain {
         let off = changed_arms(&self.question.arm);
         let mut evaluators = self.evaluators(&off);
-        let mut scores = [Score::NONE; 2];
-        let mut branches = [BranchPattern::default(); 2];
-        for (i, (placement, open)) in [before, after].into_iter().enumerate() {
-            scores[i] = self
-                .nominal(&mut evaluators.nominal, placement, open, None)
-                .unwrap_or(Score::NONE);
-            branches[i] = scores[i].branch.map_or(open, BranchPattern::from);
-        }
-        let [before, after] = [
-            (before.0, branches[0], scores[0]),
-            (after.0, branches[1], scores[1]),
-        ];
+        let ways = [(self, before), (other, after)].map(|(placeable, (placement, open))| {
+            let score = placeable.nominal(&mut evaluators.nominal, placement, open, None);
+            let score = score.unwrap_or(Score::NONE);
+            (
+                placeable,
+                placement,
+                score.branch.map_or(open, BranchPattern::from),
+                score,
+            )
+        });
+        let [before, after] = ways.map(|(.., score)| score.cost);
         let mut gain = Gain {
-            before: before.2.cost,
-            after: after.2.cost,
+            before,
+            after,
             uncertainty: None,
         };
         if !self.question.arm.has_known_uncertainty() {
@@ -296,11 +297,11 @@ impl Placeable<'_> {
         let by_load = gain.by() * self.question.uncertainty.relative;
         let by_model = structure.model_error * gain.before.hypot(gain.after);
         let by_arms = evaluators.off.iter_mut().map(|evaluator| {
-            let mut change = |(placement, branch, score): (&PartPlacement, BranchPattern, Score)| {
-                let there = self.nominal(evaluator, placement, branch, None);
+            let [before, after] = ways.map(|(placeable, placement, branch, score)| {
+                let there = placeable.nominal(evaluator, placement, branch, None);
                 there.map_or(0.0, |there| there.cost - score.cost)
-            };
-            change(before) - change(after)
+            });
+            before - after
         });
         gain.uncertainty = Some(by_arms.fold(by_load.hypot(by_model), f64::hypot));
         gain

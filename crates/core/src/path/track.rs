@@ -85,6 +85,56 @@ impl Track {
         closed
     }
 
+    /// The track with its part at `base_from_part` (base) and the tool turned by `spin` (rad) about its axis in
+    /// addition. Relative to the part, the tool is otherwise as on this track.
+    pub fn moved(&self, base_from_part: Isometry, spin: f64) -> Track {
+        let moved = base_from_part * self.base_from_part.inverse();
+        let mut track = Track {
+            base_from_part,
+            placing: Placing {
+                base_from_path: moved * self.placing.base_from_path,
+                ..self.placing
+            },
+            spins: None,
+            path: self.path.clone(),
+        };
+        let turned = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), spin);
+        let more = |index: usize| {
+            let required = moved.rotation * self.stop(index).base_from_tool.rotation * turned;
+            let turn = track.stop(index).base_from_tool.rotation.inverse() * required;
+            2.0 * turn.k.atan2(turn.w)
+        };
+        track.spins = Some((0..self.len()).map(more).collect());
+        track
+    }
+
+    /// Every `stride`-th point, each in its stretch of cuts. Only the order of the points along a stretch is kept, not
+    /// the distance between them.
+    pub fn every(&self, stride: usize) -> Track {
+        let stride = stride.max(1);
+        let mut along = 0.0;
+        let mut begins = false;
+        let mut points = Vec::with_capacity(self.len().div_ceil(stride));
+        for (index, point) in self.path.points.iter().enumerate() {
+            begins |= self.path.begins(index);
+            if index % stride == 0 {
+                along += if begins { 0.0 } else { 1.0 };
+                points.push(PathPoint { along, ..*point });
+                begins = false;
+            }
+        }
+        let spins = self.spins.as_ref();
+        Track {
+            path: SampledPath {
+                points,
+                operations: Vec::new(),
+                ..self.path.clone()
+            },
+            spins: spins.map(|spins| spins.iter().copied().step_by(stride).collect()),
+            ..*self
+        }
+    }
+
     /// The tool pose at point `index`, and the tool axis as its normal.
     pub fn stop(&self, index: usize) -> Stop {
         let point = &self.path.points[index];

@@ -3,6 +3,7 @@
 //! `cells[]` are the compared cells, in the order given; `analyses[]` the analyses they have in common, paths first,
 //! each with its cells best first.
 
+use armill_core::optimize::SharedInputs;
 use armill_core::units::to_mm;
 use std::cmp::Ordering;
 
@@ -18,6 +19,7 @@ use super::entry::Entry;
 use super::numbers::CellNumbers;
 use super::sentence;
 use super::traits::TraitAnswer;
+use super::verdict::{Candidate, Verdict, verdict};
 
 /// The whole comparison.
 #[derive(Clone, Debug, Serialize)]
@@ -78,9 +80,12 @@ pub struct ComparedAnswer {
     pub name: String,
     /// `path`, `holes`, `map` or `volume`.
     pub kind: &'static str,
-    /// Which cell is best, in a sentence.
+    /// Which cell is best, or that there is no ranking, in a sentence.
     pub answer: String,
-    /// The cells, best first.
+    /// Whether the first cell is better than all others: by more than the uncertainty of the difference, and not by
+    /// assumed compliances.
+    pub is_ranked: bool,
+    /// The cells in the order of their nominal numbers, best first.
     pub cells: Vec<CellNumbers>,
     /// What the cells are, in the same order.
     pub traits: Vec<TraitAnswer>,
@@ -107,6 +112,7 @@ impl CellAnswer {
 /// All entries by name, paths first, then holes, maps and volumes, each kind in the order given.
 pub(super) fn put_together(
     of: &ComparableCells,
+    mut left_out: Vec<String>,
     entries: Vec<Entry>,
     cells: Vec<CellAnswer>,
 ) -> ComparisonResult {
@@ -130,7 +136,7 @@ pub(super) fn put_together(
             .position(|one| Some(one) == kind)
     };
     groups.sort_by_key(place);
-    let (mut analyses, mut curves, mut left_out) = (Vec::new(), Vec::new(), of.left_out.clone());
+    let (mut analyses, mut curves) = (Vec::new(), Vec::new());
     for group in groups {
         if let [alone] = &group[..] {
             let name = &cells[alone.cell].name;
@@ -159,7 +165,7 @@ pub(super) fn put_together(
 
 /// Which cell is best, and which have assumed compliances.
 fn in_a_sentence(first: &ComparedAnswer) -> String {
-    match sentence::assumed(&first.cells) {
+    match sentence::assumed(first.cells.iter()) {
         Some(assumed) => format!("{} {assumed}", first.answer),
         None => first.answer.clone(),
     }
@@ -179,8 +185,11 @@ fn compared(
     group.sort_by(|a, b| better(&a.requested.numbers, &b.requested.numbers));
     let traits = traits(&group);
     let (mut numbers, mut curves) = (Vec::new(), Vec::new());
+    let (mut sensitivities, mut least) = (Vec::new(), Vec::new());
     for entry in group {
         let cell = &cells[entry.cell];
+        sensitivities.push(entry.sensitivity);
+        least.push(entry.least);
         numbers.push(CellNumbers {
             cell: cell.name.clone(),
             robot: cell.robot.clone(),
@@ -190,13 +199,26 @@ fn compared(
         curves.extend(entry.curve);
     }
     let of_arm = |one: &&TraitAnswer| ["robot", "compliance"].contains(&one.what);
-    let same_arm = |index: usize| {
+    let shared = |a: usize, b: usize| {
         let mut arms = traits.iter().filter(of_arm);
-        arms.all(|one| one.of[index] == one.of[index + 1])
+        match arms.all(|one| one.of[a] == one.of[b]) {
+            true => SharedInputs::OneRobot,
+            false => SharedInputs::LoadAndTool,
+        }
     };
-    notes.extend(sentence::uncertainties(&numbers, same_arm));
+    let candidates = numbers.iter().zip(&sensitivities).zip(&least);
+    let candidates: Vec<Candidate<'_>> = candidates
+        .map(|((numbers, sensitivity), least)| Candidate {
+            numbers,
+            sensitivity: sensitivity.as_ref(),
+            least,
+        })
+        .collect();
+    let verdict = verdict(&candidates, |index| shared(0, index));
+    notes.extend(sentence::uncertainties(&candidates, shared));
     let given = ComparedAnswer {
-        answer: sentence::ranking(&name, kind, &numbers),
+        answer: sentence::ranking(&name, kind, &numbers, &verdict),
+        is_ranked: verdict == Verdict::First,
         name,
         kind,
         cells: numbers,

@@ -13,12 +13,14 @@ use std::path::{Path, PathBuf};
 use armill_formats::document::{Problem, Problems};
 use armill_formats::robot::RobotDescription;
 use armill_study::error::StudyError;
+use armill_study::file::format::StudyFile;
 use armill_study::file::resolve::Study;
 use armill_study::run::point_count;
 use armill_study::studies::{self, FoundStudy};
 use armill_study::{library, robots};
 
 use super::other_robot;
+use super::placed::{self, Placing};
 
 /// Greatest number of cells: pictures cannot show more lines.
 const MOST_CELLS: usize = 40;
@@ -32,6 +34,28 @@ pub struct Cell {
     pub shown: String,
     /// Its analyses.
     pub study: Study,
+    /// Where it is read from.
+    pub(super) source: CellSource,
+}
+
+/// The study file of a cell, and the robot that replaces its own.
+#[derive(Clone, Debug)]
+pub(super) struct CellSource {
+    study: FoundStudy,
+    robot: Option<Other>,
+}
+
+impl CellSource {
+    /// The study of the cell after another change of its file.
+    ///
+    /// # Errors
+    /// All problems of the file; a study that cannot use the robot.
+    pub(super) fn read_changed(&self, change: &mut dyn FnMut(&mut StudyFile)) -> Result<Study, StudyError> {
+        match &self.robot {
+            Some(other) => other.in_place(&self.study, change),
+            None => self.study.read_changed(change),
+        }
+    }
 }
 
 /// Cells with analyses in common; the others are left out.
@@ -42,9 +66,16 @@ pub struct ComparableCells {
 }
 
 impl ComparableCells {
-    /// Number of points, the end of the progress of [`compare`](super::compare).
-    pub fn point_count(&self) -> usize {
-        self.cells.iter().map(|cell| point_count(&cell.study)).sum()
+    /// Number of points and placements, the end of the progress of [`compare`](super::compare).
+    pub fn count(&self, placing: Placing) -> usize {
+        let points: usize = self.cells.iter().map(|cell| point_count(&cell.study)).sum();
+        points + placed::placement_count(self, placing)
+    }
+
+    /// Whether cells have different robots.
+    pub(super) fn has_several_robots(&self) -> bool {
+        let name = |cell: &Cell| cell.study.robot.robot.name().to_owned();
+        self.cells.iter().any(|cell| name(cell) != name(&self.cells[0]))
     }
 }
 
@@ -93,7 +124,7 @@ pub fn cells(given: &[PathBuf], robot_names: &[String]) -> Result<Vec<Cell>, Stu
                     .iter()
                     .filter(|other| other.name() != own.robot.robot.name())
                 {
-                    match other.in_place(study) {
+                    match other.in_place(study, &mut |_| ()) {
                         Ok(swapped) => cells.push((Some(other), label.clone(), study, swapped)),
                         Err(error) => keep(error),
                     }
@@ -117,6 +148,10 @@ pub fn cells(given: &[PathBuf], robot_names: &[String]) -> Result<Vec<Cell>, Stu
             },
             shown: of.shown.clone(),
             study,
+            source: CellSource {
+                study: of.clone(),
+                robot: robot.cloned(),
+            },
         })
         .collect();
     match cells.len() {
@@ -133,6 +168,7 @@ pub fn cells(given: &[PathBuf], robot_names: &[String]) -> Result<Vec<Cell>, Stu
 }
 
 /// A robot that replaces others.
+#[derive(Clone, Debug)]
 struct Other {
     /// What a study finds it by.
     found_as: String,
@@ -144,11 +180,15 @@ impl Other {
         self.robot.robot.name()
     }
 
-    /// This study with it.
+    /// This study with it, after another change of its file.
     ///
     /// # Errors
     /// All problems of the file, with the robot's name after that of the file; a study that cannot use it.
-    fn in_place(&self, study: &FoundStudy) -> Result<Study, StudyError> {
+    fn in_place(
+        &self,
+        study: &FoundStudy,
+        change: &mut dyn FnMut(&mut StudyFile),
+    ) -> Result<Study, StudyError> {
         let study = FoundStudy {
             shown: format!("{} (with {})", study.shown, self.name()),
             ..study.clone()
@@ -156,6 +196,7 @@ impl Other {
         let mut fits = Ok(());
         let read = study.read_changed(|file| {
             fits = other_robot::put(file, &self.found_as, &self.robot);
+            change(file);
         });
         match fits {
             Err(StudyError::Value { message, hint }) => {

@@ -169,8 +169,32 @@ fn nearest_rank(sorted: &[f64], part: f64) -> Option<f64> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
+
+    /// A cell with this fraction within 20 um and this largest deviation, known to 4 um.
+    pub(in super::super) fn cell(name: &str, part: f64, largest: Option<f64>) -> CellNumbers {
+        CellNumbers {
+            cell: name.to_owned(),
+            robot: "r".to_owned(),
+            compliance_assumed: false,
+            branch: "best".to_owned(),
+            points: 10,
+            reached: if largest.is_some() { 10 } else { 0 },
+            inside_joint_limits: if largest.is_some() { 10 } else { 0 },
+            counts: CountsAnswer::of(&Counts::default()),
+            tolerance_um: 20.0,
+            mean_in_plane_um: largest,
+            p95_in_plane_um: largest,
+            max_in_plane_um: largest,
+            max_in_plane_u_um: Some(4.0),
+            max_normal_um: largest,
+            fraction_within: part,
+            fraction_within_and_inside_joint_limits: part,
+            mostly_by: None,
+            mostly_by_percent: None,
+        }
+    }
 
     #[test]
     fn the_rank_of_95_percent_is_that_of_the_textbook() {

@@ -185,7 +185,7 @@ fn ranges(analysis: &ComparedAnswer) -> Picture {
     };
     let picture = Comparison {
         title: format!("{}: deviation and tolerance of each cell", analysis.name),
-        subtitle: "mean, 95 % and largest deviation of the points that are reached; best first".to_owned(),
+        subtitle: "mean, 95 % and largest deviation of the points that are reached".to_owned(),
         quantity: "in-plane deviation (µm)".to_owned(),
         result: "within".to_owned(),
         cells: analysis.cells.iter().map(cell).collect(),
@@ -277,49 +277,66 @@ fn is_of(picture: &Picture, analysis: &ComparedAnswer) -> bool {
 
 /// The cells of one analysis in numbers.
 fn numbers(analysis: &ComparedAnswer) -> Rows {
+    // What all cells have in common needs no column, which would make the table wider than a page.
+    let tolerance = analysis.cells.first().map_or(0.0, |cell| cell.tolerance_um);
+    let one_tolerance = analysis.cells.iter().all(|cell| cell.tolerance_um == tolerance);
+    let of_all = |points: usize, cell: &CellNumbers| format!("{points}/{}", cell.points);
     let row = |cell: &CellNumbers| {
-        let assumed = if cell.compliance_assumed { "assumed" } else { "" };
+        let assumed = if cell.compliance_assumed {
+            "assumed"
+        } else {
+            "given"
+        };
         let by = cell.mostly_by.clone().zip(cell.mostly_by_percent);
         vec![
             cell.cell.clone(),
-            cell.robot.clone(),
+            Some(cell.robot.clone())
+                .filter(|robot| *robot != cell.cell)
+                .unwrap_or_default(),
             cell.branch.clone(),
             assumed.to_owned(),
-            cell.points.to_string(),
-            cell.reached.to_string(),
-            cell.inside_joint_limits.to_string(),
+            of_all(cell.reached, cell),
+            of_all(cell.inside_joint_limits, cell),
             um(cell.mean_in_plane_um),
             um(cell.p95_in_plane_um),
             um(cell.max_in_plane_um),
             um(cell.max_in_plane_u_um.map(|u| armill_core::map::COVERAGE * u)),
             um(cell.max_normal_um),
-            um(Some(cell.tolerance_um)),
+            um(Some(cell.tolerance_um).filter(|_| !one_tolerance)),
             percent(cell.fraction_within_and_inside_joint_limits),
             by.map_or_else(String::new, |(by, part)| format!("{by} ({part:.0} %)")),
         ]
     };
     without_empty_columns(Rows {
         caption: format!(
-            "{}: best first. Mean, 95 % and largest are of the points that are reached, ± is twice the standard uncertainty; within: \
-             points within the tolerance and inside joint limits, of all points.",
-            analysis.name
+            "{}: {}. Mean, 95 % and largest in-plane deviation are of the points that are reached, ± is twice the standard \
+             uncertainty; normal: largest deviation along the normal, or along the tool of a path; within: points within the \
+             tolerance{} and inside joint limits, of all points.",
+            analysis.name,
+            match analysis.is_ranked {
+                true => "best first",
+                false => "in the order of the nominal numbers, which is no ranking",
+            },
+            match one_tolerance {
+                true => format!(" of {} µm", um(Some(tolerance))),
+                false => String::new(),
+            }
         ),
         columns: columns(&[
             ("cell", ""),
             ("robot", ""),
             ("branch", ""),
             ("compliance", ""),
-            ("points", COUNT),
             ("reached", COUNT),
-            ("inside joint limits", COUNT),
+            ("in limits", COUNT),
             ("mean", "µm"),
             ("95 %", "µm"),
             ("largest", "µm"),
             ("±", "µm"),
-            ("largest along the normal", "µm"),
+            ("normal", "µm"),
             ("tolerance", "µm"),
             ("within", "%"),
-            ("mostly by", ""),
+            ("largest share", ""),
         ]),
         rows: analysis.cells.iter().map(row).collect(),
     })

@@ -1,4 +1,4 @@
-//! The ranking of cells in one sentence with its numbers; and what limits it.
+//! The ranking of cells, or that there is none, in one sentence with its numbers; and what limits it.
 //!
 //! ```text
 //! groove: B is within 20 µm on 93.0 % of the path, A on 12.0 %; largest deviation 18.2 and 61.1 µm.
@@ -8,12 +8,15 @@
 //! each is reported with its own.
 
 use armill_core::map::COVERAGE;
+use armill_core::optimize::SharedInputs;
+use armill_core::units::to_um;
 use armill_study::analysis::words::micrometres;
 
 use super::numbers::CellNumbers;
+use super::verdict::{Candidate, Verdict};
 
-/// The ranking of cells, given best first.
-pub(super) fn ranking(name: &str, kind: &str, cells: &[CellNumbers]) -> String {
+/// The ranking of cells, given in the order of their numbers, or that there is none.
+pub(super) fn ranking(name: &str, kind: &str, cells: &[CellNumbers], verdict: &Verdict) -> String {
     let (whole, of) = match kind {
         "path" => ("the whole path", "the path"),
         "holes" => ("all holes", "the holes"),
@@ -56,13 +59,13 @@ pub(super) fn ranking(name: &str, kind: &str, cells: &[CellNumbers]) -> String {
     let limit = micrometres(first.tolerance_um);
     let main = if all(1.0) {
         format!(
-            "every cell is within {limit} µm on {whole}, {} is best",
-            first.cell
+            "every cell is within {limit} µm on {whole}{}",
+            best(verdict, first)
         )
     } else if all(0.0) {
         format!(
-            "no cell is within {limit} µm at any point of {of}, {} is best",
-            first.cell
+            "no cell is within {limit} µm at any point of {of}{}",
+            best(verdict, first)
         )
     } else {
         parts.join(", ")
@@ -90,40 +93,77 @@ pub(super) fn ranking(name: &str, kind: &str, cells: &[CellNumbers]) -> String {
         format!("; {} {}", cell.cell, given.join(" and "))
     });
     let lost: String = lost.collect();
-    format!("{name}: {main}{largest}{lost}.")
+    let no_ranking = no_ranking(verdict, cells);
+    format!("{name}: {no_ranking}{main}{largest}{lost}.")
 }
 
-/// Limitations of the ranking: neighbours with different robots whose largest deviations differ by less than their
-/// uncertainty, assumed compliances, cells that do not reach all points.
-///
-/// For two cells with the same robot (`same_arm`, by the index of the first) the uncertainty is common and
-/// does not affect the ranking.
-pub(super) fn uncertainties(cells: &[CellNumbers], same_arm: impl Fn(usize) -> bool) -> Vec<String> {
-    let mut uncertainties = Vec::new();
-    for (index, pair) in cells.windows(2).enumerate() {
-        if same_arm(index) {
-            continue;
-        }
-        let given = |cell: &CellNumbers| {
-            let u = cell.max_in_plane_u_um.unwrap_or(0.0);
-            Some((cell.max_in_plane_um?, COVERAGE * u))
-        };
-        let Some(((a, ua), (b, ub))) = given(&pair[0]).zip(given(&pair[1])) else {
-            continue;
-        };
-        if (a - b).abs() < ua.hypot(ub) {
-            uncertainties.push(format!(
-                "The largest deviations of {} and {} do not differ significantly: {} ± {} and {} ± {} µm.",
-                pair[0].cell,
-                pair[1].cell,
-                micrometres(a),
-                micrometres(ua),
-                micrometres(b),
-                micrometres(ub)
-            ));
-        }
+/// The best cell, at the end of what all have in common.
+fn best(verdict: &Verdict, first: &CellNumbers) -> String {
+    match verdict {
+        Verdict::First => format!(", {} is best", first.cell),
+        Verdict::Undecided(_) | Verdict::FirstIsAssumed => String::new(),
     }
-    uncertainties.extend(assumed(cells));
+}
+
+/// That there is no ranking, and why, at the beginning of the sentence; nothing if there is one.
+fn no_ranking(verdict: &Verdict, cells: &[CellNumbers]) -> String {
+    match verdict {
+        Verdict::First => String::new(),
+        Verdict::Undecided(same) if same.len() + 1 == cells.len() => {
+            let differences = match same.len() {
+                1 => "the difference is within its uncertainty",
+                _ => "the differences are within their uncertainty",
+            };
+            format!("no ranking: {differences}; ")
+        }
+        Verdict::Undecided(same) => {
+            let names: Vec<&str> = (std::iter::once(&0).chain(same))
+                .map(|index| cells[*index].cell.as_str())
+                .collect();
+            format!(
+                "no ranking of {}: differences are within their uncertainty; ",
+                names.join(", ")
+            )
+        }
+        Verdict::FirstIsAssumed => format!(
+            "no ranking: the compliances of {}, which has the best numbers, are assumed; ",
+            cells.first().map_or("", |first| first.cell.as_str())
+        ),
+    }
+}
+
+/// Limitations of the ranking: neighbours whose largest deviations differ by less than the uncertainty of the
+/// difference, assumed compliances, cells that do not reach all points.
+///
+/// `shared`: the inputs that two cells share, by their indices.
+pub(super) fn uncertainties(
+    candidates: &[Candidate<'_>],
+    shared: impl Fn(usize, usize) -> SharedInputs,
+) -> Vec<String> {
+    let cells: Vec<&CellNumbers> = candidates.iter().map(|candidate| candidate.numbers).collect();
+    let mut uncertainties = Vec::new();
+    for (index, pair) in candidates.windows(2).enumerate() {
+        let [better, worse] = [&pair[0], &pair[1]];
+        if worse.numbers.reached == 0 {
+            continue;
+        }
+        let gain = better.gain_over(worse, shared(index, index + 1));
+        if gain.by().abs() > gain.required(better.least) {
+            continue;
+        }
+        let names = format!("{} and {}", better.numbers.cell, worse.numbers.cell);
+        let by = micrometres(to_um(gain.by().abs()));
+        uncertainties.push(match gain.uncertainty {
+            Some(u) => format!(
+                "The largest deviations of {names} do not differ significantly: by {by} ± {} µm (k = 2).",
+                micrometres(to_um(COVERAGE * u))
+            ),
+            None => format!(
+                "The largest deviations of {names} differ by {by} µm; the uncertainty of the difference is not known."
+            ),
+        });
+    }
+    uncertainties.extend(assumed(cells.iter().copied()));
     if cells.iter().any(|cell| cell.reached < cell.points) {
         uncertainties.push(
             "Mean, 95 % and largest deviation are of the points that a cell reaches: cells that do not reach all points are compared over fewer."
@@ -134,8 +174,8 @@ pub(super) fn uncertainties(cells: &[CellNumbers], same_arm: impl Fn(usize) -> b
 }
 
 /// Cells with assumed joint compliances, in a sentence.
-pub(super) fn assumed(cells: &[CellNumbers]) -> Option<String> {
-    let assumed = cells.iter().filter(|cell| cell.compliance_assumed);
+pub(super) fn assumed<'a>(cells: impl Iterator<Item = &'a CellNumbers>) -> Option<String> {
+    let assumed = cells.filter(|cell| cell.compliance_assumed);
     let names: Vec<&str> = assumed.map(|cell| cell.cell.as_str()).collect();
     let given = format!(
         "The joint compliances of {} are assumed, not measured.",
@@ -146,41 +186,26 @@ pub(super) fn assumed(cells: &[CellNumbers]) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    use armill_study::answer::CountsAnswer;
+    use armill_core::optimize::LeastGain;
 
+    use super::super::numbers::tests::cell;
     use super::*;
-
-    fn cell(name: &str, part: f64, largest: Option<f64>) -> CellNumbers {
-        CellNumbers {
-            cell: name.to_owned(),
-            robot: "r".to_owned(),
-            compliance_assumed: false,
-            branch: "best".to_owned(),
-            points: 10,
-            reached: if largest.is_some() { 10 } else { 0 },
-            inside_joint_limits: if largest.is_some() { 10 } else { 0 },
-            counts: CountsAnswer::of(&armill_core::map::Counts::default()),
-            tolerance_um: 20.0,
-            mean_in_plane_um: largest,
-            p95_in_plane_um: largest,
-            max_in_plane_um: largest,
-            max_in_plane_u_um: Some(4.0),
-            max_normal_um: largest,
-            fraction_within: part,
-            fraction_within_and_inside_joint_limits: part,
-            mostly_by: None,
-            mostly_by_percent: None,
-        }
-    }
 
     #[test]
     fn two_cells_are_compared() {
         let cells = [cell("b", 0.93, Some(18.2)), cell("a", 0.12, Some(61.1))];
         assert_eq!(
-            ranking("ring", "path", &cells),
+            ranking("ring", "path", &cells, &Verdict::First),
             "ring: b is within 20 µm on 93.0 % of the path, a on 12.0 %; largest deviation 18.2 and 61.1 µm."
         );
-        assert!(uncertainties(&cells, |_| false).is_empty());
+        let undecided = Verdict::Undecided(vec![1]);
+        assert!(ranking("ring", "path", &cells, &undecided).starts_with(
+            "ring: no ranking: the difference is within its uncertainty; b is within 20 µm on 93.0 %"
+        ));
+        let assumed = ranking("ring", "path", &cells, &Verdict::FirstIsAssumed);
+        assert!(assumed.starts_with(
+            "ring: no ranking: the compliances of b, which has the best numbers, are assumed; "
+        ));
     }
 
     #[test]
@@ -191,17 +216,22 @@ mod tests {
             cell("c", 0.0, None),
         ];
         assert_eq!(
-            ranking("ring", "path", &cells),
+            ranking("ring", "path", &cells, &Verdict::First),
             "ring: b is within 20 µm on the whole path, a on no point of the path, c on no point of the path; largest deviation 18.2 and 61.1 µm; c reaches no point."
         );
         cells[1].tolerance_um = 50.0;
-        let given = ranking("ring", "path", &cells);
+        let given = ranking("ring", "path", &cells, &Verdict::First);
         assert!(
             given.contains("b is within its 20 µm on the whole path, a is within its 50 µm on no point"),
             "{given}"
         );
         assert_eq!(
-            ranking("m", "map", &[cell("a", 0.0, None), cell("b", 0.0, None)]),
+            ranking(
+                "m",
+                "map",
+                &[cell("a", 0.0, None), cell("b", 0.0, None)],
+                &Verdict::First
+            ),
             "m: no cell reaches any point of the plane."
         );
     }
@@ -210,25 +240,42 @@ mod tests {
     fn names_the_best_cell_if_all_or_none_meet_the_tolerance() {
         let all = [cell("b", 1.0, Some(18.2)), cell("a", 1.0, Some(19.5))];
         assert_eq!(
-            ranking("ring", "path", &all),
+            ranking("ring", "path", &all, &Verdict::First),
             "ring: every cell is within 20 µm on the whole path, b is best; largest deviation 18.2 and 19.5 µm."
         );
         let none = [cell("b", 0.0, Some(58.2)), cell("a", 0.0, Some(61.1))];
         assert_eq!(
-            ranking("ring", "path", &none),
+            ranking("ring", "path", &none, &Verdict::First),
             "ring: no cell is within 20 µm at any point of the path, b is best; largest deviation 58.2 and 61.1 µm."
         );
     }
 
     #[test]
     fn reports_neighbours_within_their_uncertainty() {
+        let least = LeastGain {
+            coverage_factor: 2.0,
+            ..LeastGain::ANY
+        };
+        let said = |cells: &[CellNumbers], shared: SharedInputs| {
+            let candidates: Vec<Candidate<'_>> = cells
+                .iter()
+                .map(|numbers| Candidate {
+                    numbers,
+                    sensitivity: None,
+                    least: &least,
+                })
+                .collect();
+            uncertainties(&candidates, |_, _| shared)
+        };
         // k = 2: hypot(8, 8) = 11.3 um.
         let near = [cell("b", 1.0, Some(18.0)), cell("a", 1.0, Some(29.0))];
         let far = [cell("b", 1.0, Some(18.0)), cell("a", 1.0, Some(30.0))];
-        assert!(uncertainties(&near, |_| true).is_empty());
+        assert!(said(&near, SharedInputs::OneRobot).is_empty());
+        let given = said(&near, SharedInputs::LoadAndTool);
         assert!(
-            uncertainties(&near, |_| false)[0].contains("do not differ significantly: 18 ± 8 and 29 ± 8 µm")
+            given[0].contains("do not differ significantly: by 11 ± 11.3 µm"),
+            "{given:?}"
         );
-        assert!(uncertainties(&far, |_| false).is_empty());
+        assert!(said(&far, SharedInputs::LoadAndTool).is_empty());
     }
 }

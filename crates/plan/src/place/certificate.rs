@@ -11,6 +11,7 @@ use armill_core::watch::{Cancelled, Watch};
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use super::followed::Extent;
 use super::freedom::is_angle;
 use super::search::{Searched, Spot};
 
@@ -177,7 +178,9 @@ impl Searched<'_> {
                     .map(|spot| spot.at)
                     .collect();
             }
-            for spot in self.better(&self.all, left, &bar, watch)? {
+            let mut spots = self.better(&self.all, left, &bar, watch)?;
+            self.check_each(&mut spots)?;
+            for spot in spots.into_iter().filter(|spot| spot.score.beats(&bar)) {
                 better += 1;
                 if found.as_ref().is_none_or(|found| spot.score.beats(&found.score)) {
                     found = Some(spot);
@@ -193,6 +196,14 @@ impl Searched<'_> {
             better,
         };
         Ok((answer, found))
+    }
+
+    /// Checks each of these placements for the turns of the joints along the path.
+    fn check_each(&self, spots: &mut [Spot]) -> Result<(), Cancelled> {
+        for spot in spots {
+            self.check(Extent::All, std::slice::from_mut(spot), &Score::NONE)?;
+        }
+        Ok(())
     }
 
     /// Of these places those that are better than `bar` on this path, in their order.

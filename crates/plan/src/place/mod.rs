@@ -4,8 +4,8 @@
 //! free degrees -> placements spread over them -> best regions -> local search on all points -> certificate -> the study there
 //! ```
 //!
-//! `freedom`: free degrees; `rail`: the joint that is one; `search`: from spread placements to the best; `certificate`:
-//! whether grids contain a better one; `rounds`: all of that for every fixture and margin; [`journal`]: state of an
+//! `chosen`: the path; `freedom`: free degrees; `rail`: the joint that is one; `search`: from spread placements to the best; `certificate`:
+//! whether grids contain a better one; `followed`: turns of the joints and forces along the path there; `rounds`: all of that for every fixture and margin; [`journal`]: state of an
 //! interrupted search; [`answer`]: the values of the result; `result`: the study at the placement; `pictures`;
 //! [`evaluate`]: scores of given placements. Theory: `docs/theory/placement.md`.
 //!
@@ -14,8 +14,10 @@
 
 pub mod answer;
 mod certificate;
+mod chosen;
 pub mod evaluate;
 mod fixture;
+mod followed;
 mod freedom;
 pub mod journal;
 mod pictures;
@@ -38,7 +40,6 @@ use armill_core::path::{LoadedTrack, Spin};
 use armill_core::robot::BranchPattern;
 use armill_core::units::{from_deg, from_mm, to_deg, to_mm, to_um};
 use armill_core::watch::Watch;
-use armill_study::analysis::Subject;
 use armill_study::analysis::path::PathAnalysis;
 use armill_study::analysis::path::answer::search::{component_name, objective_name};
 use armill_study::analysis::runner::Runner;
@@ -51,9 +52,11 @@ use armill_study::joint_unit::JointUnit;
 use armill_study::number::decimals;
 
 use self::answer::rank_by_name;
+use self::chosen::chosen;
 use self::fixture::plane_of;
+use self::followed::{FollowedPath, Outcome};
 use self::freedom::Freedom;
-use self::rail::{check_rail, rail_of};
+use self::rail::{check_rail, home_at, rail_of};
 use self::rounds::{Best, FoundPlacements, MARGINS_DEG, Prepared, Site, SiteSearch};
 use self::search::Effort;
 
@@ -73,6 +76,16 @@ pub struct PlacementSearch<'a> {
     holes: Option<&'a PostureSearch>,
     table: PlaceTable,
     seed: u64,
+    depth: SearchDepth,
+}
+
+/// How much a search does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum SearchDepth {
+    /// All.
+    Full,
+    /// A quarter of the placements, without further margins and with a coarse grid.
+    Brief,
 }
 
 impl<'a> PlacementSearch<'a> {
@@ -130,7 +143,18 @@ impl<'a> PlacementSearch<'a> {
             holes,
             table,
             seed,
+            depth: SearchDepth::Full,
         })
+    }
+
+    /// The same with a quarter of the effort: for one placement of several that are compared. Margins other than the
+    /// requested one are not searched.
+    #[must_use]
+    pub fn brief(self) -> PlacementSearch<'a> {
+        PlacementSearch {
+            depth: SearchDepth::Brief,
+            ..self
+        }
     }
 
     /// Its study.
@@ -151,7 +175,10 @@ impl<'a> PlacementSearch<'a> {
     /// Approximate number of placements evaluated: the end of its progress.
     pub fn place_count(&self) -> usize {
         let effort = self.effort();
-        let margins = MARGINS_DEG.len() - 1;
+        let margins = match self.depth {
+            SearchDepth::Full => MARGINS_DEG.len() - 1,
+            SearchDepth::Brief => 0,
+        };
         let sites = self.table.fixture.len().max(1);
         sites * (effort.most() + margins * effort.cheaper().most() + effort.grid)
     }
@@ -162,7 +189,14 @@ impl<'a> PlacementSearch<'a> {
             true => Effort::lanes(self.analysis.track.len()),
             false => Effort::ONE_BY_ONE,
         };
-        effort.shared_by(self.holes.map_or(1, |search| search.spins.count))
+        let effort = effort.shared_by(self.holes.map_or(1, |search| search.spins.count));
+        match self.depth {
+            SearchDepth::Full => effort,
+            SearchDepth::Brief => Effort {
+                grid: effort.grid / 4,
+                ..effort.cheaper()
+            },
+        }
     }
 
     /// Searches; `given` receives the best so far, `watch` every placement.
@@ -192,6 +226,12 @@ impl<'a> PlacementSearch<'a> {
             |indices: &[usize]| on_part(LoadedTrack { track, load: &load }, objective.component, indices);
         let question = runner.question(&self.analysis.setting);
         let (all, some) = (on_part(&all), on_part(&some));
+        let followed = FollowedPath {
+            question: &question,
+            path: LoadedTrack { track, load: &load },
+            some: track.every(stride),
+            watch: quiet,
+        };
         let turn = ToolTurn::of(track);
         let sites = self.sites(turn);
         let prepared = Prepared {
@@ -200,6 +240,7 @@ impl<'a> PlacementSearch<'a> {
             seed: self.seed,
             question: &question,
             paths: [&some, &all],
+            followed: &followed,
             sites: &sites,
             effort,
             watch,
@@ -213,7 +254,10 @@ impl<'a> PlacementSearch<'a> {
             also: None,
         };
         let mut best = prepared.best(&search, journal)?;
-        let mut front = prepared.front(objective, &best, journal)?;
+        let mut front = match self.depth {
+            SearchDepth::Full => prepared.front(objective, &best, journal)?,
+            SearchDepth::Brief => Vec::new(),
+        };
         if let Some((_, first)) = front.first() {
             best = first.clone();
         }
@@ -226,7 +270,7 @@ impl<'a> PlacementSearch<'a> {
             certificate,
             front,
         };
-        let answer = self.answer(&prepared, objective, &found, journal.taken());
+        let answer = self.answer(&prepared, objective, &found, journal.taken())?;
         let best = found.best;
         let freedom = &sites[best.site].freedom;
         let mut pictures = prepared
@@ -250,7 +294,7 @@ impl<'a> PlacementSearch<'a> {
         objective: PlacementObjective,
         found: &FoundPlacements,
         rounds_taken_up: usize,
-    ) -> PlacementAnswer {
+    ) -> Result<PlacementAnswer, StudyError> {
         let (track, setting) = (&self.analysis.track, &self.analysis.setting);
         let turn = ToolTurn::of(track);
         let drawn = self.nominal();
@@ -261,25 +305,20 @@ impl<'a> PlacementSearch<'a> {
             },
             ..objective
         };
+        let followed = prepared.followed;
         let outcome = |freedom: &Freedom, objective: PlacementObjective, at: &[f64]| {
-            let searched = prepared.searched(freedom, objective, prepared.effort);
-            OutcomeAnswer::of(
-                &searched.all.evaluated(&freedom.part_placement(at)),
-                setting.tolerance,
-            )
+            followed.outcome(objective, &freedom.part_placement(at))
         };
         let of = |best: &Best| &prepared.sites[best.site];
         let best = &found.best;
         let place = of(best).freedom.answer(&best.spot.at);
-        let nominal = outcome(&drawn, as_requested, &[]);
+        let nominal = outcome(&drawn, as_requested, &[])?;
         // The branch of the nominal placement, unless another one is a significant improvement.
         let there = &of(best).freedom;
-        let placement = there.part_placement(&best.spot.at);
-        let all = prepared.searched(there, objective, prepared.effort).all;
-        let (least, open) = (&setting.least_gain, objective.branches);
-        let any = outcome(there, objective, &best.spot.at);
-        let kept = nominal.branch.as_deref().and_then(|words| words.parse().ok());
-        let kept = kept.and_then(|branches: BranchPattern| {
+        let least = &setting.least_gain;
+        let mut recommended = outcome(there, objective, &best.spot.at)?;
+        if let Some(branch) = nominal.evaluation.score.branch {
+            let branches = BranchPattern::from(branch);
             let kept = outcome(
                 there,
                 PlacementObjective {
@@ -287,19 +326,27 @@ impl<'a> PlacementSearch<'a> {
                     ..objective
                 },
                 &best.spot.at,
-            );
-            let gain = all.gain((&placement, branches), (&placement, open));
-            let enough = kept.unreachable_points == any.unreachable_points && !gain.is_significant(least);
-            enough.then_some((branches, kept))
-        });
-        let (branches, recommended) = kept.unwrap_or((open, any));
-        let gain = all.gain(
-            (&drawn.part_placement(&[]), as_requested.branches),
-            (&placement, branches),
-        );
+            )?;
+            let lost = [&kept, &recommended].map(|outcome| outcome.evaluation.score.unreachable);
+            if lost[0] == lost[1] && !followed.gain(&kept, &recommended).is_significant(least) {
+                recommended = kept;
+            }
+        }
+        let gain = followed.gain(&nominal, &recommended);
+        let answer_of = |outcome: &Outcome| OutcomeAnswer::of(&outcome.evaluation, setting.tolerance);
+        let (nominal, recommended) = (answer_of(&nominal), answer_of(&recommended));
         let (lost, before) = (recommended.unreachable_points, nominal.unreachable_points);
         let is_improvement = lost < before || (lost == before && gain.is_significant(least));
-        PlacementAnswer {
+        let mut by_margin = Vec::new();
+        for (margin, best) in &found.front {
+            by_margin.push(MarginAnswer {
+                margin_deg: decimals(to_deg(*margin), 4),
+                cost_um: answer_of(&outcome(&of(best).freedom, objective, &best.spot.at)?).cost_um,
+                fixture: of(best).name.map(str::to_owned),
+                place: of(best).freedom.answer(&best.spot.at),
+            });
+        }
+        Ok(PlacementAnswer {
             format: 1,
             analysis: self.name.to_owned(),
             component: component_name(objective.component),
@@ -317,35 +364,26 @@ impl<'a> PlacementSearch<'a> {
             place,
             free: of(best).freedom.reported(&best.spot.at),
             certificate: found.certificate.clone(),
-            by_margin: (found.front)
-                .iter()
-                .map(|(margin, best)| MarginAnswer {
-                    margin_deg: decimals(to_deg(margin), 4),
-                    cost_um: outcome(&of(best).freedom, objective, &best.spot.at).cost_um,
-                    fixture: of(best).name.map(str::to_owned),
-                    place: of(best).freedom.answer(&best.spot.at),
-                })
-                .collect(),
+            by_margin,
             seed: self.seed,
             points: track.len(),
             rounds_taken_up,
             tool_turns_with_part: turn == ToolTurn::WithPart
                 && !matches!(track.placing.spin, Spin::AlongFeed(_)),
-        }
+        })
     }
 
     /// `posture.home_deg` of the study with its rail at `rail_mm`.
     fn home_with_rail(&self, rail_mm: f64) -> Option<Vec<f64>> {
         let robot = &self.study.robot.robot;
-        let rail = rail_of(robot)?;
-        let home = self.analysis.setting.home.as_deref();
-        let given = |joint: usize| {
-            let middle = robot.joints()[joint].limits.map_or(0.0, |limits| limits.middle());
-            home.map_or(middle, |home| home[joint]) * JointUnit::of(robot, joint).scale
-        };
-        let mut all: Vec<f64> = (0..robot.joints().len()).map(given).collect();
-        all[rail] = rail_mm;
-        Some(all)
+        rail_of(robot)?;
+        let home = home_at(robot, self.analysis.setting.home.as_deref(), from_mm(rail_mm));
+        let scaled = home.iter().enumerate();
+        Some(
+            scaled
+                .map(|(joint, at)| at * JointUnit::of(robot, joint).scale)
+                .collect(),
+        )
     }
 
     /// The tool on the part at each point, with its spin at this placement.
@@ -444,54 +482,5 @@ impl<'a> PlacementSearch<'a> {
             freedom: at(fixture),
         });
         sites.collect()
-    }
-}
-
-/// A path, or a set of holes with the permitted spins.
-type Placed<'a> = (&'a PathAnalysis, Option<&'a PostureSearch>);
-
-/// The analysis that is placed: its index, its name, and its path.
-fn chosen<'a>(
-    study: &'a Study,
-    requested: Option<&str>,
-) -> Result<(usize, (&'a str, Placed<'a>)), StudyError> {
-    let all: Vec<(usize, (&str, Placed<'_>))> = study
-        .analyses
-        .iter()
-        .enumerate()
-        .filter_map(|(index, analysis)| {
-            let about: Placed<'_> = match &analysis.subject {
-                Subject::Path(path) => (path, None),
-                Subject::Holes(holes) => (&holes.path, Some(&holes.search)),
-                _ => return None,
-            };
-            Some((index, (analysis.name.as_str(), about)))
-        })
-        .collect();
-    let names = || {
-        let names = all.iter().map(|(_, (name, _))| format!("`{name}`"));
-        names.collect::<Vec<_>>().join(", ")
-    };
-    match (requested, &all[..]) {
-        (None, []) => Err(StudyError::value(
-            "the study has no path that could be placed",
-            "[[analysis]] kind = \"path\" with a program or a shape, or kind = \"holes\"",
-        )),
-        (None, [one]) => Ok(*one),
-        (None, _) => {
-            let message = format!("the study has several paths: {}", names());
-            Err(StudyError::value(
-                message,
-                "select one: --analysis NAME, or `place.analysis`",
-            ))
-        }
-        (Some(requested), _) => all
-            .iter()
-            .find(|(_, (name, _))| *name == requested)
-            .copied()
-            .ok_or_else(|| {
-                let message = format!("the study has no path called `{requested}`");
-                StudyError::value(message, format!("its paths: {}", names()))
-            }),
     }
 }

@@ -11,6 +11,17 @@ pub(super) fn rail_of(robot: &Robot) -> Option<usize> {
     (0..joints).find(|joint| joints > ENOUGH_JOINTS && robot.slides(*joint))
 }
 
+/// The home positions `home`, or the middle of each range (rad, m), with the rail at `rail` (m).
+pub(super) fn home_at(robot: &Robot, home: Option<&[f64]>, rail: f64) -> Vec<f64> {
+    let middle = |joint: usize| robot.joints()[joint].limits.map_or(0.0, |limits| limits.middle());
+    let middles = || (0..robot.joints().len()).map(middle).collect();
+    let mut home = home.map_or_else(middles, <[f64]>::to_vec);
+    if let Some(joint) = rail_of(robot) {
+        home[joint] = rail;
+    }
+    home
+}
+
 /// Refuses a rail that is not there, or bounds (m) outside its limits.
 pub(super) fn check_rail(robot: &Robot, [least, greatest]: [f64; 2]) -> Result<(), StudyError> {
     let Some(rail) = rail_of(robot) else {

@@ -39,8 +39,19 @@ impl PlacementResult {
     /// # Errors
     /// Every problem of the file, which may have changed since it was read.
     pub fn study(&self, found: &FoundStudy) -> Result<Study, StudyError> {
+        self.study_read(|place| found.read_changed(|file| place(file)))
+    }
+
+    /// The same, where `read` reads the study after the given change of its file.
+    ///
+    /// # Errors
+    /// Those of `read`.
+    pub fn study_read(
+        &self,
+        read: impl FnOnce(&mut dyn FnMut(&mut StudyFile)) -> Result<Study, StudyError>,
+    ) -> Result<Study, StudyError> {
         let moves = self.answer.is_improvement;
-        let mut study = found.read_changed(|file| {
+        let mut study = read(&mut |file| {
             if moves {
                 self.place_path(file);
             }

@@ -9,6 +9,7 @@ use armill_study::error::StudyError;
 use armill_study::input::setting::Setting;
 
 use super::certificate::{CertificateAnswer, GridAnswer};
+use super::followed::FollowedPath;
 use super::freedom::Freedom;
 use super::journal::{Fingerprint, Journal};
 use super::search::{Effort, Searched, Spot};
@@ -57,6 +58,7 @@ pub(super) struct Prepared<'a> {
     pub question: &'a Question<'a>,
     /// Some points of the path, and all.
     pub paths: [&'a PlacedPath; 2],
+    pub followed: &'a FollowedPath<'a>,
     pub sites: &'a [Site<'a>],
     pub effort: Effort,
     pub watch: Watch<'a>,
@@ -78,6 +80,7 @@ impl Prepared<'_> {
         Searched {
             some: of(self.paths[0]),
             all: of(self.paths[1]),
+            followed: self.followed,
             freedom,
             effort,
             seed: self.seed,

@@ -4,6 +4,7 @@
 //! Sobol points on some points of the path -> CMA-ES from the best separate ones -> CMA-ES with small steps on all points
 //! ```
 //!
+//! Placements that would be the best so far are checked for the turns of the joints along the path ([`FollowedPath`]).
 //! For a path of many points some are evaluated first; the local search uses all. With the same seed the result is the
 //! same on any number of threads: placements are proposed by one thread, evaluated by all, and reported in order.
 
@@ -13,6 +14,7 @@ use armill_core::units::to_um;
 use armill_core::watch::{Cancelled, Watch};
 use fcmaes_core::{Cmaes, CmaesParams, Fitness};
 
+use super::followed::{Extent, FollowedPath};
 use super::freedom::Freedom;
 
 /// How much is looked at.
@@ -91,6 +93,7 @@ impl Effort {
 pub(super) struct Searched<'a> {
     pub some: Placeable<'a>,
     pub all: Placeable<'a>,
+    pub followed: &'a FollowedPath<'a>,
     pub freedom: &'a Freedom,
     pub effort: Effort,
     pub seed: u64,
@@ -163,7 +166,7 @@ impl Searched<'_> {
             places: self.effort.places,
             seed: self.seed.wrapping_add(1 + index as u64),
         };
-        self.descend(&self.some, start, run, watch)
+        self.descend(Extent::Some, start, run, watch)
     }
 
     /// The floor around `start`, on all points.
@@ -174,12 +177,13 @@ impl Searched<'_> {
             places: self.effort.floor,
             seed: self.seed.wrapping_add(1000),
         };
-        self.descend(&self.all, start, run, watch)
+        self.descend(Extent::All, start, run, watch)
     }
 
     /// The placement at `at`, evaluated at all points.
     pub fn evaluated(&self, at: Vec<f64>) -> Result<Spot, Cancelled> {
-        let spots = self.spots(&self.all, vec![at], Watch::NONE)?;
+        let mut spots = self.spots(&self.all, vec![at], Watch::NONE)?;
+        self.check(Extent::All, &mut spots, &Score::NONE)?;
         Ok(spots.into_iter().next().unwrap_or(Spot {
             at: Vec::new(),
             score: Score::NONE,
@@ -204,15 +208,36 @@ impl Searched<'_> {
             .collect())
     }
 
-    fn descend(
-        &self,
-        path: &Placeable<'_>,
-        start: &[f64],
-        run: Run,
-        watch: Watch<'_>,
-    ) -> Result<Spot, Cancelled> {
+    /// Checks the placements that beat `bar`, best first, until one of them can be followed: it is better than all
+    /// others. The scores of the others before it have the points that are lost.
+    pub fn check(&self, extent: Extent, spots: &mut [Spot], bar: &Score) -> Result<(), Cancelled> {
+        let mut order: Vec<usize> = (0..spots.len()).collect();
+        let key = |index: &usize| (spots[*index].score.unreachable, spots[*index].score.cost);
+        order.sort_by(|a, b| key(a).0.cmp(&key(b).0).then(key(a).1.total_cmp(&key(b).1)));
+        for index in order {
+            let spot = &mut spots[index];
+            if !spot.score.beats(bar) {
+                break;
+            }
+            let placement = self.freedom.part_placement(&spot.at);
+            let given = spot.score;
+            spot.score = (self.followed).checked(&self.all.objective, &placement, given, extent)?;
+            if spot.score == given {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    fn descend(&self, extent: Extent, start: &[f64], run: Run, watch: Watch<'_>) -> Result<Spot, Cancelled> {
         let count = start.len();
-        let mut best = self.spots(path, vec![start.to_vec()], watch)?.remove(0);
+        let path = match extent {
+            Extent::Some => &self.some,
+            Extent::All => &self.all,
+        };
+        let mut first = self.spots(path, vec![start.to_vec()], watch)?;
+        self.check(extent, &mut first, &Score::NONE)?;
+        let mut best = first.remove(0);
         let mut looked = 1;
         if count > 0 {
             let bounds = Fitness::bounded(count, 1, &vec![0.0; count], &vec![1.0; count]);
@@ -225,7 +250,8 @@ impl Searched<'_> {
             };
             let mut strategy = Cmaes::new(bounds, start, &[run.step], &requested);
             while looked < run.places && strategy.stop() == 0 {
-                let spots = self.spots(path, strategy.ask(), watch)?;
+                let mut spots = self.spots(path, strategy.ask(), watch)?;
+                self.check(extent, &mut spots, &best.score)?;
                 looked += spots.len();
                 let costs: Vec<f64> = spots.iter().map(|spot| cost_um(&spot.score)).collect();
                 strategy.tell(&costs);

@@ -443,6 +443,7 @@ fn hole_map() -> HoleMap {
         let error_um = [12.0 + 0.06 * x, -6.0 + 0.05 * y - 0.02 * x];
         let lost = x > 300.0 && y > 140.0;
         HoleMark {
+            is_rejected: false,
             at_mm: [x, y],
             error_um,
             deviation_um: (!lost).then(|| error_um[0].hypot(error_um[1])),

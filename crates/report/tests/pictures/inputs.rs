@@ -139,6 +139,7 @@ pub fn comparison(um: Option<f64>) -> Comparison {
 /// A hole of this size next to a valid one and one without a position.
 pub fn hole_map(um: Option<f64>) -> HoleMap {
     let hole = |at_mm: [f64; 2], um: Option<f64>| HoleMark {
+        is_rejected: false,
         at_mm,
         error_um: [um.unwrap_or(f64::NAN), 1.0],
         deviation_um: um,

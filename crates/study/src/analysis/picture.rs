@@ -13,6 +13,8 @@ use crate::input::setting::Setting;
 
 /// The quantity of the colours.
 pub const QUANTITY: &str = "in-plane deviation (µm)";
+/// The quantity of the colours where the depth is shown.
+pub const NORMAL_QUANTITY: &str = "deviation along the normal, by size (µm)";
 
 /// A picture with its file name (without extension) and caption.
 #[derive(Clone, Debug)]
@@ -94,8 +96,13 @@ pub fn shares(robot: &Robot, title: &str, setting: &Setting, quantity: &str, bar
     picture.to_svg()
 }
 
-/// The points of a map for a picture: row by row, mm.
+/// The points of a map with their in-plane deviation for a picture: row by row, mm.
 pub fn grid(map: &PlaneMap, setting: &Setting) -> Grid {
+    grid_of(map, setting, |evaluation| evaluation.in_plane)
+}
+
+/// The points of a map with another deviation (m) for a picture: row by row, mm.
+pub fn grid_of(map: &PlaneMap, setting: &Setting, deviation: impl Fn(&Evaluation) -> f64) -> Grid {
     let y0 = base_y(setting);
     Grid {
         horizontal_mm: (0..map.grid.columns)
@@ -104,15 +111,17 @@ pub fn grid(map: &PlaneMap, setting: &Setting) -> Grid {
         vertical_mm: (0..map.grid.rows)
             .map(|i| to_mm(map.grid.coordinate(i, map.grid.rows)))
             .collect(),
-        points: map.answers.points.iter().map(state).collect(),
+        points: (map.answers.points.iter())
+            .map(|point| state(point, &deviation))
+            .collect(),
     }
 }
 
 /// The state of a point: its deviation, marked if outside joint limits, or that it is not reached.
-pub fn state(point: &Result<Evaluation, Unreachable>) -> PointState {
+pub fn state(point: &Result<Evaluation, Unreachable>, deviation: impl Fn(&Evaluation) -> f64) -> PointState {
     match point {
-        Ok(evaluation) if evaluation.within_limits() => PointState::Reached(to_um(evaluation.in_plane)),
-        Ok(evaluation) => PointState::OutsideJointLimits(to_um(evaluation.in_plane)),
+        Ok(evaluation) if evaluation.within_limits() => PointState::Reached(to_um(deviation(evaluation))),
+        Ok(evaluation) => PointState::OutsideJointLimits(to_um(deviation(evaluation))),
         Err(_) => PointState::Unreachable,
     }
 }

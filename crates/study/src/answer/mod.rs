@@ -291,18 +291,24 @@ fn warnings(study: &Study, answers: &AnalysisAnswers) -> Vec<String> {
                 "{}: no point on the plane has a posture; check that its coordinates are in mm and relative to {}.",
                 map.name, map.setting.base
             ));
-        } else if map.outside_joint_limits > 0 {
+            continue;
+        }
+        warnings.extend(lost_points(&map.name, &map.counts));
+        if map.outside_joint_limits > 0 {
             warnings.push(format!(
                 "{}: {} of {} points are outside joint limits in the branch {}; the fraction includes them, the region does not.",
                 map.name, map.outside_joint_limits, map.grid.points, map.branch
             ));
         }
     }
-    for volume in answers.volumes.iter().filter(|volume| volume.worst.is_none()) {
-        warnings.push(format!(
-            "{}: no point of the box has a posture; check that its coordinates are in mm and relative to {}.",
-            volume.name, volume.setting.base
-        ));
+    for volume in &answers.volumes {
+        match volume.worst {
+            None => warnings.push(format!(
+                "{}: no point of the box has a posture; check that its coordinates are in mm and relative to {}.",
+                volume.name, volume.setting.base
+            )),
+            Some(_) => warnings.extend(lost_points(&volume.name, &volume.counts)),
+        }
     }
     warnings.extend(answers.paths.iter().flat_map(analysis::path::warnings::warnings));
     warnings.extend(answers.holes.iter().flat_map(analysis::holes::warnings::warnings));
@@ -332,6 +338,30 @@ fn warnings(study: &Study, answers: &AnalysisAnswers) -> Vec<String> {
     }
     warnings.extend(study.robot.note.clone());
     warnings
+}
+
+/// That some points of a map or box have no result, with their number for each reason.
+fn lost_points(name: &str, counts: &CountsAnswer) -> Option<String> {
+    let reasons = [
+        (counts.out_of_reach, "out of reach"),
+        (
+            counts.no_posture_inside_limits,
+            "without a posture inside the joint limits",
+        ),
+        (counts.not_found, "where the search found no posture"),
+        (counts.unverified, "where the inverse kinematics failed its check"),
+        (counts.unstable, "without a stable equilibrium under the load"),
+    ];
+    let each = reasons.iter().filter(|(count, _)| *count > 0);
+    let each: Vec<String> = each.map(|(count, reason)| format!("{count} {reason}")).collect();
+    (!each.is_empty()).then(|| {
+        format!(
+            "{name}: {} of {} points have no result and are not within the tolerance: {}.",
+            counts.unreached(),
+            counts.total(),
+            each.join(", ")
+        )
+    })
 }
 
 impl StudyAnswer {

@@ -2,7 +2,7 @@
 //!
 //! | analysis | pictures |
 //! |---|---|
-//! | map | the deviation over the plane, `region`; at the worst point `shares` (and at the best), `ellipse`, `arm` |
+//! | map | the deviation over the plane, `region`, `normal` (depth); at the worst point `shares` (and at the best), `ellipse`, `arm` |
 //! | sections | one sheet with a panel a section |
 //! | volume | one sheet with slices of the box |
 //! | path, holes | those of `path` and `holes` |

@@ -103,6 +103,7 @@ def advise(
 def compare(
     *studies: StudyLike,
     robot: RobotLike | Sequence[RobotLike] | None = None,
+    given_placement: bool = False,
     out: Path | None = None,
     no_pictures: bool = False,
     force: bool = False,

@@ -140,12 +140,7 @@ pub fn answer(robot: &Robot, name: &str, analysis: &HolesAnalysis, found: &Holes
     };
     order.sort_by(|a, b| key(*b).total_cmp(&key(*a)));
     let worst = order.iter().filter(|index| answers.points[**index].is_ok());
-    let is_refused = |index: usize| {
-        found
-            .statuses
-            .get(index)
-            .is_some_and(|status| *status != PostureStatus::Usable)
-    };
+    let is_refused = |index: usize| is_refused(found, index);
     let good = evaluation
         .iter()
         .filter(|(index, evaluation)| evaluation.in_plane <= setting.tolerance && !is_refused(*index))
@@ -193,6 +188,12 @@ pub fn answer(robot: &Robot, name: &str, analysis: &HolesAnalysis, found: &Holes
             .collect(),
         notes: notes(analysis),
     }
+}
+
+/// Whether every posture of hole `index` is rejected: its answer is that of a rejected one.
+pub fn is_refused(found: &HolesFound, index: usize) -> bool {
+    let status = found.statuses.get(index);
+    status.is_some_and(|status| *status != PostureStatus::Usable)
 }
 
 /// Axes of hole `index`, base: x and y across it, z out of the part.

@@ -13,7 +13,7 @@ use armill_core::units::{to_mm, to_um};
 use armill_report::{AxisLabels, ColourScale, HoleMap, HoleMark};
 
 use crate::analysis::holes::HolesAnalysis;
-use crate::analysis::holes::answer::HolesAnswer;
+use crate::analysis::holes::answer::{HolesAnswer, is_refused};
 use crate::analysis::picture::{Picture, share_bar, shares, subtitle};
 use crate::input::setting::Setting;
 
@@ -79,6 +79,7 @@ fn map(analysis: &HolesAnalysis, given: &HolesAnswer, found: &HolesFound) -> Str
         HoleMark {
             at_mm: [to_mm(point.at.x), to_mm(point.at.y)],
             error_um: moved.map_or([f64::NAN; 2], |moved| [moved.x, moved.y]),
+            is_rejected: is_refused(found, index),
             deviation_um: evaluation.map(|evaluation| to_um(evaluation.in_plane)),
             name: match worst(index) {
                 true => (index + 1).to_string(),

@@ -31,6 +31,8 @@ pub struct MapAnswer {
     pub max_in_plane_um: Option<f64>,
     /// Least in-plane deviation of all reached points.
     pub min_in_plane_um: Option<f64>,
+    /// Largest deviation along the normal (depth) of all reached points, by size.
+    pub max_normal_um: Option<f64>,
     /// Points by reason; their sum is the total.
     pub counts: CountsAnswer,
     /// Points with a posture outside joint limits.
@@ -41,6 +43,8 @@ pub struct MapAnswer {
     pub worst: Option<PointAnswer>,
     /// The point with the least in-plane deviation.
     pub best: Option<PointAnswer>,
+    /// The point with the largest deviation along the normal, by size.
+    pub largest_along_normal: Option<PointAnswer>,
     /// The region within the tolerance, inside the joint limits.
     pub region: RegionAnswer,
     /// Uncertainty of the region: points outside joint limits are treated as out of tolerance. None where the
@@ -83,6 +87,16 @@ impl CountsAnswer {
             unverified: counts.unverified,
             unstable: counts.unstable,
         }
+    }
+
+    /// Points without a result.
+    pub fn unreached(&self) -> usize {
+        self.out_of_reach + self.no_posture_inside_limits + self.not_found + self.unverified + self.unstable
+    }
+
+    /// All points.
+    pub fn total(&self) -> usize {
+        self.within + self.above_tolerance + self.unreached()
     }
 }
 
@@ -170,6 +184,7 @@ pub fn answer(robot: &Robot, name: &str, setting: &Setting, map: &PlaneMap) -> M
         PointAnswer::of(robot, setting, &reached)
     };
     let (worst, best) = (map.answers.worst().map(point), map.answers.best().map(point));
+    let largest_along_normal = map.answers.largest_along_normal().map(point);
     MapAnswer {
         name: name.to_owned(),
         branch: setting.branch(),
@@ -177,11 +192,13 @@ pub fn answer(robot: &Robot, name: &str, setting: &Setting, map: &PlaneMap) -> M
         fraction_within_and_inside_joint_limits: counts.fraction_within_and_inside_joint_limits(),
         max_in_plane_um: worst.as_ref().map(|p| p.in_plane_um),
         min_in_plane_um: best.as_ref().map(|p| p.in_plane_um),
+        max_normal_um: largest_along_normal.as_ref().map(|p| p.normal_um.abs()),
         counts: CountsAnswer::of(&counts),
         outside_joint_limits: counts.outside_joint_limits,
         near_singularity: counts.near_singularity,
         worst,
         best,
+        largest_along_normal,
         region: region_answer(&map.region(setting.tolerance)),
         certainty: map.certainty(setting.tolerance).as_ref().map(certainty_answer),
         setting: SettingAnswer::of(robot, setting),

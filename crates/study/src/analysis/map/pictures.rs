@@ -1,4 +1,5 @@
-//! Pictures of a map: the deviation over the plane, the region within the tolerance, and the causes at the worst point.
+//! Pictures of a map: the deviation in the plane and along its normal, the region within the tolerance, and the causes
+//! at the worst point.
 
 use armill_core::kernel::{Answers, Evaluation};
 use armill_core::map::{COVERAGE, PlaneMap};
@@ -6,14 +7,16 @@ use armill_core::nalgebra::{Point3, Vector3};
 use armill_core::robot::{Robot, Unreachable};
 use armill_core::units::{to_mm, to_um};
 use armill_report::{
-    ArmDrawing, CircleMm, ColourScale, DeviationMap, Growth, Marker, MarkerKind, Overlay, RectangleMm,
-    RegionMap, StiffnessEllipse, View,
+    ArmDrawing, AxisLabels, CircleMm, ColourScale, DeviationMap, Growth, Marker, MarkerKind, Overlay,
+    RectangleMm, RegionMap, StiffnessEllipse, View,
 };
 
 use crate::analysis::Sheet;
 use crate::analysis::arm::arm_posture;
 use crate::analysis::map::answer::MapAnswer;
-use crate::analysis::picture::{Picture, QUANTITY, axes, base_y, grid, share_bar, shares, subtitle};
+use crate::analysis::picture::{
+    NORMAL_QUANTITY, Picture, QUANTITY, axes, base_y, grid, grid_of, share_bar, shares, subtitle,
+};
 use crate::file_names::slug;
 use crate::input::setting::Setting;
 
@@ -43,9 +46,9 @@ fn spread_um(map: &PlaneMap) -> Vec<f64> {
     points.map(|point| to_um(COVERAGE * uncertainty(point))).collect()
 }
 
-/// The map of a plane with its best and worst point, and the region within the tolerance with the largest shapes
-/// inside.
-fn plane(answer: &MapAnswer, setting: &Setting, map: &PlaneMap, overlays: Vec<Overlay>) -> [Picture; 2] {
+/// The map of a plane with its best and worst point, the region within the tolerance with the largest shapes inside,
+/// and the map of the deviation along the normal.
+fn plane(answer: &MapAnswer, setting: &Setting, map: &PlaneMap, overlays: Vec<Overlay>) -> [Picture; 3] {
     let y0 = base_y(setting);
     let at = |in_plane: [f64; 2]| [y0 + in_plane[0], in_plane[1]];
     let marker = |label: &str, kind, at_mm| Marker {
@@ -104,6 +107,17 @@ fn plane(answer: &MapAnswer, setting: &Setting, map: &PlaneMap, overlays: Vec<Ov
                 radius_mm,
             }),
     };
+    let deepest = answer.largest_along_normal.as_ref();
+    let deepest = deepest.map(|p| marker("largest", MarkerKind::Point, at(p.in_plane_mm)));
+    let normal = DeviationMap {
+        title: format!("{}: along the normal", answer.name),
+        grid: grid_of(map, setting, |evaluation| evaluation.normal.abs()),
+        quantity: NORMAL_QUANTITY.to_owned(),
+        // The tolerance applies to the deviation in the plane.
+        tolerance_um: None,
+        markers: deepest.into_iter().collect(),
+        ..deviation.clone()
+    };
     let slug = slug(&answer.name);
     [
         Picture {
@@ -124,6 +138,14 @@ fn plane(answer: &MapAnswer, setting: &Setting, map: &PlaneMap, overlays: Vec<Ov
                 }
             ),
             svg: region.to_svg(),
+        },
+        Picture {
+            name: format!("{slug}-normal"),
+            caption: format!(
+                "{}: deviation along the normal (depth), by size; the tolerance does not apply to it.",
+                answer.name
+            ),
+            svg: normal.to_svg(),
         },
     ]
 }
@@ -172,6 +194,16 @@ fn worst_point(robot: &Robot, setting: &Setting, given: &MapAnswer, map: &PlaneM
     ]
 }
 
+/// The axes of [`axes`] for displacements under 1 N.
+fn compliance_axes(setting: &Setting) -> AxisLabels {
+    let AxisLabels { horizontal, vertical } = axes(setting);
+    let of_displacement = |label: String| format!("displacement along {}", label.replace("(mm)", "(µm/N)"));
+    AxisLabels {
+        horizontal: of_displacement(horizontal.replace("along the plane, ", "")),
+        vertical: of_displacement(vertical.replace("along the plane, ", "")),
+    }
+}
+
 /// In-plane displacement of the tool by an in-plane force of 1 N: the compliance of the unloaded arm at this point, on
 /// base y (or y') and z'.
 fn ellipse(robot: &Robot, setting: &Setting, slug: &str, answers: &Answers, index: usize) -> Picture {
@@ -183,7 +215,7 @@ fn ellipse(robot: &Robot, setting: &Setting, slug: &str, answers: &Answers, inde
     let picture = StiffnessEllipse {
         title: "compliance in the plane where the deviation is largest".to_owned(),
         subtitle: subtitle(setting),
-        axes: axes(setting),
+        axes: compliance_axes(setting),
         growth: Growth::Left,
         compliance_um_per_n: [
             [between(&across, &across), between(&across, &up)],

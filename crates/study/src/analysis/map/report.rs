@@ -9,7 +9,7 @@ use crate::uncertainty_words::NOT_KNOWN;
 /// Every map and section, with the fraction within the tolerance and its uncertainty.
 pub fn table(maps: &[MapAnswer]) -> Table {
     Table {
-        caption: "Fractions are of all points; named branches are evaluated whether their joints are inside their limits or not. Reliably and possibly: with the expanded uncertainty (k = 2) added and subtracted.".to_owned(),
+        caption: "Fractions are of all points; named branches are evaluated whether their joints are inside their limits or not. Least and largest are deviations in the plane, which the tolerance applies to; along the normal is the depth. Reliably and possibly: with the expanded uncertainty (k = 2) added and subtracted.".to_owned(),
         columns: columns(&[
             ("plane", ""),
             ("branch", ""),
@@ -18,8 +18,9 @@ pub fn table(maps: &[MapAnswer]) -> Table {
             ("reliably … possibly within", "%"),
             ("least", "µm"),
             ("largest", "µm"),
+            ("largest along the normal", "µm"),
             ("permitted force there, any direction", "N"),
-            ("out of reach", COUNT),
+            ("not reached", COUNT),
             ("points", COUNT),
         ]),
         rows: maps
@@ -42,8 +43,9 @@ pub fn table(maps: &[MapAnswer]) -> Table {
                     ),
                     um(map.min_in_plane_um),
                     um(map.max_in_plane_um),
+                    um(map.max_normal_um),
                     um(map.worst.as_ref().and_then(|p| p.permissible_any_direction_n)),
-                    (map.counts.out_of_reach + map.counts.no_posture_inside_limits).to_string(),
+                    map.counts.unreached().to_string(),
                     map.grid.points.to_string(),
                 ]
             })

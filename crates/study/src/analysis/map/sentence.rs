@@ -3,10 +3,11 @@
 use armill_core::robot::Robot;
 
 use crate::analysis::map::answer::MapAnswer;
-use crate::analysis::words::{largest_contributor, micrometres};
+use crate::analysis::words::{largest_contributor, micrometres, unreached};
 use crate::uncertainty_words::u_in_words;
 
-/// Fraction of a plane, least and largest deviation, and how many points are outside joint limits.
+/// Points that are not reached, fraction of a plane, least and largest deviation in it and along its normal, and how
+/// many points are outside joint limits.
 pub fn sentence(robot: &Robot, map: &MapAnswer) -> String {
     let (Some(worst), Some(best)) = (&map.worst, &map.best) else {
         return format!(
@@ -37,10 +38,14 @@ pub fn sentence(robot: &Robot, map: &MapAnswer) -> String {
             map.grid.points
         ),
     };
+    let along_normal = map.max_normal_um.map_or(String::new(), |um| {
+        format!("; along the normal (depth) it is up to {} µm", micrometres(um))
+    });
     format!(
-        "{}, branch {}: {evaluation}{limits}; the in-plane deviation ranges from {} to {} µm ({}) and is largest at ({:.0}, {:.0}, {:.0}) mm; largest contribution: {}.",
+        "{}, branch {}: {}{evaluation}{limits}; the in-plane deviation ranges from {} to {} µm ({}) and is largest at ({:.0}, {:.0}, {:.0}) mm{along_normal}; largest contribution: {}.",
         map.name,
         map.branch,
+        unreached(map.counts.unreached(), map.counts.total()),
         micrometres(best.in_plane_um),
         micrometres(worst.in_plane_um),
         u_in_words(worst.in_plane_u_um),

@@ -3,7 +3,7 @@
 use armill_core::robot::Robot;
 
 use crate::analysis::path::answer::PathAnswer;
-use crate::analysis::words::{largest_contributor, micrometres};
+use crate::analysis::words::{largest_contributor, micrometres, unreached};
 use crate::uncertainty_words::u_in_words;
 
 /// Largest deviation along a path with its line, roundness of a circle, and the fraction within the tolerance.
@@ -26,9 +26,10 @@ pub fn sentence(robot: &Robot, path: &PathAnswer) -> String {
         format!("; the roundness deviation of {circle} is {} µm", micrometres(r))
     });
     format!(
-        "{}, branch {}: the tool deviates by up to {} µm ({}) {where_to}{line}{roundness}; largest contribution: {}; {:.1} % of the path is within {} µm.",
+        "{}, branch {}: {}the tool deviates by up to {} µm ({}) {where_to}{line}{roundness}; largest contribution: {}; {:.1} % of the path is within {} µm.",
         path.name,
         path.followed_branch.as_ref().unwrap_or(&path.branch),
+        unreached(path.unreachable, path.points),
         micrometres(worst.in_plane_um),
         u_in_words(worst.in_plane_u_um),
         largest_contributor(robot, worst, &path.setting.contributors),

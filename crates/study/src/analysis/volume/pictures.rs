@@ -24,7 +24,9 @@ pub fn slices(name: &str, volume: &VolumeMap, setting: &Setting) -> Picture {
     let panels = chosen.map(|i| {
         // Rows upwards, y from right to left: as seen from the robot.
         let points = (0..nz).flat_map(|k| (0..ny).rev().map(move |j| i + nx * (j + ny * k)));
-        let points: Vec<PointState> = points.map(|index| state(&volume.answers.points[index])).collect();
+        let points: Vec<PointState> = points
+            .map(|index| state(&volume.answers.points[index], |evaluation| evaluation.in_plane))
+            .collect();
         let within = points
             .iter()
             .filter(|p| p.value_um().is_some_and(|v| v <= to_um(setting.tolerance)))

@@ -15,6 +15,7 @@ pub fn table(volumes: &[VolumeAnswer]) -> Table {
             ("within the tolerance", "%"),
             ("… and inside joint limits", "%"),
             ("volume within", "dm³"),
+            ("not reached", COUNT),
             ("points", COUNT),
         ]),
         rows: volumes
@@ -26,6 +27,7 @@ pub fn table(volumes: &[VolumeAnswer]) -> Table {
                     percent(volume.fraction_within),
                     percent(volume.fraction_within_and_inside_joint_limits),
                     format!("{:.1}", volume.volume_within_mm3 / 1e6),
+                    volume.counts.unreached().to_string(),
                     volume.point_counts.iter().product::<usize>().to_string(),
                 ]
             })

@@ -3,10 +3,10 @@
 use armill_core::robot::Robot;
 
 use crate::analysis::volume::answer::VolumeAnswer;
-use crate::analysis::words::{largest_contributor, micrometres};
+use crate::analysis::words::{largest_contributor, micrometres, unreached};
 use crate::uncertainty_words::u_in_words;
 
-/// Fraction of a box, and where in it the deviation is largest.
+/// Points that are not reached, fraction of a box, and where in it the deviation is largest.
 pub fn sentence(robot: &Robot, volume: &VolumeAnswer) -> String {
     let Some(worst) = &volume.worst else {
         return format!(
@@ -15,9 +15,10 @@ pub fn sentence(robot: &Robot, volume: &VolumeAnswer) -> String {
         );
     };
     format!(
-        "{}, branch {}: {:.1} % of the box is within {} µm; the in-plane deviation is at most {} µm ({}), at ({:.0}, {:.0}, {:.0}) mm; largest contribution: {}.",
+        "{}, branch {}: {}{:.1} % of the box is within {} µm; the in-plane deviation is at most {} µm ({}), at ({:.0}, {:.0}, {:.0}) mm; largest contribution: {}.",
         volume.name,
         volume.branch,
+        unreached(volume.counts.unreached(), volume.counts.total()),
         volume.fraction_within * 100.0,
         micrometres(volume.setting.tolerance_um),
         micrometres(worst.in_plane_um),

@@ -82,7 +82,7 @@ fn forces(setting: &SettingAnswer) -> Vec<Input> {
     setting.cases_n.iter().enumerate().map(force).collect()
 }
 
-/// Tolerance, tool, stiffness model and frame.
+/// Tolerance, tool, plane, stiffness model and frame.
 fn others(answer: &StudyAnswer, setting: &SettingAnswer) -> Vec<Input> {
     let programs_alone = answer.maps.is_empty() && answer.paths.iter().all(|path| path.program.is_some());
     let tolerance = if programs_alone {
@@ -98,7 +98,26 @@ fn others(answer: &StudyAnswer, setting: &SettingAnswer) -> Vec<Input> {
             "mm",
             THE_STUDY,
         ),
+        input(
+            "centre of the plane",
+            format!(
+                "({}, {}, {})",
+                setting.centre_mm[0], setting.centre_mm[1], setting.centre_mm[2]
+            ),
+            "mm",
+            THE_STUDY,
+        ),
+        orientation(setting),
         input("stiffness model", setting.model.join("; "), "", "robot and study"),
         input("reference frame", setting.base.clone(), "", THE_STUDY),
     ]
+}
+
+/// Tilt of the plane, or its normal where it is given by a rotation.
+fn orientation(setting: &SettingAnswer) -> Input {
+    let [x, y, z] = setting.normal_axis;
+    match setting.tilt_deg {
+        Some(tilt) => input("tilt of the plane", format!("{tilt}"), "deg", THE_STUDY),
+        None => input("normal of the plane", format!("({x}, {y}, {z})"), "", THE_STUDY),
+    }
 }

@@ -1,0 +1,204 @@
+//! A placement as the arm follows the path there.
+//!
+//! The score of a placement takes each point by itself, under the forces of the nominal path. Two things are known only
+//! of the path as a whole, and are added here:
+//!
+//! - the whole turns of the joints along a cut: a joint that would have to turn past its limit, less the margin, loses
+//!   the points where it does ([`FollowedPath::checked`]; part of the search itself);
+//! - the force-deflection equilibrium of a cut ([`FollowedPath::outcome`]): numbers of the result are those of an
+//!   analysis of the path there.
+//!
+//! Holes are single points; of them the score is the result.
+
+use armill_core::kernel::{BranchChoice, PartPlacement, PlacedPath, Question};
+use armill_core::map::{along_postures, turns_along};
+use armill_core::optimize::{
+    Gain, Placeable, PlacementEvaluation, PlacementObjective, PostureSelection, Score, on_part,
+};
+use armill_core::path::{LoadedTrack, Track};
+use armill_core::robot::BranchPattern;
+use armill_core::watch::{Cancelled, Watch};
+
+use super::rail::home_at;
+
+/// Joints that are farther than this from their limits at some points stay within them at all, rad.
+const FAR: f64 = 0.5;
+/// Between points that are so close, the turn of a joint is known, rad.
+const CLOSE: f64 = 1.0;
+
+/// Which points of the path a search evaluates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Extent {
+    Some,
+    All,
+}
+
+/// The path of a search.
+pub(super) struct FollowedPath<'a> {
+    pub question: &'a Question<'a>,
+    /// Under the forces of the nominal path.
+    pub path: LoadedTrack<'a>,
+    /// Some of its points.
+    pub some: Track,
+    pub watch: Watch<'a>,
+}
+
+/// A placement with its result.
+pub(super) struct Outcome {
+    /// With the forces at equilibrium there.
+    path: PlacedPath,
+    placement: PartPlacement,
+    objective: PlacementObjective,
+    /// Cost and uncertainty.
+    pub evaluation: PlacementEvaluation,
+}
+
+impl FollowedPath<'_> {
+    /// `score` with the points that are lost because joints cannot turn as far as the path requires.
+    pub fn checked(
+        &self,
+        objective: &PlacementObjective,
+        placement: &PartPlacement,
+        score: Score,
+        extent: Extent,
+    ) -> Result<Score, Cancelled> {
+        if objective.selection != PostureSelection::ForPath {
+            return Ok(score);
+        }
+        let lost = |track: &Track| {
+            let home = self.home(placement);
+            let question = Question {
+                choice: choice_of(&score, objective.branches),
+                home: home.as_deref().or(self.question.home),
+                ..*self.question
+            };
+            let there = track.moved(placement.base_from_part, placement.spin);
+            turns_along(&question, &there, objective.margin, self.quiet())
+        };
+        let quick = lost(&self.some)?;
+        let lost = match extent {
+            _ if quick.lost == 0 && quick.room > FAR => 0,
+            Extent::Some if quick.largest_step < CLOSE => quick.lost,
+            _ => lost(self.path.track)?.lost,
+        };
+        Ok(Score {
+            unreachable: score.unreachable.max(lost),
+            ..score
+        })
+    }
+
+    /// The result of a placement in the best of the branches of `objective`.
+    pub fn outcome(
+        &self,
+        objective: PlacementObjective,
+        placement: &PartPlacement,
+    ) -> Result<Outcome, Cancelled> {
+        let LoadedTrack { track, load } = self.path;
+        let all: Vec<usize> = (0..track.len()).collect();
+        let nominal = on_part(self.path, objective.component, &all);
+        let placeable = |path| Placeable {
+            question: self.question,
+            path,
+            objective,
+        };
+        let first = placeable(&nominal).evaluated(placement);
+        let score = self.checked(&objective, placement, first.score, Extent::All)?;
+        let is_path = objective.selection == PostureSelection::ForPath;
+        if !is_path || score.unreachable > 0 {
+            return Ok(Outcome {
+                path: nominal,
+                placement: *placement,
+                objective,
+                evaluation: PlacementEvaluation {
+                    score,
+                    uncertainty: match score.unreachable {
+                        0 => first.uncertainty,
+                        _ => 0.0,
+                    },
+                },
+            });
+        }
+        let choice = choice_of(&score, objective.branches);
+        let home = self.home(placement);
+        let question = Question {
+            home: home.as_deref().or(self.question.home),
+            ..*self.question
+        };
+        let there = track.moved(placement.base_from_part, placement.spin);
+        let along = along_postures(&question, &there, load.clone(), vec![(0, choice)], self.quiet())?;
+        let followed = LoadedTrack {
+            track: &there,
+            load: &along.load,
+        };
+        // The tool is turned by the spin of the placement already.
+        let placement = PartPlacement {
+            spin: 0.0,
+            ..*placement
+        };
+        let path = on_part(followed, objective.component, &all);
+        let branches = score.branch.map_or(objective.branches, BranchPattern::from);
+        let objective = PlacementObjective {
+            branches,
+            ..objective
+        };
+        let under_these = Placeable {
+            question: self.question,
+            path: &path,
+            objective,
+        };
+        let uncertainty = under_these.evaluated(&placement).uncertainty;
+        let cost = objective
+            .objective
+            .along(objective.component, &there, &along.answers);
+        Ok(Outcome {
+            path,
+            placement,
+            objective,
+            evaluation: PlacementEvaluation {
+                score: Score { cost, ..score },
+                uncertainty,
+            },
+        })
+    }
+
+    /// The gain from one outcome to another.
+    pub fn gain(&self, before: &Outcome, after: &Outcome) -> Gain {
+        let [of_before, of_after] = [before, after].map(|outcome| Placeable {
+            question: self.question,
+            path: &outcome.path,
+            objective: outcome.objective,
+        });
+        let branches = |outcome: &Outcome| {
+            let branch = outcome.evaluation.score.branch;
+            branch.map_or(outcome.objective.branches, BranchPattern::from)
+        };
+        let gain = of_before.gain(
+            (&before.placement, branches(before)),
+            &of_after,
+            (&after.placement, branches(after)),
+        );
+        Gain {
+            before: before.evaluation.score.cost,
+            after: after.evaluation.score.cost,
+            ..gain
+        }
+    }
+
+    /// The home positions of the redundant joints at a placement of the rail; `None` where they are those of the study.
+    fn home(&self, placement: &PartPlacement) -> Option<Vec<f64>> {
+        let Question { arm, home, .. } = self.question;
+        placement.rail.map(|rail| home_at(arm.robot, *home, rail))
+    }
+
+    fn quiet(&self) -> Watch<'_> {
+        Watch {
+            finished: &|_| (),
+            ..self.watch
+        }
+    }
+}
+
+/// The branch of a score, or those that are open.
+fn choice_of(score: &Score, open: BranchPattern) -> BranchChoice {
+    BranchChoice::Of(score.branch.map_or(open, BranchPattern::from))
+}
