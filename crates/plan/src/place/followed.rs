@@ -113,7 +113,7 @@ impl FollowedPath<'_> {
                     score,
                     uncertainty: match score.unreachable {
                         0 => first.uncertainty,
-                        _ => 0.0,
+                        _ => None,
                     },
                 },
             });
