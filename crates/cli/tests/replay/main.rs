@@ -3,11 +3,12 @@
 //! `replay` runs a program to a list of events. What it is made of: `source` (files and places), `words`, `value`
 //! (statements), `pose` (orientations), `event`, `log`. The languages: `krl`, `rapid`, `inform`, `tp`, `urscript`,
 //! `val3`. What is checked: `checks` (of the events of any program), `expect` (of short programs), `written` (what
-//! armill writes), `samples` (programs of other software).
+//! armill writes), `cells` (holes, rails, data of the controller), `samples` (programs of other software).
 
 // A panic is how a test says that its claim is false; helper functions too.
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
+mod cells;
 mod checks;
 mod event;
 mod expect;
