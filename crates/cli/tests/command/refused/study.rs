@@ -72,11 +72,7 @@ fn an_invalid_number_is_reported_with_its_line() {
 
 #[test]
 fn an_implausible_number_is_reported_with_its_limit_and_unit() {
-    check("[[3, 5, 5]", "[[1e308, 1e308, 5]").refused(&[
-        "study.toml:13:13",
-        "1e308 N",
-        "at most 1000000000 N",
-    ]);
+    check("[[3, 5, 5]", "[[1e308, 1e308, 5]").refused(&["study.toml:13:13", "1e308 N", "at most 1000000 N"]);
     let tool = |pose: &str| check_text(format!("{SMALL}[tool]\nflange_from_tool_mm_deg = {pose}\n"));
     tool("[0, 0, 1e9, 0, 0, 0]").refused(&["1e9 mm", "must be at most"]);
     tool("[0, 0, 1, 0, 0, 1e9]").refused(&["1e9 deg", "must be at most"]);

@@ -75,4 +75,5 @@ fn the_page_has_the_same_mistakes() {
         }
     }
     assert!(page.ends_with(&rows), "the page must end with:\n{rows}");
+    assert_eq!(page.matches("\n## ").count(), all().len(), "each kind once");
 }
