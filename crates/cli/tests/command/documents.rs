@@ -110,6 +110,7 @@ macro_rules! guide {
 guide! {
     guide_install: "install",
     guide_predict: "predict",
+    guide_programs: "programs",
     guide_your_robot: "your-robot",
     guide_measure_stiffness: "measure-stiffness",
     guide_study_file: "study-file",
