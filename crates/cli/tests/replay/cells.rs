@@ -35,7 +35,15 @@ fn compensated(robot: &str, text: &str, program: &str) -> (tempfile::TempDir, Ou
     std::fs::write(folder.path().join("study.toml"), study).unwrap();
     let output = Command::new(env!("CARGO_BIN_EXE_armill"))
         .current_dir(folder.path())
-        .args(["compensate", "study.toml", "--nominal", "--out", "out", "--program", program])
+        .args([
+            "compensate",
+            "study.toml",
+            "--nominal",
+            "--out",
+            "out",
+            "--program",
+            program,
+        ])
         .args(["--retract-mm", "30", "--feed-mm-per-min", "120"])
         .output()
         .unwrap();
@@ -44,7 +52,11 @@ fn compensated(robot: &str, text: &str, program: &str) -> (tempfile::TempDir, Ou
 
 /// The events of the program that was written into the folder.
 fn events(language: Language, folder: &Path, output: &Output) -> Vec<Event> {
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
     let at: PathBuf = folder.join("p");
     run_folder(language, &at, "part").unwrap_or_else(|error| panic!("{language:?}: {error}"))
 }
@@ -71,9 +83,15 @@ fn above(linear: &LinearMove, index: usize) -> Option<f64> {
     let out = unit(out);
     let to: [f64; 3] = std::array::from_fn(|axis| linear.to.position_mm[axis] - end[axis]);
     let height: f64 = (0..3).map(|axis| to[axis] * out[axis]).sum();
-    let off: f64 = (0..3).map(|axis| (to[axis] - height * out[axis]).powi(2)).sum::<f64>().sqrt();
+    let off: f64 = (0..3)
+        .map(|axis| (to[axis] - height * out[axis]).powi(2))
+        .sum::<f64>()
+        .sqrt();
     let tool = linear.to.z_axis();
-    let leans: f64 = (0..3).map(|axis| (tool[axis] + out[axis]).powi(2)).sum::<f64>().sqrt();
+    let leans: f64 = (0..3)
+        .map(|axis| (tool[axis] + out[axis]).powi(2))
+        .sum::<f64>()
+        .sqrt();
     (off < 0.003 && leans < 1e-4).then_some(height)
 }
 
@@ -104,7 +122,10 @@ fn every_hole_is_drilled_once_in_pecks_with_a_dwell_and_nothing_moves_across_bel
                 }
                 Action::Dwell { s } => {
                     let (index, height) = last.unwrap();
-                    assert!((s - 0.25).abs() < 1e-9 && height.abs() < 0.003, "{language:?}: {height}");
+                    assert!(
+                        (s - 0.25).abs() < 1e-9 && height.abs() < 0.003,
+                        "{language:?}: {height}"
+                    );
                     drilled[index] += 1;
                     // Pecks of 4 mm from the surface, each followed by a return to 0.5 mm above it.
                     let expected = [5.0, 5.5, 1.0, 1.5, 0.0];
@@ -134,9 +155,12 @@ fn holes_without_depth_or_reach_are_refused_or_named() {
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     let expected = "1 of 5 holes cannot be drilled and are not in the program: 4";
     assert!(said.contains(expected), "{said}");
-    let is_named = |event: &Event| matches!(&event.action, Action::Comment { text } if text.contains(expected));
+    let is_named =
+        |event: &Event| matches!(&event.action, Action::Comment { text } if text.contains(expected));
     assert!(all.iter().any(is_named));
-    let dwells = all.iter().filter(|event| matches!(event.action, Action::Dwell { .. }));
+    let dwells = all
+        .iter()
+        .filter(|event| matches!(event.action, Action::Dwell { .. }));
     assert_eq!(dwells.count(), 4);
 }
 
@@ -148,7 +172,8 @@ cases_n = [[-60, 40, 25]]
 [[analysis]]
 kind = \"path\"
 name = \"line\"
-line = { from_mm = [-50, 0], to_mm = [50, 0], step_mm = 5 }
+line = { from_mm = [-50, 0], to_mm = [50, 0] }
+step_mm = 5
 ";
 
 #[test]
@@ -158,11 +183,17 @@ fn data_of_the_controller_are_selected_and_not_set_and_joint_moves_have_the_spee
     let (folder, output) = compensated("abb/irb6640-185-280", &format!("{LINE}{cell}"), "p/part.mod");
     let all = events(Language::Rapid, folder.path(), &output);
     let text = std::fs::read_to_string(folder.path().join("p/part.mod")).unwrap();
-    assert!(!text.contains("PERS tooldata") && !text.contains("PERS wobjdata"), "{text}");
+    assert!(
+        !text.contains("PERS tooldata") && !text.contains("PERS wobjdata"),
+        "{text}"
+    );
     let linear: Vec<&LinearMove> = all.iter().filter_map(|event| event.action.linear()).collect();
     assert!(linear.len() >= 3);
     for one in linear {
-        assert_eq!((one.base.name.as_str(), one.tool.name.as_str()), ("wobj_part", "t_mill"));
+        assert_eq!(
+            (one.base.name.as_str(), one.tool.name.as_str()),
+            ("wobj_part", "t_mill")
+        );
         assert!(one.base.pose.is_none() && one.tool.pose.is_none());
     }
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
@@ -176,12 +207,18 @@ fn a_language_of_another_maker_is_questioned_and_a_cell_with_mistakes_is_refused
     let (_folder, output) = compensated("fanuc/r2000ic", LINE, "p/part.mod");
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(output.status.success(), "{said}");
-    assert!(said.contains("written in ABB RAPID, but controllers of FANUC"), "{said}");
+    assert!(
+        said.contains("written in ABB RAPID, but controllers of FANUC"),
+        "{said}"
+    );
     let wrong = format!("{LINE}[controller]\nhome_deg = [0, 0]\nspindle_on = [\"A\\nB\"]\n");
     let (folder, output) = compensated("fanuc/r2000ic", &wrong, "p/part.ls");
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(2), "{said}");
-    for part in ["`home_deg` has 2 values, but the robot has 6 joints", "a statement with a line break"] {
+    for part in [
+        "`home_deg` has 2 values, but the robot has 6 joints",
+        "a statement with a line break",
+    ] {
         assert!(said.contains(part), "{said}");
     }
     assert!(!folder.path().join("p").exists());
@@ -202,7 +239,11 @@ fn a_rail_is_an_external_axis_of_kuka_and_refused_by_yaskawa() {
     let repository = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let robot = std::fs::read_to_string(repository.join("robots/kuka/kr210r2700extra.toml")).unwrap();
     let on_rail = robot
-        .replacen("motions = [", "motions = [\n    { along = \"y\", joint = \"E1\" },", 1)
+        .replacen(
+            "motions = [",
+            "motions = [\n    { along = \"y\", joint = \"E1\" },",
+            1,
+        )
         .replacen(
             "[[joint]]",
             "[[joint]]\nname = \"E1\"\nsign = 1\nlimits_mm = [0, 5000]\nsource = \"rail\"\n\
@@ -229,7 +270,15 @@ fn a_rail_is_an_external_axis_of_kuka_and_refused_by_yaskawa() {
         std::fs::write(folder.path().join("study.toml"), study).unwrap();
         let output = Command::new(env!("CARGO_BIN_EXE_armill"))
             .current_dir(folder.path())
-            .args(["compensate", "study.toml", "--nominal", "--out", "out", "--program", program])
+            .args([
+                "compensate",
+                "study.toml",
+                "--nominal",
+                "--out",
+                "out",
+                "--program",
+                program,
+            ])
             .args(["--feed-mm-per-min", "600"])
             .output()
             .unwrap();

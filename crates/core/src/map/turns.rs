@@ -2,7 +2,8 @@
 //!
 //! At a single point each joint is in the turn nearest to the middle of its range. Along a cut the joint moves by small
 //! steps, so that its turn follows from that at the start: of all whole numbers of turns there that keep the joint within
-//! its limits over the whole cut, the one nearest to the middle of its range is used. Where there is none, of
+//! its limits over the whole cut, the one nearest to the end of the cut before is used, at the first cut the one nearest
+//! to the middle of its range: between cuts a joint does not turn back without need. Where there is none, of
 //! `q + 2 pi k` within its limits the position nearest to the previous one is used from point to point, and the joint
 //! must turn back on the way. Whole turns do not change deviations.
 
@@ -20,13 +21,16 @@ const AT_LIMIT: f64 = 1e-9;
 pub(super) fn continue_turns(robot: &Robot, path: &SampledPath, answers: &mut Answers) {
     let turning = |joint: &usize| !robot.slides(*joint) && !is_coupled(robot, *joint);
     let joints: Vec<usize> = (0..answers.joint_count).filter(turning).collect();
+    let mut ends: Vec<Option<f64>> = vec![None; answers.joint_count];
     for stretch in path.stretches() {
         for cut in reached(answers, stretch) {
             let mut turned = vec![false; cut.len()];
             for joint in &joints {
                 let limits = robot.joints()[*joint].limits;
                 let before: Vec<f64> = (cut.clone().map(|i| answers.joints_at(i)[*joint])).collect();
-                for ((i, q), turned) in cut.clone().zip(continued(&before, limits)).zip(&mut turned) {
+                let after = continued(&before, limits, ends[*joint]);
+                ends[*joint] = after.last().copied();
+                for ((i, q), turned) in cut.clone().zip(after).zip(&mut turned) {
                     let position = &mut answers.joints[i * answers.joint_count + joint];
                     *turned |= q != *position;
                     *position = q;
@@ -49,19 +53,26 @@ fn reached(answers: &Answers, stretch: Range<usize>) -> Vec<Range<usize>> {
     parts.map(|part| part[0]..part[0] + part.len()).collect()
 }
 
-/// The positions of a joint, whole turns away from `positions` (rad), along a cut.
-fn continued(positions: &[f64], limits: Option<Limits>) -> Vec<f64> {
+/// The positions of a joint, whole turns away from `positions` (rad), along a cut; `end` is the position at the end of the
+/// cut before.
+fn continued(positions: &[f64], limits: Option<Limits>, end: Option<f64>) -> Vec<f64> {
     let mut all = positions.to_vec();
     for i in 1..all.len() {
         all[i] += TAU * ((all[i - 1] - all[i]) / TAU).round();
     }
-    let Some(limits) = limits else { return all };
+    let nearest = end
+        .zip(all.first())
+        .map_or(0.0, |(end, first)| ((end - first) / TAU).round());
+    let Some(limits) = limits else {
+        all.iter_mut().for_each(|q| *q += nearest * TAU);
+        return all;
+    };
     let low = all.iter().copied().fold(f64::INFINITY, f64::min);
     let high = all.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let least = ((limits.lower - AT_LIMIT - low) / TAU).ceil();
     let most = ((limits.upper + AT_LIMIT - high) / TAU).floor();
     if least <= most {
-        let turns = 0f64.clamp(least, most);
+        let turns = nearest.clamp(least, most);
         all.iter_mut().for_each(|q| *q += turns * TAU);
         return all;
     }
@@ -115,23 +126,37 @@ mod tests {
     #[test]
     fn a_cut_starts_in_the_turn_that_keeps_all_of_it_within_the_limits() {
         // 540 deg from 10 deg on: within -350 and 350 deg only from -350 deg on.
-        let all = degrees(continued(&turning(10.0, 20.0, 28), limits(350.0)));
+        let all = degrees(continued(&turning(10.0, 20.0, 28), limits(350.0), None));
         assert!(
             (all[0] + 350.0).abs() < 1e-9 && (all[27] - 190.0).abs() < 1e-9,
             "{all:?}"
         );
         assert!(largest_step(&all) < 20.0 + 1e-9);
         // A cut that fits where it is stays there.
-        let all = degrees(continued(&turning(10.0, 20.0, 10), limits(350.0)));
+        let all = degrees(continued(&turning(10.0, 20.0, 10), limits(350.0), None));
         assert!((all[0] - 10.0).abs() < 1e-9 && (all[9] - 190.0).abs() < 1e-9);
         // Without limits it goes on and on.
-        let all = degrees(continued(&turning(0.0, 30.0, 100), None));
+        let all = degrees(continued(&turning(0.0, 30.0, 100), None, None));
         assert!((all[99] - 2970.0).abs() < 1e-6);
     }
 
     #[test]
+    fn a_cut_starts_next_to_the_end_of_the_one_before_where_its_limits_allow() {
+        let end = Some((-175f64).to_radians());
+        let all = degrees(continued(&turning(178.0, 1.0, 2), limits(350.0), end));
+        assert!(
+            (all[0] + 182.0).abs() < 1e-9 && (all[1] + 181.0).abs() < 1e-9,
+            "{all:?}"
+        );
+        let all = degrees(continued(&turning(178.0, 1.0, 2), limits(180.0), end));
+        assert!((all[0] - 178.0).abs() < 1e-9, "{all:?}");
+        let all = degrees(continued(&turning(178.0, 1.0, 2), None, end));
+        assert!((all[0] + 182.0).abs() < 1e-9, "{all:?}");
+    }
+
+    #[test]
     fn a_cut_that_turns_farther_than_the_range_turns_back_on_the_way() {
-        let all = degrees(continued(&turning(0.0, 20.0, 50), limits(350.0)));
+        let all = degrees(continued(&turning(0.0, 20.0, 50), limits(350.0), None));
         assert!(all.iter().all(|deg| deg.abs() <= 350.0), "{all:?}");
         assert!(largest_step(&all) > 300.0);
     }

@@ -11,7 +11,7 @@
 //!
 //! `settings`: how the program is to be; `arm`: poses and joint positions, and whether a straight move can be
 //! followed; `cut`: the points of a cut and their approximate positioning; `holes`: holes instead of a path, and `order`
-//! their order; `way`: from one cut to the next; `tooling`: tool, spindle and coolant; `maker`: whether the language is
+//! their order; `way`: from one cut to the next, over the `rapids` of the path; `tooling`: tool, spindle and coolant; `maker`: whether the language is
 //! that of the robot.
 
 mod arm;
@@ -19,6 +19,7 @@ mod cut;
 mod holes;
 mod maker;
 mod order;
+mod rapids;
 mod settings;
 mod tooling;
 mod way;

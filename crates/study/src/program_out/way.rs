@@ -1,20 +1,22 @@
 //! The ways of a program that do not cut: from home to the first cut, from cut to cut, and home.
 //!
-//! The rapids of the path are followed as straight moves, at their heights. Where the path has none, the tool retracts
-//! along its axis above the part. Where the arm cannot follow in one posture, and to change the tool, it goes by a joint
+//! The rapids of the path are followed as straight moves, at their heights. Where the path has none, or a rapid goes across
+//! below the top of the path, the tool retracts along its axis above the part, and then up where the tool leans far. Where
+//! the arm cannot follow in one posture, and to change the tool, it goes by a joint
 //! move from the highest place after a cut to the highest before the next, over the home position if there is one. A
 //! joint move must not pass through the space of the part below its top.
 
 use std::cell::Cell;
 
 use armill_core::frame::Isometry;
-use armill_core::nalgebra::{Point3, Translation3, UnitQuaternion, Vector3};
-use armill_core::path::{Move, Placing, Rapids};
+use armill_core::nalgebra::{Point3, Translation3, Vector3};
+use armill_core::path::{Placing, Rapids};
 use armill_core::units::{from_deg, from_mm, to_mm};
 use armill_formats::controller::ControllerTable;
 use armill_programs::DraftStep;
 
 use super::arm::{Arm, ArmAt};
+use super::rapids::RapidPoses;
 use super::settings::{ProgramSettings, rapid_speed};
 use super::tooling::Change;
 use crate::error::StudyError;
@@ -23,13 +25,15 @@ use crate::error::StudyError;
 const SAME_JOINTS: f64 = 1e-3;
 /// Distance around the path, m, in which a joint move must stay above the part.
 const AROUND: f64 = 0.02;
+/// A move that leaves the tool axis by more goes across, m: more than a compensated end of a cut is moved.
+const ACROSS: f64 = 2e-3;
 /// A joint move may pass this far below the top of the part, m.
 const BELOW: f64 = 1e-4;
 
 /// Ways between the cuts of a path.
 pub(super) struct Ways<'a> {
     arm: Arm<'a>,
-    placing: &'a Placing,
+    rapids: RapidPoses<'a>,
     /// Away from the part, in the frame of the path.
     up: Vector3<f64>,
     /// Largest height of a cut, m.
@@ -81,7 +85,7 @@ impl<'a> Ways<'a> {
         });
         Ways {
             arm,
-            placing,
+            rapids: RapidPoses { placing },
             up,
             top: heights.fold(f64::NEG_INFINITY, f64::max),
             corners: places.fold([first, first], |[low, high], at| [low.inf(&at), high.sup(&at)]),
@@ -98,8 +102,8 @@ impl<'a> Ways<'a> {
         let left_out = self.left_out.get();
         if left_out > 0 {
             notes.push(format!(
-                "{left_out} rapids of the path are not followed, because the arm cannot follow them in one posture: the \
-                 tool retracts along its axis instead"
+                "{left_out} rapids of the path are not followed, because they go across below the top of the path or the arm \
+                 cannot follow them in one posture: the tool retracts instead"
             ));
         }
         if self.home.is_none() {
@@ -129,7 +133,9 @@ impl<'a> Ways<'a> {
         // The last rapid ends where the cut begins.
         let moves = &moves[..moves.len().saturating_sub(1)];
         let Some(from) = from else {
-            let arriving = self.arriving(start, &self.poses_to(to, moves))?;
+            let poses = self.rapids.before(to, moves);
+            let poses = self.clear(None, poses, Some(to)).unwrap_or_default();
+            let arriving = self.arriving(start, &poses)?;
             let mut steps = self.home_move();
             steps.extend(change.above);
             steps.extend(self.joint_move(self.home.as_deref(), &arriving.end, line)?);
@@ -137,7 +143,10 @@ impl<'a> Ways<'a> {
             return Ok(steps);
         };
         let mut steps = change.at_cut;
-        let poses = self.poses_between(from, to, moves);
+        let poses = self.rapids.between(from, to, moves);
+        let clear = self.clear(Some(from), poses, Some(to)).filter(|_| has_rapids);
+        let has_rapids = clear.is_some();
+        let poses = clear.unwrap_or_default();
         if !change.changes_tool
             && let Some(way) = self.straight_through(from, start, &poses, has_rapids, &change.above)
         {
@@ -172,7 +181,8 @@ impl<'a> Ways<'a> {
         change: Change,
         line: u32,
     ) -> Result<Vec<DraftStep>, StudyError> {
-        let poses = self.poses_from(from, &rapids.moves);
+        let poses = self.rapids.after(from, &rapids.moves);
+        let poses = self.clear(Some(from), poses, None).unwrap_or_default();
         let highest = self.highest(&poses);
         let leaving = self.leaving(from, &poses[..highest], line)?;
         let mut steps = change.at_cut;
@@ -299,16 +309,11 @@ impl<'a> Ways<'a> {
         if self.is_above(&at) && !steps.is_empty() {
             return Ok(Leg { end: at, steps });
         }
-        let straight = self.retracted(&at, line)?;
-        steps.push(DraftStep::Move(self.arm.target(
-            &straight.0,
-            Some(straight.1),
-            0.0,
-        )));
-        Ok(Leg {
-            end: straight.0,
-            steps,
-        })
+        for (place, speed) in self.retracted(&at, line)? {
+            steps.push(DraftStep::Move(self.arm.target(&place, Some(speed), 0.0)));
+            at = place;
+        }
+        Ok(Leg { end: at, steps })
     }
 
     /// Through these poses to the start of a cut, from as far as the arm can follow; else along the tool axis.
@@ -329,11 +334,12 @@ impl<'a> Ways<'a> {
             way.push((at.clone(), self.rapid));
         }
         if way.len() == 1 || !self.is_above(&at) {
-            let (end, fastest) = self.retracted(&at, start.line)?;
-            if let Some(last) = way.last_mut() {
-                last.1 = last.1.min(fastest);
+            for (place, fastest) in self.retracted(&at, start.line)? {
+                if let Some(last) = way.last_mut() {
+                    last.1 = last.1.min(fastest);
+                }
+                way.push((place, self.rapid));
             }
-            way.push((end, self.rapid));
         }
         let end = way.pop().map_or_else(|| to.clone(), |(end, _)| end);
         let moves = way.iter().rev();
@@ -349,15 +355,43 @@ impl<'a> Ways<'a> {
         if poses.is_empty() { start.feed } else { self.rapid }
     }
 
-    /// The arm above the part, along the tool axis from `at`, and the speed there.
-    fn retracted(&self, at: &ArmAt, line: u32) -> Result<(ArmAt, f64), StudyError> {
+    /// The places of the arm on its way above the part, along the tool axis from `at` and then up, each with the speed to
+    /// it.
+    fn retracted(&self, at: &ArmAt, line: u32) -> Result<Vec<(ArmAt, f64)>, StudyError> {
         let lifted = self.lifted(at);
         let straight = self.arm.straight(at, &lifted).ok_or_else(|| {
             let mm = to_mm((lifted.translation.vector - at.base_from_tool.translation.vector).norm());
             let message = format!("line {line}: the robot cannot retract by {mm:.1} mm here in its posture");
             StudyError::value(message, "a shorter --retract-mm")
         })?;
-        Ok((straight.end, self.rapid.min(straight.fastest)))
+        let mut places = vec![(straight.end, self.rapid.min(straight.fastest))];
+        let missing = self.top + self.retract - self.height(&lifted);
+        if missing > BELOW {
+            let up = self.arm.base_from_path.rotation * self.up * missing;
+            let higher = Translation3::from(up) * lifted;
+            let climbed = self.arm.straight(&places[0].0, &higher);
+            places.extend(climbed.map(|straight| (straight.end, self.rapid.min(straight.fastest))));
+        }
+        Ok(places)
+    }
+
+    /// These poses, if the straight moves through them go across only at the top of the path or above.
+    fn clear(&self, from: Option<&ArmAt>, poses: Vec<Isometry>, to: Option<&ArmAt>) -> Option<Vec<Isometry>> {
+        let pose = |at: Option<&ArmAt>| at.map(|at| at.base_from_tool);
+        let all: Vec<Isometry> = pose(from)
+            .into_iter()
+            .chain(poses.iter().copied())
+            .chain(pose(to))
+            .collect();
+        let is_clear = all.windows(2).all(|pair| {
+            let by = pair[0].inverse() * Point3::from(pair[1].translation.vector);
+            let across = by.x.hypot(by.y);
+            across < ACROSS || self.height(&pair[0]).min(self.height(&pair[1])) >= self.top - BELOW
+        });
+        if !is_clear {
+            self.left_out.set(self.left_out.get() + poses.len().max(1));
+        }
+        is_clear.then_some(poses)
     }
 
     /// Height of a pose, m.
@@ -396,70 +430,10 @@ impl<'a> Ways<'a> {
         }
         highest.1
     }
-
-    /// The poses of rapids after a cut: the tool has their axes, and turns about itself as little as possible.
-    fn poses_from(&self, from: &ArmAt, moves: &[Move]) -> Vec<Isometry> {
-        let mut rotation = from.base_from_tool.rotation;
-        let pose = |next: &Move| {
-            rotation = self.with_axis(rotation, next);
-            self.at(next, rotation)
-        };
-        moves.iter().map(pose).collect()
-    }
-
-    /// The poses of rapids before a cut.
-    fn poses_to(&self, to: &ArmAt, moves: &[Move]) -> Vec<Isometry> {
-        let mut rotation = to.base_from_tool.rotation;
-        let pose = |next: &Move| {
-            rotation = self.with_axis(rotation, next);
-            self.at(next, rotation)
-        };
-        let mut poses: Vec<Isometry> = moves.iter().rev().map(pose).collect();
-        poses.reverse();
-        poses
-    }
-
-    /// The poses of rapids between two cuts: the turn about the tool axis that is left is distributed over them.
-    fn poses_between(&self, from: &ArmAt, to: &ArmAt, moves: &[Move]) -> Vec<Isometry> {
-        let mut poses = self.poses_from(from, moves);
-        let Some(last) = poses.last() else {
-            return poses;
-        };
-        let axis = to.base_from_tool.rotation * Vector3::z();
-        let arrived = turned_to(last.rotation, &axis);
-        let left = arrived.inverse() * to.base_from_tool.rotation;
-        let spin = 2.0 * left.k.atan2(left.w);
-        let spin = spin - std::f64::consts::TAU * (spin / std::f64::consts::TAU).round();
-        let count = poses.len() as f64;
-        for (index, pose) in poses.iter_mut().enumerate() {
-            let part = spin * (index + 1) as f64 / count;
-            pose.rotation *= UnitQuaternion::from_axis_angle(&Vector3::z_axis(), part);
-        }
-        poses
-    }
-
-    fn with_axis(&self, rotation: UnitQuaternion<f64>, next: &Move) -> UnitQuaternion<f64> {
-        let placing = self.placing;
-        match next.axis.filter(|_| !placing.keeps_axis) {
-            Some(axis) => turned_to(rotation, &-(placing.base_from_path.rotation * axis.into_inner())),
-            None => rotation,
-        }
-    }
-
-    fn at(&self, next: &Move, rotation: UnitQuaternion<f64>) -> Isometry {
-        let tip = self.arm.base_from_path * next.end;
-        Isometry::from_parts(tip.coords.into(), rotation)
-    }
 }
 
 /// Least rise of the tool axis per length along which the tool retracts to the top of the part.
 const LEAST_RISE: f64 = 0.2;
-
-/// The orientation with z of the tool along `axis`, by the shortest rotation.
-fn turned_to(rotation: UnitQuaternion<f64>, axis: &Vector3<f64>) -> UnitQuaternion<f64> {
-    let z = rotation * Vector3::z();
-    UnitQuaternion::rotation_between(&z, axis).map_or(rotation, |turn| turn * rotation)
-}
 
 fn same_joints(a: &[f64], b: &[f64]) -> bool {
     a.iter().zip(b).all(|(a, b)| (a - b).abs() < SAME_JOINTS)
