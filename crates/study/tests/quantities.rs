@@ -47,7 +47,12 @@ fn keys_are_unique_and_end_in_their_unit() {
             quantity.key
         );
         if let Some(unit) = quantity.unit {
-            let suffix = unit.replace('/', "_per_");
+            // `mm^3/s` in a key is `mm3_per_s`, `N m` is `n_m`.
+            let suffix = unit
+                .replace('/', "_per_")
+                .replace(' ', "_")
+                .replace('^', "")
+                .to_lowercase();
             assert!(quantity.key.ends_with(&suffix), "{} in {unit}", quantity.key);
         }
     }

@@ -157,8 +157,17 @@ fn row(cell: &CellNumbers) -> Vec<String> {
         um(cell.max_normal_um),
         um(Some(cell.tolerance_um)),
         format!("{:.1} %", cell.fraction_within_and_inside_joint_limits * 100.0),
-        by.map_or_else(String::new, |(by, part)| format!("{by} ({part:.0} %)")),
+        by.map_or_else(String::new, |(by, part)| format!("{by} ({})", share(part))),
     ]
+}
+
+/// A share in the room of a table: above 100 % others act against it, below zero it acts against the deviation.
+fn share(percent: f64) -> String {
+    match percent {
+        percent if percent > 100.5 => "> 100 %".to_owned(),
+        percent if percent < 0.0 => "< 0 %".to_owned(),
+        percent => format!("{percent:.0} %"),
+    }
 }
 
 /// Differences that have a column in the table.

@@ -132,8 +132,23 @@ fn another_robot_has_its_own_compliance_which_is_reported_as_assumed() {
     let report = std::fs::read_to_string(cell.at("compare/report.html")).unwrap();
     assert!(report.contains("properties of the cells") && report.contains("the same"));
     let table = std::fs::read_to_string(cell.at("compare/cells.csv")).unwrap();
-    // A heading, and three cells of each of two analyses.
-    assert_eq!(table.lines().count(), 7);
+    // A heading, and three cells of each of two analyses, and of the path at the best placement of each robot.
+    assert_eq!(table.lines().count(), 10);
+    assert_eq!(
+        json["analyses"][0]["name"],
+        "ring, each robot at its best placement"
+    );
+    assert_eq!(json["analyses"][1]["name"], "ring");
+    // The KUKA, whose compliances are assumed, has the smallest deviation where the part is given, and does not win.
+    let first = &json["analyses"][1];
+    assert_eq!(first["cells"][0]["cell"], "kuka/kr120r2500pro", "{first}");
+    assert_eq!(first["is_ranked"], false);
+    assert!(
+        first["answer"].as_str().unwrap().starts_with("ring: no ranking"),
+        "{first}"
+    );
+    let given = cell.armill(&[&args[..], &["--given-placement", "--json"]].concat());
+    assert_eq!(given.fine().json()["analyses"][0]["name"], "ring");
 }
 
 #[test]

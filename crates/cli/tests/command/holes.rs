@@ -132,7 +132,12 @@ fn cells_are_compared_by_their_holes() {
             "--no-pictures",
         ])
         .fine();
-    assert!(said.out.starts_with("panel: fanuc/r2000ic"), "{}", said.out);
+    assert!(
+        said.out.starts_with("panel, each robot at its best placement: "),
+        "{}",
+        said.out
+    );
+    assert!(said.out.contains("\npanel: fanuc/r2000ic"), "{}", said.out);
     assert!(
         said.out.contains("the holes") || said.out.contains("all holes"),
         "{}",

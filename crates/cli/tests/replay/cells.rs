@@ -180,7 +180,7 @@ step_mm = 5
 fn data_of_the_controller_are_selected_and_not_set_and_joint_moves_have_the_speed_of_the_cell() {
     let cell = "[controller]\nframe = 3\ntool = 4\ndata = \"controller\"\njoint_speed_percent = 25\n\
                 frame_name = \"wobj_part\"\ntool_name = \"t_mill\"\nheader = [\"TPWrite \\\"begin\\\";\"]\n";
-    let (folder, output) = compensated("abb/irb6640-185-280", &format!("{LINE}{cell}"), "p/part.mod");
+    let (folder, output) = compensated("fanuc/r2000ic", &format!("{LINE}{cell}"), "p/part.mod");
     let all = events(Language::Rapid, folder.path(), &output);
     let text = std::fs::read_to_string(folder.path().join("p/part.mod")).unwrap();
     assert!(
@@ -226,8 +226,8 @@ fn a_language_of_another_maker_is_questioned_and_a_cell_with_mistakes_is_refused
 
 #[test]
 fn a_home_position_below_the_part_is_refused() {
-    // The arm would come up through the part: its home is 400 mm below it.
-    let low = format!("{LINE}[controller]\nhome_deg = [0, 25, -45, 0, -45, 0]\n");
+    // The arm would come up through the part: its home is straight below it.
+    let low = format!("{LINE}[controller]\nhome_deg = {LOW:?}\n");
     let (_folder, output) = compensated("fanuc/r2000ic", &low, "p/part.ls");
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(2), "{said}");
@@ -250,7 +250,7 @@ fn a_rail_is_an_external_axis_of_kuka_and_refused_by_yaskawa() {
              compliance_um_per_n = 0.001\ncompliance_source = \"rail\"\n\n[[joint]]",
             1,
         )
-        + "\n[sources.rail]\nwhat = \"A rail for tests\"\nplace = \"none\"\nlicence = \"none\"\n";
+        + "\n[sources.rail]\nwhat = \"A rail for tests\"\nwhere = \"none\"\nlicence = \"none\"\n";
     let text = LINE.replace("[1500, 0, 800]", "[1600, 1200, 900]")
         + "[controller]\nhome_deg = [1200, 0, -100, 110, 0, 80, 0]\n";
     let text = format!("[posture]\nhome_deg = [1200, 0, 0, 0, 0, 0, 0]\n{text}");

@@ -1,4 +1,4 @@
-//! Milling force on the tool at an angle of the spindle, over a revolution, and at its greatest.
+//! Milling force on the tool at an angle of the spindle, and over a revolution.
 //!
 //! Every engaged tooth is loaded by `dFt` against its motion, `dFr` along the inward normal of the body and
 //! `dFa` along its profile to the tip (`s` = 1 for a right-hand helix, -1 for a left-hand one):
@@ -112,10 +112,13 @@ impl Milling {
 
     /// Force on the tool (N, feed frame) when the tip of tooth 0 is at `angle` (rad).
     ///
-    /// In closed form for a flat end mill without runout under a linear law; else summed over 256 slices of the corner
-    /// and as many of the cylinder, with an error of some thousandths of the peak where an edge enters or leaves.
+    /// Exact for a flat end mill with straight flutes, and for one without runout under a linear law; else summed over
+    /// 256 slices of the corner and as many of the cylinder, with an error of some thousandths of the peak where an edge
+    /// enters or leaves.
     pub fn force_at(&self, angle: f64) -> Vector3<f64> {
         match (&self.law, self.arc_of_cylinder()) {
+            (_, Some(arc)) if self.is_straight() => self.straight_force(arc, angle),
+            (_, None) if self.is_straight() => Vector3::zeros(),
             (CuttingLaw::Mechanistic(law), Some(arc)) if self.is_plain() => {
                 self.closed_force(law, arc, angle)
             }
@@ -135,27 +138,7 @@ impl Milling {
 
     /// Forces (N, feed frame) at `steps` even steps of one revolution, from the angle zero; from 1 to 100 000 steps.
     pub fn revolution(&self, steps: u32) -> Vec<Vector3<f64>> {
-        self.history(TAU, steps)
-    }
-
-    /// The force of greatest length (N, feed frame), sought at `steps` even steps of one period.
-    pub fn peak(&self, steps: u32) -> Vector3<f64> {
-        let longer = |longest: Vector3<f64>, force: Vector3<f64>| {
-            if force.norm_squared() > longest.norm_squared() {
-                force
-            } else {
-                longest
-            }
-        };
-        self.history(self.period(), steps)
-            .into_iter()
-            .fold(Vector3::zeros(), longer)
-    }
-
-    fn history(&self, turn: f64, steps: u32) -> Vec<Vector3<f64>> {
-        let steps = steps.clamp(1, MOST_STEPS);
-        let angle = |step: u32| turn * f64::from(step) / f64::from(steps);
-        (0..steps).map(|step| self.force_at(angle(step))).collect()
+        even_steps(TAU, steps).map(|angle| self.force_at(angle)).collect()
     }
 
     /// Chip thickness of an evenly cutting tooth at `point`.
@@ -187,25 +170,44 @@ impl Milling {
         let r = self.cutter.corner_radius();
         let corner_end = self.cutter.corner_end(self.cut.depth);
         let straight = (self.cut.depth - r).max(0.0);
-        let middle = |slice: u32| (f64::from(slice) + 0.5) / f64::from(SLICES);
+        let middle = |slice: u32, of: u32| (f64::from(slice) + 0.5) / f64::from(of);
+        // All slices of a straight edge cut alike.
+        let cylinder_slices = match straight > 0.0 {
+            false => 0,
+            true if self.cutter.helix() == 0.0 => 1,
+            true => SLICES,
+        };
         let corner = (0..if r > 0.0 { SLICES } else { 0 }).map(move |slice| {
-            let point = self.cutter.in_corner(middle(slice) * corner_end);
+            let point = self.cutter.in_corner(middle(slice, SLICES) * corner_end);
             (point, r * corner_end / f64::from(SLICES))
         });
-        let cylinder = (0..if straight > 0.0 { SLICES } else { 0 }).map(move |slice| {
-            let point = self.cutter.at_height(r + middle(slice) * straight);
-            (point, straight / f64::from(SLICES))
+        let cylinder = (0..cylinder_slices).map(move |slice| {
+            let height = r + middle(slice, cylinder_slices) * straight;
+            (
+                self.cutter.at_height(height),
+                straight / f64::from(cylinder_slices),
+            )
         });
         corner.chain(cylinder)
     }
 
     /// Where the cylinder cuts; `None` if the strip is outside it.
-    fn arc_of_cylinder(&self) -> Option<EngagedArc> {
+    pub(super) fn arc_of_cylinder(&self) -> Option<EngagedArc> {
         self.cut.engagement.arc_at(self.cutter.radius())
     }
 
     fn is_plain(&self) -> bool {
         self.cutter.corner_radius() == 0.0 && self.cutter.runout().offset == 0.0
+    }
+
+    /// Whether all of an edge is at one immersion angle.
+    pub(super) fn is_straight(&self) -> bool {
+        self.cutter.corner_radius() == 0.0 && self.cutter.lag(self.cut.depth).abs() < STRAIGHT
+    }
+
+    /// Whether forces are summed over slices: such sums step where a slice enters or leaves.
+    pub(super) fn is_summed(&self) -> bool {
+        !self.is_straight() && !(self.is_plain() && matches!(self.law, CuttingLaw::Mechanistic(_)))
     }
 
     /// Immersion angle of the tip of tooth `tooth`, rad.
@@ -235,7 +237,20 @@ impl Milling {
         sum
     }
 
-    /// The integral along a flat end mill: with `dz = depth/lag dphi` it runs over the angles that the edge covers.
+    /// The force on the teeth of a flat end mill with straight flutes.
+    fn straight_force(&self, arc: EngagedArc, angle: f64) -> Vector3<f64> {
+        let point = self.cutter.at_height(0.0);
+        let of_tooth = |tooth: u32| {
+            let phi = self.tip_angle(tooth, angle).rem_euclid(TAU);
+            let h = self.chip_of_tooth(tooth, &point, phi);
+            let cuts = arc.contains(phi) && h >= 0.0;
+            let directions = Moments::at(phi).directions(&point, self.cutter.hand());
+            cuts.then(|| directions * self.law.force(h) * self.cut.depth)
+        };
+        (0..self.cutter.flutes()).filter_map(of_tooth).sum()
+    }
+
+    /// The integral along a flat end mill with a helix: with `dz = depth/lag dphi` it runs over the angles that the edge covers.
     fn closed_force(&self, law: &Mechanistic, arc: EngagedArc, angle: f64) -> Vector3<f64> {
         let depth = self.cut.depth;
         let point = self.cutter.at_height(0.0);
@@ -244,13 +259,6 @@ impl Milling {
         let mut sum = Vector3::zeros();
         for tooth in 0..self.cutter.flutes() {
             let tip = self.tip_angle(tooth, angle).rem_euclid(TAU);
-            if lag.abs() < STRAIGHT {
-                if arc.contains(tip) {
-                    let force = law.force(self.chip(&point).at(tip));
-                    sum += Moments::at(tip).directions(&point, hand) * force * depth;
-                }
-                continue;
-            }
             let (low, high) = (tip.min(tip - lag), tip.max(tip - lag));
             let mut turn = TAU * ((low - arc.exit) / TAU).ceil();
             while arc.entry + turn < high {
@@ -270,6 +278,12 @@ impl Milling {
         }
         sum
     }
+}
+
+/// Angles at even steps of `turn` (rad), from zero.
+pub(super) fn even_steps(turn: f64, steps: u32) -> impl Iterator<Item = f64> {
+    let steps = steps.clamp(1, MOST_STEPS);
+    (0..steps).map(move |step| turn * f64::from(step) / f64::from(steps))
 }
 
 #[cfg(test)]

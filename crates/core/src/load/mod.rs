@@ -6,6 +6,7 @@
 //! Cutting forces: [`end_mill_body`] and [`cutter`] (the edge on it), [`engagement`] and [`arc`] (where it cuts and the
 //! chip thickness), [`mechanistic`] and [`kienzle`] (force of a chip; [`law`] is either, [`sets`] several of one
 //! material), [`milling`] (force at a spindle angle and over a revolution), [`mean`] (its mean, with uncertainty),
+//! `peak` (its greatest over a revolution), `spindle` (torque, chip thickness, removal rate),
 //! [`drilling`], [`process`] (a tool with its cutting data and feed), [`force_equilibrium`] (the force on a tool that
 //! the cut deflects).
 //!
@@ -28,9 +29,11 @@ pub mod law;
 pub mod mean;
 pub mod mechanistic;
 pub mod milling;
+mod peak;
 pub mod process;
 pub mod record;
 pub mod sets;
+mod spindle;
 
 mod quadrature;
 

@@ -12,8 +12,6 @@
 //!
 //! [`turns_along`]: limits and whole turns alone, for the placements of a search.
 
-use std::f64::consts::PI;
-
 use super::turns::continue_turns;
 use crate::kernel::{AT_LIMIT, Answers, Question, evaluate_in_order};
 use crate::path::{Pace, SampledPath, Track};
@@ -86,8 +84,7 @@ pub fn obstacles<'a>(
 /// How far the joints are from their limits along a path, with the whole turns that they make on each cut.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TurnsAlong {
-    /// Points that are unreachable, where a revolute joint is nearer to a limit than the margin, or where it must turn
-    /// back a whole turn on a cut.
+    /// Points that are unreachable, or where a revolute joint is nearer to a limit than the margin.
     pub lost: usize,
     /// Smallest distance of a revolute joint from its limits, less the margin, rad; infinite without limits.
     pub room: f64,
@@ -133,7 +130,7 @@ pub fn turns_along(
                 step = step.max((q[joint] - answers.joints_at(index - 1)[joint]).abs());
             }
         }
-        found.lost += usize::from(point.is_err() || room < -AT_LIMIT || step > PI);
+        found.lost += usize::from(point.is_err() || room < -AT_LIMIT);
         found.room = found.room.min(room);
         found.largest_step = found.largest_step.max(step);
     }

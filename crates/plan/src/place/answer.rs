@@ -57,6 +57,8 @@ pub struct PlacementAnswer {
     /// Whether the tool turns with the part though the study does not say so: its inclination varies from point to
     /// point, and its spin is relative to the axes of base. The table of the path then has its spin at each point.
     pub tool_turns_with_part: bool,
+    /// Whether the part is turned under forces that are given in base axes: they do not turn with it.
+    pub forces_stay: bool,
     /// Rounds that an earlier run, which was stopped, had done.
     pub rounds_taken_up: usize,
 }
@@ -119,7 +121,7 @@ impl PlacementAnswer {
                 micrometres(outcome.cost_um),
                 plus_minus(outcome.cost_u_um.map(micrometres))
             ),
-            lost => format!("no posture at {lost} of {} points", self.points),
+            lost => format!("no permitted posture at {lost} of {} points", self.points),
         };
         let branch = |outcome: &OutcomeAnswer| {
             outcome
@@ -139,7 +141,7 @@ impl PlacementAnswer {
                 branch(&self.nominal),
             ),
             lost => format!(
-                "{}: no placement was found at which all points can be reached; the best, {}, has no posture at {lost} of {} points{}.",
+                "{}: no placement was found at which all points can be reached; the best, {}, has no permitted posture at {lost} of {} points{}.",
                 self.analysis,
                 self.place_in_words(),
                 self.points,
@@ -152,6 +154,11 @@ impl PlacementAnswer {
         if self.tool_turns_with_part {
             lines.push(
                 "The tool turns with the part; in a study use spin = \"along-feed\", otherwise column turn_deg of the table has its spin.".to_owned(),
+            );
+        }
+        if self.forces_stay {
+            lines.push(
+                "The deviation at this placement may be wrong: the part is turned, but its forces are given in base axes and keep their direction in the room, so that on the part they point elsewhere. Give forces that turn with the part: load.frame = \"part\", or \"feed\".".to_owned(),
             );
         }
         let edges: Vec<&str> = self

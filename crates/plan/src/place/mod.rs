@@ -34,6 +34,7 @@ pub use journal::Journal;
 pub use result::PlacementResult;
 
 use armill_core::kernel::{BranchChoice, PartPlacement};
+use armill_core::load::{LoadFrame, PathLoad};
 use armill_core::nalgebra::{Point3, UnitQuaternion, Vector3};
 use armill_core::optimize::{PlacementObjective, PostureSearch, PostureSelection, RankBy, ToolTurn, on_part};
 use armill_core::path::{LoadedTrack, Spin};
@@ -64,6 +65,9 @@ use self::search::Effort;
 const USUAL_MM: f64 = 300.0;
 /// Default least angle of the wrist from straight, deg.
 const USUAL_WRIST_DEG: f64 = 3.0;
+
+/// A part that is turned by less is not turned, rad.
+const TURNED: f64 = 1e-6;
 
 /// A prepared search.
 pub struct PlacementSearch<'a> {
@@ -365,6 +369,7 @@ impl<'a> PlacementSearch<'a> {
             free: of(best).freedom.reported(&best.spot.at),
             certificate: found.certificate.clone(),
             by_margin,
+            forces_stay: self.forces_stay(&there.part_placement(&best.spot.at)),
             seed: self.seed,
             points: track.len(),
             rounds_taken_up,
@@ -384,6 +389,18 @@ impl<'a> PlacementSearch<'a> {
                 .map(|(joint, at)| at * JointUnit::of(robot, joint).scale)
                 .collect(),
         )
+    }
+
+    /// Whether forces in base axes do not turn with a part that is turned at this placement.
+    fn forces_stay(&self, placement: &PartPlacement) -> bool {
+        let turned =
+            (self.analysis.track.base_from_part.rotation).angle_to(&placement.base_from_part.rotation);
+        let frame = match &self.analysis.load {
+            PathLoad::Cases(load) => Some(load.frame),
+            PathLoad::OfEach { frame, .. } => Some(*frame),
+            PathLoad::Cuts(_) => None,
+        };
+        turned > TURNED && frame == Some(LoadFrame::Base)
     }
 
     /// The tool on the part at each point, with its spin at this placement.

@@ -284,6 +284,60 @@ pub const WRIST_BEND: Quantity = angle(
         validation: None,
     },
 );
+/// A value of the cut.
+const fn of_cut(
+    key: &'static str,
+    unit: &'static str,
+    words: &'static str,
+    file: &'static str,
+    function: &'static str,
+) -> Quantity {
+    Quantity {
+        key,
+        unit: Some(unit),
+        decimals: 3,
+        words,
+        origin: Some(Origin {
+            file,
+            function,
+            theory: Some("cutting"),
+            validation: None,
+        }),
+    }
+}
+
+/// Force of the cut.
+pub const FORCE: Quantity = of_cut(
+    "force_n",
+    "N",
+    "size of the mean cutting force of a revolution, at force-deflection equilibrium",
+    "core/src/load/mean.rs",
+    "Milling::mean_force",
+);
+/// Torque of the cut.
+pub const TORQUE: Quantity = of_cut(
+    "torque_n_m",
+    "N m",
+    "mean torque of a revolution, of the nominal cut",
+    "core/src/load/spindle.rs",
+    "Milling::mean_torque",
+);
+/// Chip thickness.
+pub const CHIP: Quantity = of_cut(
+    "chip_um",
+    "um",
+    "largest chip thickness of any tooth, of the nominal cut",
+    "core/src/load/spindle.rs",
+    "Milling::largest_chip",
+);
+/// Material removal rate.
+pub const REMOVAL: Quantity = of_cut(
+    "removal_mm3_per_s",
+    "mm^3/s",
+    "material removal rate, of the nominal cut",
+    "core/src/load/spindle.rs",
+    "Cut::removal_rate",
+);
 /// Across a hole.
 pub const HOLE_X: Quantity = deviation(
     "hole_x_um",
@@ -300,7 +354,7 @@ pub const HOLE_Y: Quantity = deviation(
 pub const DEPTH: Quantity = deviation("depth_um", "deviation out of the part: too shallow", IN_HOLE);
 
 /// All quantities, in the order of the tables: of a path, of holes, of every analysis.
-pub const ALL: [&Quantity; 26] = [
+pub const ALL: [&Quantity; 30] = [
     &LINE,
     &DISTANCE,
     &FEED,
@@ -308,6 +362,10 @@ pub const ALL: [&Quantity; 26] = [
     &CROSS,
     &AXIAL,
     &TURN,
+    &FORCE,
+    &TORQUE,
+    &CHIP,
+    &REMOVAL,
     &UNLOADED_ALONG,
     &UNLOADED_CROSS,
     &UNLOADED_AXIAL,

@@ -17,13 +17,7 @@ pub fn largest_contributor(robot: &Robot, point: &PointAnswer, contributors: &[S
             let is_joint = robot.joints().iter().any(|joint| joint.name == name);
             let name = format!("{} {name}", if is_joint { "joint" } else { "the" });
             match part {
-                Some(part) if part > WHOLE => {
-                    format!(
-                        "{name} ({:.0} %; other contributions act against it)",
-                        part * 100.0
-                    )
-                }
-                Some(part) => format!("{name} ({:.0} %)", part * 100.0),
+                Some(part) => format!("{name} ({})", share_in_words(part)),
                 None => name,
             }
         })
@@ -34,5 +28,28 @@ pub fn unreached(lost: usize, of: usize) -> String {
     match lost {
         0 => String::new(),
         lost => format!("{lost} of {of} points cannot be reached; "),
+    }
+}
+
+/// A share of a deviation: above 100 % others act against it; below zero it acts against the deviation itself.
+pub fn share_in_words(part: f64) -> String {
+    let percent = format!("{:.0} %", part * 100.0);
+    match part {
+        part if part > WHOLE => format!("{percent}; other contributions act against it"),
+        part if part < 0.0 => format!("{percent}; it acts against the deviation"),
+        _ => percent,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_share_of_more_than_all_or_less_than_nothing_is_explained() {
+        assert_eq!(share_in_words(0.55), "55 %");
+        assert_eq!(share_in_words(1.0), "100 %");
+        assert_eq!(share_in_words(1.05), "105 %; other contributions act against it");
+        assert_eq!(share_in_words(-7.11), "-711 %; it acts against the deviation");
     }
 }

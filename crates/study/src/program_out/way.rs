@@ -375,8 +375,33 @@ impl<'a> Ways<'a> {
         Ok(places)
     }
 
-    /// These poses, if the straight moves through them go across only at the top of the path or above.
-    fn clear(&self, from: Option<&ArmAt>, poses: Vec<Isometry>, to: Option<&ArmAt>) -> Option<Vec<Isometry>> {
+    /// These poses, if the straight moves through them go across only at the top of the path or above. Those above the
+    /// ends of a compensated cut are moved with it, so that the tool goes along its axis.
+    fn clear(
+        &self,
+        from: Option<&ArmAt>,
+        mut poses: Vec<Isometry>,
+        to: Option<&ArmAt>,
+    ) -> Option<Vec<Isometry>> {
+        let above = |end: &ArmAt, pose: &Isometry| {
+            let by = end.base_from_tool.inverse() * Point3::from(pose.translation.vector);
+            let tip = end.base_from_tool * Point3::new(0.0, 0.0, by.z);
+            (by.x.hypot(by.y) < ACROSS).then_some(tip)
+        };
+        let mut moved = 0;
+        for pose in &mut poses {
+            let Some(tip) = from.and_then(|from| above(from, pose)) else {
+                break;
+            };
+            pose.translation.vector = tip.coords;
+            moved += 1;
+        }
+        for pose in poses.iter_mut().skip(moved).rev() {
+            let Some(tip) = to.and_then(|to| above(to, pose)) else {
+                break;
+            };
+            pose.translation.vector = tip.coords;
+        }
         let pose = |at: Option<&ArmAt>| at.map(|at| at.base_from_tool);
         let all: Vec<Isometry> = pose(from)
             .into_iter()

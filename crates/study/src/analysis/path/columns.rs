@@ -1,10 +1,11 @@
 //! Columns that only a path has: line, distance and feed, the spin that a search found, and the components of the
-//! deviation of the worst case relative to the track, with their part due to backlash and geometry.
+//! deviation of the worst case relative to the track, with their part due to backlash and geometry; force, torque, chip and removal rate of a cut.
 
 use armill_core::path::{Pace, Parts, Track};
 use armill_core::units::{to_deg, to_mm, to_um};
 
 use crate::analysis::numbers::Numbers;
+use crate::analysis::path::process_loads::ProcessPoint;
 use crate::analysis::path::run::PathResult;
 use crate::analysis::quantity::{self, Quantity};
 
@@ -32,8 +33,25 @@ pub fn columns<'a>(track: &'a Track, found: &'a PathResult) -> Vec<Numbers<'a>> 
         let spins = &searched.posture.spins;
         Numbers::of(&quantity::TURN, move |_, index, _| to_deg(spins[index]))
     }));
+    columns.extend(process(found));
     columns.extend(unloaded(track, found));
     columns
+}
+
+/// Force, torque, chip thickness and removal rate; none if the load is not from a cut.
+fn process(found: &PathResult) -> Vec<Numbers<'_>> {
+    let Some(process) = &found.process else {
+        return Vec::new();
+    };
+    let value = |quantity: &'static Quantity, of: fn(&ProcessPoint) -> f64| {
+        Numbers::of(quantity, move |_, index, _| of(&process.points[index]))
+    };
+    vec![
+        value(&quantity::FORCE, |point| point.force),
+        value(&quantity::TORQUE, |point| point.torque),
+        value(&quantity::CHIP, |point| to_um(point.chip)),
+        value(&quantity::REMOVAL, |point| point.removal_rate * 1e9),
+    ]
 }
 
 /// The part of the deviation without load; none if all of it is due to the load.

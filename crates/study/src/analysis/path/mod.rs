@@ -8,7 +8,8 @@
 //! `shape` and [`program`] (its keys [`program_table`], its file `program_file`, then `machine_program` or
 //! [`robot_program`]) give its points, [`feature`] marks stretches of them; `load` puts on the load: given cases, a [`cut`], a [`drill`], or [`measured`] forces; `shape_tables`: the tables of
 //! shapes. [`resolve`](mod@resolve) joins these, [`run`] evaluates the path. [`answer`], [`sentence`], [`warnings`] are
-//! its answer; [`columns`], [`pictures`] (with [`point_groups`], `turns`, [`process_limits`]) and [`report`] its files.
+//! its answer; [`columns`], [`pictures`] (with [`point_groups`], `turns`, [`process_limits`]) and [`report`] its files. [`process_loads`]:
+//! what the cut asks of tool and spindle.
 
 pub mod answer;
 pub mod columns;
@@ -21,6 +22,7 @@ pub mod measured;
 pub mod pictures;
 pub mod point_groups;
 pub mod process_limits;
+pub mod process_loads;
 pub mod program;
 pub(crate) mod program_file;
 pub mod program_table;

@@ -18,6 +18,7 @@ use armill_core::watch::Cancelled;
 use armill_core::workpiece::Plane;
 
 use crate::analysis::path::PathAnalysis;
+use crate::analysis::path::process_loads::ProcessLoads;
 use crate::analysis::runner::Runner;
 use crate::error::StudyError;
 use crate::input::setting::Setting;
@@ -33,6 +34,8 @@ pub struct PathResult {
     pub radial: Vec<RadialDeviation>,
     /// Statistics of its forces, if a cut or drill produces them.
     pub forces: Option<ForceSummary>,
+    /// Force, torque, chip and removal rate along it, of a cut.
+    pub process: Option<ProcessLoads>,
     /// The process limits, if they were requested and can be computed.
     pub limits: Option<ProgramLimits>,
     /// The search for spins and branches, if there was one.
@@ -141,6 +144,8 @@ impl Runner<'_> {
                 }
                 _ => Vec::new(),
             },
+            process: (analysis.cut.as_ref())
+                .and_then(|cut| ProcessLoads::of(&cut.cutting, &analysis.track, &along.load)),
             along,
             forces,
             limits,

@@ -2,7 +2,7 @@
 
 use armill_core::robot::Robot;
 
-use crate::analysis::path::answer::PathAnswer;
+use crate::analysis::path::answer::{CutAnswer, PathAnswer};
 use crate::analysis::words::{largest_contributor, micrometres, unreached};
 use crate::uncertainty_words::u_in_words;
 
@@ -25,8 +25,9 @@ pub fn sentence(robot: &Robot, path: &PathAnswer) -> String {
     let roundness = path.roundness_um.map_or(String::new(), |r| {
         format!("; the roundness deviation of {circle} is {} µm", micrometres(r))
     });
+    let process = path.cut.as_ref().map_or(String::new(), process);
     format!(
-        "{}, branch {}: {}the tool deviates by up to {} µm ({}) {where_to}{line}{roundness}; largest contribution: {}; {:.1} % of the path is within {} µm.",
+        "{}, branch {}: {}the tool deviates by up to {} µm ({}) {where_to}{line}{roundness}; largest contribution: {}; {:.1} % of the path is within {} µm.{process}",
         path.name,
         path.followed_branch.as_ref().unwrap_or(&path.branch),
         unreached(path.unreachable, path.points),
@@ -36,4 +37,21 @@ pub fn sentence(robot: &Robot, path: &PathAnswer) -> String {
         path.fraction_within * 100.0,
         micrometres(path.setting.tolerance_um),
     )
+}
+
+/// Force, torque, chip thickness and removal rate of a cut, as a further sentence.
+fn process(cut: &CutAnswer) -> String {
+    let force = format!(
+        " The cutting force is up to {:.1} N averaged over a revolution and {:.1} N within one",
+        cut.largest_mean_n, cut.largest_peak_n
+    );
+    let torque = (cut.largest_mean_torque_n_m.zip(cut.largest_torque_n_m))
+        .map(|(mean, largest)| format!(", the torque {mean:.2} and {largest:.2} N m"));
+    let chip = cut
+        .largest_chip_um
+        .map(|um| format!("; chips are up to {um:.1} µm thick"));
+    let removal = (cut.largest_removal_mm3_per_s.filter(|rate| *rate > 0.0))
+        .map(|rate| format!(", {rate:.0} mm³/s are removed"));
+    let more: String = [torque, chip, removal].into_iter().flatten().collect();
+    format!("{force}{more}.")
 }

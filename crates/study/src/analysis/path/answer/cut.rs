@@ -10,6 +10,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::analysis::path::PathAnalysis;
+use crate::analysis::path::process_loads::ProcessPoint;
 use crate::analysis::path::run::PathResult;
 use crate::number::without_rounding;
 
@@ -22,6 +23,14 @@ pub struct CutAnswer {
     pub largest_mean_n: f64,
     /// Largest force within a revolution, of the nominal cut.
     pub largest_peak_n: f64,
+    /// Largest mean torque of a revolution; none of a drill.
+    pub largest_mean_torque_n_m: Option<f64>,
+    /// Greatest torque within a revolution where its mean is largest.
+    pub largest_torque_n_m: Option<f64>,
+    /// Largest chip thickness.
+    pub largest_chip_um: Option<f64>,
+    /// Largest material removal rate.
+    pub largest_removal_mm3_per_s: Option<f64>,
     /// Points whose cut has no force: plunges and steep ramps, where the bottom of the cutter is not modelled.
     pub points_without_force: usize,
     /// Engagement in the stock, if the study has one.
@@ -67,7 +76,13 @@ impl CutAnswer {
         let of_cut = analysis.cut.as_ref().map(|cut| &cut.material);
         let material = of_cut.or(analysis.drill.as_ref().map(|drill| &drill.material))?;
         let forces = found.forces?;
+        let largest =
+            |of: fn(&ProcessPoint) -> f64| found.process.as_ref().map(|process| process.largest(of));
         Some(CutAnswer {
+            largest_mean_torque_n_m: largest(|point| point.torque),
+            largest_torque_n_m: found.process.as_ref().map(|process| process.greatest_torque),
+            largest_chip_um: largest(|point| point.chip).map(to_um),
+            largest_removal_mm3_per_s: largest(|point| point.removal_rate).map(|rate| rate * 1e9),
             material: material.name.clone(),
             largest_mean_n: forces.largest_mean,
             largest_peak_n: forces.greatest,
