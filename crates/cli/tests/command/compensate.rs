@@ -164,7 +164,8 @@ fn a_robot_program_follows_the_commanded_path_and_retracts_between_cuts() {
         // Up at the end: the last rapid, 10 mm; the compensated end is lower by its correction.
         let at = |target: &Target| target.pose().unwrap().translation.vector;
         let last = [linear[linear.len() - 2], linear[linear.len() - 1]].map(|next| at(&next.target));
-        assert!(((last[1] - last[0]).norm() - 0.01).abs() < 5e-4, "{ending}");
+        let up = (last[1] - last[0]).norm();
+        assert!((up - 0.01).abs() < 2e-3, "{ending}: {up}");
         // 600 and 300 mm/min: 10 and 5 mm/s.
         let speeds: Vec<f64> = linear
             .iter()

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use crate::event::{Action, Event, LinearMove};
-use crate::replay::{Language, run_folder};
+use crate::replay::{Language, run, run_folder};
 
 /// Holes of a study: end of each, mm, and direction out of the part.
 const HOLES: [([f64; 3], [f64; 3]); 5] = [
@@ -164,6 +164,9 @@ fn holes_without_depth_or_reach_are_refused_or_named() {
     assert_eq!(dwells.count(), 4);
 }
 
+/// Joint positions of the FANUC with the tip at (1500, 0, 500) mm and the tool down, deg.
+const LOW: [f64; 6] = [0.0, 9.43, -48.83, 0.0, -41.17, 180.0];
+
 /// A line on a plane.
 const LINE: &str = "plane = { centre_mm = [1500, 0, 800], tilt_deg = 90, half_size_mm = 100, step_mm = 50 }
 [load]
@@ -181,8 +184,14 @@ fn data_of_the_controller_are_selected_and_not_set_and_joint_moves_have_the_spee
     let cell = "[controller]\nframe = 3\ntool = 4\ndata = \"controller\"\njoint_speed_percent = 25\n\
                 frame_name = \"wobj_part\"\ntool_name = \"t_mill\"\nheader = [\"TPWrite \\\"begin\\\";\"]\n";
     let (folder, output) = compensated("fanuc/r2000ic", &format!("{LINE}{cell}"), "p/part.mod");
-    let all = events(Language::Rapid, folder.path(), &output);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success(), "{said}");
     let text = std::fs::read_to_string(folder.path().join("p/part.mod")).unwrap();
+    // What the controller has stored.
+    let stored = "MODULE CELL\nPERS tooldata t_mill:=[TRUE,[[0,0,200],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];\n\
+                  PERS wobjdata wobj_part:=[FALSE,TRUE,\"\",[[1500,0,800],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\nENDMODULE\n";
+    let files = [("part.mod", text.clone()), ("cell.mod", stored.to_owned())];
+    let all = run(Language::Rapid, &files, "part").unwrap();
     assert!(
         !text.contains("PERS tooldata") && !text.contains("PERS wobjdata"),
         "{text}"
@@ -194,9 +203,7 @@ fn data_of_the_controller_are_selected_and_not_set_and_joint_moves_have_the_spee
             (one.base.name.as_str(), one.tool.name.as_str()),
             ("wobj_part", "t_mill")
         );
-        assert!(one.base.pose.is_none() && one.tool.pose.is_none());
     }
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(said.contains("t_mill must be [[0.000,0.000,200.000]"), "{said}");
     let begins = |event: &Event| matches!(&event.action, Action::Message { text } if text == "begin");
     assert!(all.iter().any(begins), "{all:?}");

@@ -40,7 +40,8 @@ const PROGRAMS: [(Language, &str, [&str; 2]); 6] = [
     (
         Language::Val3,
         "val3/pocket.pjx",
-        ["doSpindle=true", "doSpindle=false"],
+        // Outputs are in the data of a project: a routine of the cell switches them.
+        ["call spindleOn()", "call spindleOff()"],
     ),
 ];
 
@@ -199,8 +200,11 @@ fn check(case: &Case, language: Language, program: &str, spindle: [&str; 2]) -> 
         blends_apart(&events).unwrap_or_else(|error| fail(error));
     }
     no_stop_in_cut(&events, &cut, &matches).unwrap_or_else(|error| fail(error));
-    let is_on =
-        |action: &Action| matches!(action, Action::Output { value, moving: false, .. } if value == "TRUE");
+    let is_on = |action: &Action| match action {
+        Action::Output { value, moving, .. } => value == "TRUE" && !moving,
+        Action::Call { name, .. } => name.eq_ignore_ascii_case("spindleOn"),
+        _ => false,
+    };
     spindle_on(&events, &matches, is_on).unwrap_or_else(|error| fail(error));
     let stops = events
         .iter()
