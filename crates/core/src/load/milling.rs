@@ -207,7 +207,7 @@ impl Milling {
 
     /// Whether forces are summed over slices: such sums step where a slice enters or leaves.
     pub(super) fn is_summed(&self) -> bool {
-        !self.is_straight() && !(self.is_plain() && matches!(self.law, CuttingLaw::Mechanistic(_)))
+        !(self.is_straight() || self.is_plain() && matches!(self.law, CuttingLaw::Mechanistic(_)))
     }
 
     /// Immersion angle of the tip of tooth `tooth`, rad.

@@ -145,14 +145,13 @@ impl<'a> Ways<'a> {
         let mut steps = change.at_cut;
         let poses = self.rapids.between(from, to, moves);
         let clear = self.clear(Some(from), poses, Some(to)).filter(|_| has_rapids);
-        let has_rapids = clear.is_some();
-        let poses = clear.unwrap_or_default();
         if !change.changes_tool
-            && let Some(way) = self.straight_through(from, start, &poses, has_rapids, &change.above)
+            && let Some(way) = self.straight_through(from, start, clear.as_deref(), &change.above)
         {
             steps.extend(way);
             return Ok(steps);
         }
+        let poses = clear.unwrap_or_default();
         let highest = self.highest(&poses);
         let leaving = self.leaving(from, &poses[..highest], line)?;
         let arriving = self.arriving(start, &poses[highest.saturating_sub(1)..])?;
@@ -253,27 +252,23 @@ impl<'a> Ways<'a> {
         ))
     }
 
-    /// The way from cut to cut by straight moves alone, with `above` at its highest place; `None` if the arm cannot
-    /// follow it.
+    /// The way from cut to cut by straight moves alone: through the poses of rapids, else above the part; with `above` at its
+    /// highest place. `None` if the arm cannot follow it.
     fn straight_through(
         &self,
         from: &ArmAt,
         start: &CutStart,
-        poses: &[Isometry],
-        has_rapids: bool,
+        rapids: Option<&[Isometry]>,
         above: &[DraftStep],
     ) -> Option<Vec<DraftStep>> {
         let to = &start.at;
-        let last_speed = if has_rapids { self.rapid } else { start.feed };
-        let lifted;
-        let poses = match poses {
+        let last_speed = if rapids.is_some() { self.rapid } else { start.feed };
+        let lifted = [self.lifted(from), self.lifted(to)];
+        let poses = match rapids {
             // A single rapid leads from cut to cut.
-            [] if has_rapids && above.is_empty() => &[],
-            [] => {
-                lifted = [self.lifted(from), self.lifted(to)];
-                &lifted[..]
-            }
-            poses => poses,
+            Some([]) if !above.is_empty() => &lifted[..],
+            Some(poses) => poses,
+            None => &lifted[..],
         };
         let highest = self.highest(poses).saturating_sub(1);
         let (mut steps, mut at) = (Vec::new(), from.clone());
