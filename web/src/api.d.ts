@@ -1967,6 +1967,11 @@ export interface components {
              * @description Least in-plane deviation of all reached points.
              */
             min_in_plane_um: number | null;
+            /**
+             * Format: double
+             * @description Largest deviation along the normal (depth) of all reached points, by size.
+             */
+            max_normal_um: number | null;
             /** @description Points by reason; their sum is the total. */
             counts: components["schemas"]["CountsAnswer"];
             /**
@@ -1983,6 +1988,8 @@ export interface components {
             worst: components["schemas"]["PointAnswer"] | null;
             /** @description The point with the least in-plane deviation. */
             best: components["schemas"]["PointAnswer"] | null;
+            /** @description The point with the largest deviation along the normal, by size. */
+            largest_along_normal: components["schemas"]["PointAnswer"] | null;
             /** @description The region within the tolerance, inside the joint limits. */
             region: components["schemas"]["RegionAnswer"];
             /**
@@ -2572,6 +2579,26 @@ export interface components {
              * @description Largest force within a revolution, of the nominal cut.
              */
             largest_peak_n: number;
+            /**
+             * Format: double
+             * @description Largest mean torque of a revolution; none of a drill.
+             */
+            largest_mean_torque_n_m: number | null;
+            /**
+             * Format: double
+             * @description Greatest torque within a revolution where its mean is largest.
+             */
+            largest_torque_n_m: number | null;
+            /**
+             * Format: double
+             * @description Largest chip thickness.
+             */
+            largest_chip_um: number | null;
+            /**
+             * Format: double
+             * @description Largest material removal rate.
+             */
+            largest_removal_mm3_per_s: number | null;
             /**
              * Format: uint
              * @description Points whose cut has no force: plunges and steep ramps, where the bottom of the cutter is not modelled.

@@ -6,8 +6,8 @@
 //! | value | slip where |
 //! |---|---|
 //! | angle in deg | it is a multiple of pi/4 or pi/12 to the digits that people write: 0.7854, 1.571, 3.14 |
-//! | plane centre | it is nearer than [`INSIDE_BASE_MM`] to the origin of the base, where the robot stands |
-//! | TCP | it is nearer than [`SHORT_TOOL_MM`] to the flange, but not on it, or farther than [`LONG_TOOL_MM`] |
+//! | plane centre | it is nearer than `INSIDE_BASE_MM` to the origin of the base, where the robot stands |
+//! | TCP | it is nearer than `SHORT_TOOL_MM` to the flange, but not on it, or farther than `LONG_TOOL_MM` |
 //! | force | it is larger than the weight of the payload |
 
 use armill_core::frame::fixed_angles;
