@@ -13,7 +13,6 @@ use std::path::{Path, PathBuf};
 use armill_formats::document::{Problem, Problems};
 use armill_formats::robot::RobotDescription;
 use armill_study::error::StudyError;
-use armill_study::file::format::StudyFile;
 use armill_study::file::resolve::Study;
 use armill_study::run::point_count;
 use armill_study::studies::{self, FoundStudy};
@@ -46,14 +45,18 @@ pub(super) struct CellSource {
 }
 
 impl CellSource {
-    /// The study of the cell after another change of its file.
+    /// The study of the cell, its file changed as by `change`.
     ///
     /// # Errors
-    /// All problems of the file; a study that cannot use the robot.
-    pub(super) fn read_changed(&self, change: &mut dyn FnMut(&mut StudyFile)) -> Result<Study, StudyError> {
+    /// All problems of the file; a study that cannot use the robot; those of `change`.
+    pub(super) fn read_changed(
+        &self,
+        change: impl FnOnce(&FoundStudy) -> Result<FoundStudy, StudyError>,
+    ) -> Result<Study, StudyError> {
+        let changed = change(&self.study)?;
         match &self.robot {
-            Some(other) => other.in_place(&self.study, change),
-            None => self.study.read_changed(change),
+            Some(other) => other.in_place(&changed),
+            None => changed.read(),
         }
     }
 }
@@ -124,7 +127,7 @@ pub fn cells(given: &[PathBuf], robot_names: &[String]) -> Result<Vec<Cell>, Stu
                     .iter()
                     .filter(|other| other.name() != own.robot.robot.name())
                 {
-                    match other.in_place(study, &mut |_| ()) {
+                    match other.in_place(study) {
                         Ok(swapped) => cells.push((Some(other), label.clone(), study, swapped)),
                         Err(error) => keep(error),
                     }
@@ -180,15 +183,11 @@ impl Other {
         self.robot.robot.name()
     }
 
-    /// This study with it, after another change of its file.
+    /// This study with it.
     ///
     /// # Errors
     /// All problems of the file, with the robot's name after that of the file; a study that cannot use it.
-    fn in_place(
-        &self,
-        study: &FoundStudy,
-        change: &mut dyn FnMut(&mut StudyFile),
-    ) -> Result<Study, StudyError> {
+    fn in_place(&self, study: &FoundStudy) -> Result<Study, StudyError> {
         let study = FoundStudy {
             shown: format!("{} (with {})", study.shown, self.name()),
             ..study.clone()
@@ -196,7 +195,6 @@ impl Other {
         let mut fits = Ok(());
         let read = study.read_changed(|file| {
             fits = other_robot::put(file, &self.found_as, &self.robot);
-            change(file);
         });
         match fits {
             Err(StudyError::Value { message, hint }) => {

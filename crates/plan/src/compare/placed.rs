@@ -103,7 +103,7 @@ pub(super) fn placed_studies(
         note(&format!("placement for {}", cell.name));
         let found = search(&cell.study, name)
             .and_then(|search| search.search(&mut Journal::none(), watch, &quiet))
-            .and_then(|found| found.study_read(|place| cell.source.read_changed(place)));
+            .and_then(|found| found.with_tool(cell.source.read_changed(|study| found.placed(study))?));
         match found {
             Ok(study) => studies.push(study),
             Err(StudyError::Cancelled(cancelled)) => return Err(StudyError::Cancelled(cancelled)),

@@ -66,6 +66,8 @@ const USUAL_MM: f64 = 300.0;
 /// Default least angle of the wrist from straight, deg.
 const USUAL_WRIST_DEG: f64 = 3.0;
 
+/// Points of a long path.
+const LONG: usize = 50_000;
 /// A part that is turned by less is not turned, rad.
 const TURNED: f64 = 1e-6;
 
@@ -158,6 +160,15 @@ impl<'a> PlacementSearch<'a> {
         PlacementSearch {
             depth: SearchDepth::Brief,
             ..self
+        }
+    }
+
+    /// [`PlacementSearch::brief`] for a path of more than [`LONG`] points: its search takes minutes otherwise.
+    #[must_use]
+    pub fn brief_if_long(self) -> PlacementSearch<'a> {
+        match self.analysis.track.len() > LONG {
+            true => self.brief(),
+            false => self,
         }
     }
 
@@ -286,6 +297,7 @@ impl<'a> PlacementSearch<'a> {
                 .tool_turns_with_part
                 .then(|| self.tool_on_part(&freedom.part_placement(&best.spot.at))),
             analysis: self.index,
+            is_of_holes: self.is_of_holes(),
             answer,
             pictures,
         })
