@@ -7,3 +7,5 @@ pub mod advise;
 pub mod compare;
 pub mod compensate;
 pub mod place;
+
+mod study_text;

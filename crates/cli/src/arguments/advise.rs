@@ -3,6 +3,7 @@
 use clap::Args;
 
 use super::place::PlaceOptions;
+use super::program::ProgramOptions;
 use super::run::RunOptions;
 
 #[derive(Debug, Args)]
@@ -13,6 +14,9 @@ pub(crate) struct AdviseArguments {
 
     #[command(flatten)]
     pub place: PlaceOptions,
+
+    #[command(flatten)]
+    pub program: ProgramOptions,
 }
 
 const ADVISE_EXAMPLES: &str = "\
@@ -21,4 +25,4 @@ Examples:
   armill advise cell --x-mm 700,1300 --tilt-deg 0,90 --branch any
   armill advise cell --analysis rim --json
 The results are those of `armill run` with all recommended measures. They are written to the folder `advice`, with
-advice.json.";
+advice.json; the folder `advised` next to it has the study as advised, the path to command, and a table of the steps.";

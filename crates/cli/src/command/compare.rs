@@ -4,7 +4,7 @@
 //! its ranking as text, the differences, and what limits the comparison; or with `--json` all of `result.json`.
 
 use armill_plan::compare::{
-    CellNumbers, ComparedAnswer, ComparisonAnswer, Placing, cells, comparable, compare, write,
+    CellNumbers, ComparedAnswer, ComparisonAnswer, Placing, cells, comparable, compare, progress_count, write,
 };
 use armill_study::output::Pictures;
 use armill_study::{StudyError, studies};
@@ -38,7 +38,7 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<Outcome, StudyError> {
         false => Placing::BestForEach,
     };
     let compared = in_pool(arguments.threads, || {
-        let progress = Progress::of("points and placements", of.count(placing));
+        let progress = Progress::of("points and placements", progress_count(&of, placing));
         let note = |what: &str| progress.set_message(what);
         let compared = progress.watch(|watch| compare(&of, placing, watch, &note))?;
         write(&compared, &out, requested, &|name| progress.set_message(name))?;

@@ -51,9 +51,26 @@ fn a_path_out_of_tolerance_is_improved_and_the_result_is_reported() {
     ] {
         assert!(said.out.contains(words), "{words}: {}", said.out);
     }
+    assert!(said.out.contains("Placement: "), "{}", said.out);
+    assert!(
+        said.out.contains("it costs a new set-up of the part"),
+        "{}",
+        said.out
+    );
     let advice = advice(&cell);
     let largest = |of: &str| number(&advice[of]["max_in_plane_um"]);
     assert_eq!(advice["moves"], true);
+    // What was advised can be run, and has the advised numbers.
+    let again = cell
+        .armill(&["run", "advised", "--no-pictures", "--json"])
+        .fine()
+        .json();
+    let there = number(&again["paths"][0]["max_in_plane_um"]);
+    assert!((there - largest("recommended")).abs() < 1e-3, "{there} {advice}");
+    let steps = std::fs::read_to_string(cell.at("advised/steps.csv")).unwrap();
+    let names: Vec<&str> = steps.lines().filter_map(|line| line.split(',').next()).collect();
+    assert_eq!(names, ["step", "nominal", "placement", "spin", "compensation"]);
+    assert!(cell.at("advised/ring.commanded.csv").is_file());
     assert!(largest("recommended") < largest("nominal"), "{advice}");
     // The compensated path is nearer to the nominal one than the uncompensated.
     assert!(number(&advice["compensated"]["max_um"]) < 0.5 * largest("recommended"));
@@ -110,4 +127,40 @@ fn a_study_without_a_path_is_refused() {
     cell.file("study.toml", format!("tolerance_um = 40\n{map}"));
     cell.armill(&["advise", "study.toml"])
         .refused(&["no path that could be placed"]);
+}
+
+#[test]
+fn the_advised_study_finds_its_files_and_its_program_is_written() {
+    let cell = Cell::new();
+    cell.file(
+        "cell/part.ngc",
+        "G21 G90\nF600\nG0 X0 Y0 Z5\nG1 Z0\nG1 X50\nG1 Y40\nM2\n",
+    );
+    let study = CELL
+        .replace("circle.radius_mm = 60\n", "program = { file = \"part.ngc\" }\n")
+        .replace("name = \"ring\"", "name = \"part\"");
+    cell.file(
+        "cell/study.toml",
+        format!("# My cell.\ntolerance_um = 40\n{study}"),
+    );
+    let args = [
+        "advise",
+        "cell",
+        "--no-pictures",
+        "--x-mm",
+        "800,1100",
+        "--program",
+        "out.jbi",
+    ];
+    let said = cell.armill(&args).fine();
+    assert!(said.err.contains("as advised in cell/advised"), "{}", said.err);
+    let written = std::fs::read_to_string(cell.at("cell/advised/study.toml")).unwrap();
+    assert!(written.starts_with("# My cell."), "{written}");
+    assert!(written.contains("\"../part.ngc\""), "{written}");
+    cell.armill(&["check", "cell/advised"]).fine();
+    assert!(cell.at("out.jbi").is_file());
+    // Another language is not one.
+    let refused = [&args[..5], &["--program", "out.exe"]].concat();
+    cell.armill(&refused)
+        .refused(&["is not that of a robot language"]);
 }

@@ -13,14 +13,11 @@ use std::path::{Path, PathBuf};
 use armill_formats::document::{Problem, Problems};
 use armill_formats::robot::RobotDescription;
 use armill_study::error::StudyError;
-use armill_study::file::format::StudyFile;
 use armill_study::file::resolve::Study;
-use armill_study::run::point_count;
 use armill_study::studies::{self, FoundStudy};
 use armill_study::{library, robots};
 
 use super::other_robot;
-use super::placed::{self, Placing};
 
 /// Greatest number of cells: pictures cannot show more lines.
 const MOST_CELLS: usize = 40;
@@ -46,14 +43,18 @@ pub(super) struct CellSource {
 }
 
 impl CellSource {
-    /// The study of the cell after another change of its file.
+    /// The study of the cell, its file changed as by `change`.
     ///
     /// # Errors
-    /// All problems of the file; a study that cannot use the robot.
-    pub(super) fn read_changed(&self, change: &mut dyn FnMut(&mut StudyFile)) -> Result<Study, StudyError> {
+    /// All problems of the file; a study that cannot use the robot; those of `change`.
+    pub(super) fn read_changed(
+        &self,
+        change: impl FnOnce(&FoundStudy) -> Result<FoundStudy, StudyError>,
+    ) -> Result<Study, StudyError> {
+        let changed = change(&self.study)?;
         match &self.robot {
-            Some(other) => other.in_place(&self.study, change),
-            None => self.study.read_changed(change),
+            Some(other) => other.in_place(&changed),
+            None => changed.read(),
         }
     }
 }
@@ -66,12 +67,6 @@ pub struct ComparableCells {
 }
 
 impl ComparableCells {
-    /// Number of points and placements, the end of the progress of [`compare`](super::compare).
-    pub fn count(&self, placing: Placing) -> usize {
-        let points: usize = self.cells.iter().map(|cell| point_count(&cell.study)).sum();
-        points + placed::placement_count(self, placing)
-    }
-
     /// Whether cells have different robots.
     pub(super) fn has_several_robots(&self) -> bool {
         let name = |cell: &Cell| cell.study.robot.robot.name().to_owned();
@@ -124,7 +119,7 @@ pub fn cells(given: &[PathBuf], robot_names: &[String]) -> Result<Vec<Cell>, Stu
                     .iter()
                     .filter(|other| other.name() != own.robot.robot.name())
                 {
-                    match other.in_place(study, &mut |_| ()) {
+                    match other.in_place(study) {
                         Ok(swapped) => cells.push((Some(other), label.clone(), study, swapped)),
                         Err(error) => keep(error),
                     }
@@ -180,15 +175,11 @@ impl Other {
         self.robot.robot.name()
     }
 
-    /// This study with it, after another change of its file.
+    /// This study with it.
     ///
     /// # Errors
     /// All problems of the file, with the robot's name after that of the file; a study that cannot use it.
-    fn in_place(
-        &self,
-        study: &FoundStudy,
-        change: &mut dyn FnMut(&mut StudyFile),
-    ) -> Result<Study, StudyError> {
+    fn in_place(&self, study: &FoundStudy) -> Result<Study, StudyError> {
         let study = FoundStudy {
             shown: format!("{} (with {})", study.shown, self.name()),
             ..study.clone()
@@ -196,7 +187,6 @@ impl Other {
         let mut fits = Ok(());
         let read = study.read_changed(|file| {
             fits = other_robot::put(file, &self.found_as, &self.robot);
-            change(file);
         });
         match fits {
             Err(StudyError::Value { message, hint }) => {

@@ -36,7 +36,7 @@ pub use answer::{CellAnswer, ComparedAnswer, ComparisonAnswer, ComparisonResult}
 pub use cells::{Cell, ComparableCells, cells};
 pub use numbers::CellNumbers;
 pub use output::write;
-pub use placed::Placing;
+pub use placed::{Placing, progress_count};
 pub use traits::TraitAnswer;
 
 use armill_core::watch::Watch;

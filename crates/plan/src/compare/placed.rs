@@ -11,6 +11,7 @@ use armill_study::analysis::Subject;
 use armill_study::error::StudyError;
 use armill_study::file::placement::PlaceTable;
 use armill_study::file::resolve::Study;
+use armill_study::run::point_count;
 
 use super::cells::{Cell, ComparableCells};
 use crate::place::{Journal, PlacementSearch};
@@ -51,13 +52,15 @@ fn placed_name(of: &ComparableCells, placing: Placing) -> Option<&str> {
     names.find(|name| of.cells.iter().all(|cell| can_move(cell, name)))
 }
 
-/// Number of placements of all searches.
-pub(super) fn placement_count(of: &ComparableCells, placing: Placing) -> usize {
+/// Number of points of all cells and of placements of all searches, the end of the progress of
+/// [`compare`](super::compare).
+pub fn progress_count(of: &ComparableCells, placing: Placing) -> usize {
+    let points: usize = of.cells.iter().map(|cell| point_count(&cell.study)).sum();
     let Some(name) = placed_name(of, placing) else {
-        return 0;
+        return points;
     };
     let count = |cell: &Cell| search(&cell.study, name).map_or(0, |search| search.place_count());
-    of.cells.iter().map(count).sum()
+    points + of.cells.iter().map(count).sum::<usize>()
 }
 
 /// The search for one cell.
@@ -103,7 +106,7 @@ pub(super) fn placed_studies(
         note(&format!("placement for {}", cell.name));
         let found = search(&cell.study, name)
             .and_then(|search| search.search(&mut Journal::none(), watch, &quiet))
-            .and_then(|found| found.study_read(|place| cell.source.read_changed(place)));
+            .and_then(|found| found.with_tool(cell.source.read_changed(|study| found.placed(study))?));
         match found {
             Ok(study) => studies.push(study),
             Err(StudyError::Cancelled(cancelled)) => return Err(StudyError::Cancelled(cancelled)),

@@ -4,7 +4,7 @@
 //! free degrees -> placements spread over them -> best regions -> local search on all points -> certificate -> the study there
 //! ```
 //!
-//! `chosen`: the path; `freedom`: free degrees; `rail`: the joint that is one; `search`: from spread placements to the best; `certificate`:
+//! `chosen`: the path; `objective`: what placements are compared by; `freedom`: free degrees; `rail`: the joint that is one; `search`: from spread placements to the best; `certificate`:
 //! whether grids contain a better one; `followed`: turns of the joints and forces along the path there; `rounds`: all of that for every fixture and margin; [`journal`]: state of an
 //! interrupted search; [`answer`]: the values of the result; `result`: the study at the placement; `pictures`;
 //! [`evaluate`]: scores of given placements. Theory: `docs/theory/placement.md`.
@@ -20,6 +20,7 @@ mod fixture;
 mod followed;
 mod freedom;
 pub mod journal;
+mod objective;
 mod pictures;
 mod rail;
 mod result;
@@ -36,18 +37,17 @@ pub use result::PlacementResult;
 use armill_core::kernel::{BranchChoice, PartPlacement};
 use armill_core::load::{LoadFrame, PathLoad};
 use armill_core::nalgebra::{Point3, UnitQuaternion, Vector3};
-use armill_core::optimize::{PlacementObjective, PostureSearch, PostureSelection, RankBy, ToolTurn, on_part};
+use armill_core::optimize::{PlacementObjective, PostureSearch, ToolTurn, on_part};
 use armill_core::path::{LoadedTrack, Spin};
 use armill_core::robot::BranchPattern;
-use armill_core::units::{from_deg, from_mm, to_deg, to_mm, to_um};
+use armill_core::units::{from_mm, to_deg, to_mm, to_um};
 use armill_core::watch::Watch;
 use armill_study::analysis::path::PathAnalysis;
 use armill_study::analysis::path::answer::search::{component_name, objective_name};
 use armill_study::analysis::runner::Runner;
 use armill_study::error::StudyError;
-use armill_study::file::placement::{ANY, FixtureTable, PlaceTable, RankByName};
+use armill_study::file::placement::{FixtureTable, PlaceTable};
 use armill_study::file::resolve::Study;
-use armill_study::input::posture_search::{ComponentName, ObjectiveName};
 use armill_study::input::setting::Setting;
 use armill_study::joint_unit::JointUnit;
 use armill_study::number::decimals;
@@ -57,15 +57,15 @@ use self::chosen::chosen;
 use self::fixture::plane_of;
 use self::followed::{FollowedPath, Outcome};
 use self::freedom::Freedom;
+use self::objective::objective;
 use self::rail::{check_rail, home_at, rail_of};
 use self::rounds::{Best, FoundPlacements, MARGINS_DEG, Prepared, Site, SiteSearch};
 use self::search::Effort;
 
 /// Default range of the part in each direction, mm.
 const USUAL_MM: f64 = 300.0;
-/// Default least angle of the wrist from straight, deg.
-const USUAL_WRIST_DEG: f64 = 3.0;
-
+/// Points of a long path.
+const LONG: usize = 50_000;
 /// A part that is turned by less is not turned, rad.
 const TURNED: f64 = 1e-6;
 
@@ -158,6 +158,15 @@ impl<'a> PlacementSearch<'a> {
         PlacementSearch {
             depth: SearchDepth::Brief,
             ..self
+        }
+    }
+
+    /// [`PlacementSearch::brief`] for a path of more than [`LONG`] points: its search takes minutes otherwise.
+    #[must_use]
+    pub fn brief_if_long(self) -> PlacementSearch<'a> {
+        match self.analysis.track.len() > LONG {
+            true => self.brief(),
+            false => self,
         }
     }
 
@@ -286,6 +295,7 @@ impl<'a> PlacementSearch<'a> {
                 .tool_turns_with_part
                 .then(|| self.tool_on_part(&freedom.part_placement(&best.spot.at))),
             analysis: self.index,
+            is_of_holes: self.is_of_holes(),
             answer,
             pictures,
         })
@@ -413,57 +423,7 @@ impl<'a> PlacementSearch<'a> {
     }
 
     fn objective(&self) -> Result<PlacementObjective, StudyError> {
-        let table = &self.table;
-        let setting = &self.analysis.setting;
-        let branches = match table.branch.as_deref() {
-            None => self.holes.map_or(setting.open, |search| search.branches),
-            Some(ANY) => BranchPattern::default(),
-            Some(words) => words.parse().map_err(|error| {
-                let message = format!("place.branch: {error}");
-                StudyError::value(message, "words of a branch, or `any`")
-            })?,
-        };
-        Ok(PlacementObjective {
-            component: match (table.component, self.holes) {
-                (Some(component), _) => component.component(),
-                (None, Some(search)) => search.component,
-                (None, None) => ComponentName::InPlane.component(),
-            },
-            objective: table
-                .objective
-                .unwrap_or(ObjectiveName::Worst)
-                .objective(setting.tolerance),
-            branches,
-            margin: from_deg(table.margin_deg.unwrap_or(0.0)),
-            selection: match self.holes {
-                Some(search) => PostureSelection::PerPoint(search.spins),
-                None => PostureSelection::ForPath,
-            },
-            rank_by: self.rank_by()?,
-            wrist: match (table.least_wrist_deg, self.holes) {
-                (Some(least), _) => from_deg(least),
-                (None, Some(search)) => search.wrist,
-                (None, None) => from_deg(USUAL_WRIST_DEG),
-            },
-        })
-    }
-
-    /// What placements are ranked by; not an uncertainty that is not known.
-    fn rank_by(&self) -> Result<RankBy, StudyError> {
-        let setting = &self.analysis.setting;
-        let name = self.table.rank_by.unwrap_or(RankByName::Nominal);
-        let rank_by = name.rank_by(setting.tolerance);
-        if rank_by != RankBy::Nominal && !setting.arm(&self.study.robot.robot).has_known_uncertainty() {
-            let message = format!(
-                "place.rank_by = \"{}\" requires the uncertainty of the compliances, which is not known",
-                rank_by_name(rank_by)
-            );
-            return Err(StudyError::value(
-                message,
-                "give `u_rad_per_n_m` in [compliance], or rank by `nominal`",
-            ));
-        }
-        Ok(rank_by)
+        objective(&self.table, self.analysis, self.holes, &self.study.robot.robot)
     }
 
     /// Position of the rail in the study, m; 0 without one.

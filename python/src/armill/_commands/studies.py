@@ -92,6 +92,12 @@ def advise(
     margin_deg: float | None = None,
     rank_by: RankBy | None = None,
     seed: int | None = None,
+    program: Path | None = None,
+    frame: int | None = None,
+    tool: int | None = None,
+    within_um: float | None = None,
+    retract_mm: float | None = None,
+    blend_mm: float | None = None,
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> Answer:
