@@ -161,7 +161,7 @@ impl<'a> PlacementSearch<'a> {
         }
     }
 
-    /// [`PlacementSearch::brief`] for a path of more than [`LONG`] points: its search takes minutes otherwise.
+    /// [`PlacementSearch::brief`] for a path of more than 50 000 points: its search takes minutes otherwise.
     #[must_use]
     pub fn brief_if_long(self) -> PlacementSearch<'a> {
         match self.analysis.track.len() > LONG {
