@@ -18,9 +18,9 @@ export function um(value: number | null | undefined): string {
   return fixed(value, Math.abs(value) < 99.95 ? 1 : 0);
 }
 
-/** A standard uncertainty after its value: unknown is not zero. */
+/** Unit and standard uncertainty after a value: unknown is not zero. */
 export function plusMinus(u: number | null | undefined): string {
-  return u === null || u === undefined ? "± not known" : `± ${um(u)} µm`;
+  return u === null || u === undefined ? "µm ± not known" : `± ${um(u)} µm`;
 }
 
 export const mm = (value: number | null | undefined): string => trimmed(value, 1);

@@ -212,10 +212,8 @@ mod tests {
         let mut text = StudyText::of(&inline).unwrap();
         text.set(1, &["spin_deg"], Some(2.0.into()));
         text.keep_only(1);
-        assert_eq!(
-            text.text(),
-            "analysis = [{ name = \"b\" , spin_deg = 2.0 }]\n".replace(" ,", ",")
-        );
+        let without_spaces = text.text().replace(' ', "");
+        assert_eq!(without_spaces, "analysis=[{name=\"b\",spin_deg=2.0}]\n");
     }
 
     #[test]

@@ -49,7 +49,7 @@ function figure(name: string, value: number, state = "", u?: number | null): Chi
     { class: `figure ${state}` },
     h("span", { class: "figure-name" }, name),
     h("span", { class: "figure-value" }, um(value)),
-    h("span", { class: "figure-unit" }, u === undefined ? "µm" : `µm ${plusMinus(u)}`),
+    h("span", { class: "figure-unit" }, u === undefined ? "µm" : plusMinus(u)),
   );
 }
 

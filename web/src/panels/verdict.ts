@@ -65,7 +65,7 @@ function extreme(live: Live, which: "worst" | "best", point: Point | null): Chil
     "button",
     { type: "button", class: "extreme", "data-follow": which, "data-key": which, "aria-pressed": String(live.follow === which), title: `Send the robot to the ${which} point`, onclick: () => live.followPoint(which) },
     h("span", { class: "extreme-name" }, which === "worst" ? "Worst" : "Best"),
-    h("span", { class: "extreme-value" }, um(point.in_plane_um), h("small", {}, ` µm ${plusMinus(point.in_plane_u_um)}`)),
+    h("span", { class: "extreme-value" }, um(point.in_plane_um), h("small", {}, ` ${plusMinus(point.in_plane_u_um)}`)),
   );
 }
 

@@ -126,7 +126,7 @@ function hover(tip: HTMLElement, live: Live, under: Under, x: number, y: number,
     const grid = live.map!.grid;
     const i = under.index;
     const flags = grid.flags.filter((r) => r.points.includes(i)).map((r) => r.reason.replaceAll("_", " "));
-    rows.push(["y′, z′", `${mm(under.y_mm)}, ${mm(under.z_mm)} mm`], ["In plane", `${um(grid.in_plane_um[i])} µm ${plusMinus(grid.in_plane_u_um[i])}`], ["Normal", `${um(grid.normal_um[i])} µm`], ["Full", `${um(grid.full_um[i])} µm`], ["Within the tolerance", grid.probability_within[i] === null ? "probability not known" : `probability ${percent(grid.probability_within[i])}`]);
+    rows.push(["y′, z′", `${mm(under.y_mm)}, ${mm(under.z_mm)} mm`], ["In plane", `${um(grid.in_plane_um[i])} ${plusMinus(grid.in_plane_u_um[i])}`], ["Normal", `${um(grid.normal_um[i])} µm`], ["Full", `${um(grid.full_um[i])} µm`], ["Within the tolerance", grid.probability_within[i] === null ? "probability not known" : `probability ${percent(grid.probability_within[i])}`]);
     for (const flag of flags) rows.push(["", flag]);
   } else {
     const points = live.scene!.points!;

@@ -22,8 +22,15 @@ export async function serve(edit = (text) => text) {
     createInterface({ input: child.stdout }).once("line", done);
     child.once("exit", (code) => fail(new Error(`armill serve ended with ${code}`)));
   });
+  // A test that fails does not stop its server: that must not keep this process from ending.
+  const end = () => child.kill("SIGKILL");
+  process.once("exit", end);
+  child.unref();
+  child.stdout.unref();
   const stop = () =>
     new Promise((done) => {
+      child.ref();
+      process.removeListener("exit", end);
       child.removeAllListeners("exit");
       child.once("exit", (code) => {
         rmSync(folder, { recursive: true, force: true });

@@ -61,6 +61,7 @@ pub(crate) fn run(arguments: &AdviseArguments) -> Result<Outcome, StudyError> {
             setting: &files.setting,
             track: &files.path.0,
             answers: &files.path.1,
+            top: files.top,
             spindle: files.spindle,
         };
         let written = write_program(&advice.study, path, requested)?;

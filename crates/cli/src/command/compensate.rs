@@ -83,6 +83,7 @@ pub(crate) fn run(arguments: &CompensateArguments) -> Result<Outcome, StudyError
                     setting: one.setting,
                     track,
                     answers,
+                    top: one.top,
                     spindle: one.spindle,
                 },
                 requested,

@@ -47,7 +47,7 @@ fn a_path_out_of_tolerance_is_improved_and_the_result_is_reported() {
         "of the path is then within 40 µm, largest deviation ",
         "(nominal: ",
         "Compensated (`armill compensate`), the predicted largest deviation from the path is ",
-        "µm from robot and force).",
+        "µm from robot and force); it costs a new program.",
     ] {
         assert!(said.out.contains(words), "{words}: {}", said.out);
     }
@@ -158,7 +158,8 @@ fn the_advised_study_finds_its_files_and_its_program_is_written() {
     assert!(written.starts_with("# My cell."), "{written}");
     assert!(written.contains("\"../part.ngc\""), "{written}");
     cell.armill(&["check", "cell/advised"]).fine();
-    assert!(cell.at("out.jbi").is_file());
+    // The ending is that of the controller.
+    assert!(cell.at("out.JBI").is_file());
     // Another language is not one.
     let refused = [&args[..5], &["--program", "out.exe"]].concat();
     cell.armill(&refused)

@@ -68,13 +68,15 @@ pub fn follows(events: &[Event], cut: &Cut) -> Result<Matches, ReplayError> {
     let mut matches = vec![None; events.len()];
     let mut covered = vec![false; cut.points.len()];
     let mut last: Option<(usize, Pose)> = None;
+    // Where the last line ended, on the path or not.
+    let mut ended: Option<Pose> = None;
     let mut first = 0;
     for (event, matched) in events.iter().zip(&mut matches) {
         let linear = match &event.action {
             Action::Linear(linear) => linear,
             Action::Circular { .. } => return Err(event.place.error("an arc is not compared with points")),
             Action::Joint(_) => {
-                last = None;
+                (last, ended) = (None, None);
                 continue;
             }
             _ => continue,
@@ -82,9 +84,12 @@ pub fn follows(events: &[Event], cut: &Cut) -> Result<Matches, ReplayError> {
         let pose = cut
             .of_linear(linear)
             .ok_or_else(|| event.place.error("the base of the move is not known"))?;
+        let from = ended.replace(pose);
+        // Places on the way to and from a cut are checked by `clear`.
+        let is_along_tool = from.is_some_and(|from| along_tool(&from, &pose) || along_tool(&pose, &from));
         let near = |point: &CutPoint| distance(point.position_mm, pose.position_mm) <= POSITION_MM;
         let Some(mut index) = (first..cut.points.len()).find(|index| near(&cut.points[*index])) else {
-            if pose.position_mm[2] < cut.clearance_mm {
+            if pose.position_mm[2] < cut.clearance_mm && !is_along_tool {
                 let nearest = cut.points[first.min(cut.points.len())..]
                     .iter()
                     .map(|point| distance(point.position_mm, pose.position_mm))
@@ -147,10 +152,22 @@ pub fn follows(events: &[Event], cut: &Cut) -> Result<Matches, ReplayError> {
     }
 }
 
+/// Where the tool is between two moves.
+#[derive(Clone, Copy, PartialEq)]
+enum At {
+    /// At this commanded point.
+    Cut(usize),
+    /// Below the clearance, on its way up from a cut.
+    Leaving,
+    /// Below the clearance, on its way down to a cut.
+    Arriving,
+    /// Above the clearance.
+    Free,
+}
+
 /// No move below the clearance, except along the cut, and along the tool to its begin and from its end.
 pub fn clear(events: &[Event], cut: &Cut, matches: &Matches) -> Result<(), ReplayError> {
-    // Where the tool is, and at which commanded point.
-    let mut last: Option<(Pose, Option<usize>)> = None;
+    let mut last: Option<(Pose, At)> = None;
     for (event, matched) in events.iter().zip(matches) {
         let low = |pose: &Pose| pose.position_mm[2] < cut.clearance_mm;
         match &event.action {
@@ -165,18 +182,24 @@ pub fn clear(events: &[Event], cut: &Cut, matches: &Matches) -> Result<(), Repla
                         .place
                         .error("a joint move begins or ends below the clearance"));
                 }
-                last = to.map(|pose| (pose, None));
+                last = to.map(|pose| (pose, At::Free));
             }
             Action::Linear(linear) => {
                 let Some(to) = cut.of_linear(linear) else { continue };
+                let mut at = match *matched {
+                    Some(index) => At::Cut(index),
+                    None => At::Free,
+                };
                 if let Some((from, before)) = last
                     && (low(&from) || low(&to))
                 {
-                    let allowed = match (before, *matched) {
-                        (Some(before), Some(now)) => cut.is_cut(before, now),
-                        (Some(_), None) => !low(&to) && along_tool(&from, &to),
-                        (None, Some(_)) => !low(&from) && along_tool(&to, &from),
-                        (None, None) => false,
+                    let up = before != At::Arriving && along_tool(&from, &to);
+                    let down = before != At::Leaving && along_tool(&to, &from);
+                    let allowed = match (before, at) {
+                        (At::Cut(before), At::Cut(now)) => cut.is_cut(before, now),
+                        (At::Cut(_), _) => up,
+                        (_, At::Cut(_)) => down,
+                        _ => up || down,
                     };
                     if !allowed {
                         return Err(event.place.error(format!(
@@ -184,8 +207,11 @@ pub fn clear(events: &[Event], cut: &Cut, matches: &Matches) -> Result<(), Repla
                             from.position_mm, to.position_mm, cut.clearance_mm
                         )));
                     }
+                    if at == At::Free && low(&to) {
+                        at = if up { At::Leaving } else { At::Arriving };
+                    }
                 }
-                last = Some((to, *matched));
+                last = Some((to, at));
             }
             _ => {}
         }

@@ -66,6 +66,14 @@ impl Track {
         self.path.points.len()
     }
 
+    /// Greatest height of its points along the axis of the path, m; the top of the part where cuts begin on it. Minus infinity
+    /// without points.
+    pub fn top(&self) -> f64 {
+        let axis = &self.placing.axis;
+        let heights = self.path.points.iter().map(|point| point.at.coords.dot(axis));
+        heights.fold(f64::NEG_INFINITY, f64::max)
+    }
+
     /// Whether there are no points.
     pub fn is_empty(&self) -> bool {
         self.path.points.is_empty()

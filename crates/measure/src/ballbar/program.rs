@@ -118,6 +118,7 @@ pub fn taught_program(
         setting: &analysis.setting,
         track: &track,
         answers: &along.answers,
+        top: track.top(),
         spindle: None,
     };
     let mut written = program(study, path, &all_points)?;

@@ -34,6 +34,8 @@ pub struct AdvisedFiles {
     pub setting: Setting,
     /// The path to command, and its postures.
     pub path: (Track, Answers),
+    /// Top of the path without compensation, m.
+    pub top: f64,
     /// Speed of the spindle if the path does not specify it, rad/s.
     pub spindle: Option<f64>,
     /// What the study file cannot express, a sentence each.
@@ -65,6 +67,7 @@ impl AdvisedFiles {
             others,
             setting: commanded.setting.clone(),
             path: commanded.path,
+            top: commanded.top,
             spindle: commanded.spindle,
             notes: own_spins
                 .then(|| {

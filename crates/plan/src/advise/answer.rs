@@ -199,6 +199,9 @@ impl StepAnswer {
             _ => return None,
         };
         let gain = self.gain_um?;
+        if gain == 0.0 && !self.is_advised {
+            return Some(format!("{what}: keep it; none of those searched is better."));
+        }
         let by = match gain < 0.0 {
             true => format!("{} µm more", micrometres(-gain)),
             false => format!("{} µm less", micrometres(gain)),

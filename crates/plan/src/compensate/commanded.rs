@@ -52,6 +52,8 @@ pub struct Commanded<'a> {
     pub setting: &'a Setting,
     /// The path to command, and its postures.
     pub path: (Track, Answers),
+    /// Top of the nominal path, m ([`Track::top`]).
+    pub top: f64,
     /// Speed of the spindle if the path does not specify it, rad/s.
     pub spindle: Option<f64>,
     /// In numbers.

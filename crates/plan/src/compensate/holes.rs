@@ -98,6 +98,7 @@ pub(super) fn of_holes<'a>(
         csv: csv::write(&table),
         picture: None,
         path: (commanded.track, commanded.along.answers),
+        top: holes.path.track.top(),
         spindle: None,
         holes: Some(holes),
         given,

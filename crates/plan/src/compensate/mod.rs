@@ -177,6 +177,7 @@ fn of_path<'a>(
         csv: csv::write(&table(name, &found.track)?),
         setting: &path.setting,
         path: (found.track, found.along.answers),
+        top: drawn.top(),
         spindle: path.cut.as_ref().and_then(|cut| cut.cutting.spindle),
         given,
         program: in_place.map_or_else(Vec::new, |written| written.files),

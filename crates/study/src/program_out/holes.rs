@@ -19,7 +19,7 @@ use super::arm::{Arm, ArmAt};
 use super::order::shortest;
 use super::settings::{ProgramSettings, rapid_speed};
 use super::tooling::Tooling;
-use super::way::{CutStart, Ways};
+use super::way::{CutStart, Space, Ways};
 use super::written;
 use crate::analysis::holes::HolesAnalysis;
 use crate::analysis::holes::table::HoleOrder;
@@ -107,10 +107,12 @@ pub fn hole_program(
     let path_from_base = track.placing.base_from_path.inverse();
     let tip = |at: &ArmAt| path_from_base * Point3::from(at.base_from_tool.translation.vector);
     let places: Vec<Point3<f64>> = drilled.iter().map(|hole| tip(&hole.above)).collect();
+    let heights = places.iter().map(|place| place.coords.dot(&track.placing.axis));
+    let top = heights.fold(f64::NEG_INFINITY, f64::max);
     let ways = Ways::new(
         arm,
         &track.placing,
-        places.iter().copied(),
+        Space::of(top, places.into_iter()),
         requested,
         &study.controller,
     );

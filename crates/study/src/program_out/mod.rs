@@ -34,7 +34,7 @@ use armill_programs::{Draft, DraftStep, Written, write};
 use self::arm::Arm;
 use self::cut::Cuts;
 use self::tooling::Tooling;
-use self::way::{CutStart, Ways};
+use self::way::{CutStart, Space, Ways};
 use crate::analysis::path::answer::obstacles;
 use crate::error::StudyError;
 use crate::file::resolve::Study;
@@ -50,6 +50,8 @@ pub struct PathToWrite<'a> {
     pub track: &'a Track,
     /// Their postures.
     pub answers: &'a Answers,
+    /// Top of the path without compensation, m ([`Track::top`]): rapids of the path are relative to it.
+    pub top: f64,
     /// Speed of the spindle if the path does not specify it, rad/s, clockwise.
     pub spindle: Option<f64>,
 }
@@ -68,6 +70,7 @@ pub fn program(
         setting,
         track,
         answers,
+        top,
         spindle,
     } = path;
     check(study, path)?;
@@ -78,7 +81,13 @@ pub fn program(
     };
     let mut tooling = Tooling::new(&study.controller, spindle, &requested.name);
     let places = track.path.points.iter().map(|point| point.at);
-    let ways = Ways::new(arm, &track.placing, places, requested, &study.controller);
+    let ways = Ways::new(
+        arm,
+        &track.placing,
+        Space::of(top, places),
+        requested,
+        &study.controller,
+    );
     let cuts = Cuts {
         arm,
         track,

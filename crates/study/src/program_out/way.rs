@@ -36,14 +36,32 @@ pub(super) struct Ways<'a> {
     rapids: RapidPoses<'a>,
     /// Away from the part, in the frame of the path.
     up: Vector3<f64>,
-    /// Largest height of a cut, m.
-    top: f64,
-    corners: [Point3<f64>; 2],
+    space: Space,
     retract: f64,
     rapid: f64,
     home: Option<Vec<f64>>,
     /// Rapids of the path that are not followed.
     left_out: Cell<usize>,
+}
+
+/// The space of the part, in the frame of the path, m.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Space {
+    /// Largest height of a cut without compensation.
+    top: f64,
+    /// Lowest and highest coordinates of the cuts.
+    corners: [Point3<f64>; 2],
+}
+
+impl Space {
+    /// That of a path with this top through these places.
+    pub fn of(top: f64, mut places: impl Iterator<Item = Point3<f64>>) -> Space {
+        let first = places.next().unwrap_or_else(Point3::origin);
+        Space {
+            top,
+            corners: places.fold([first, first], |[low, high], at| [low.inf(&at), high.sup(&at)]),
+        }
+    }
 }
 
 /// Where a cut starts.
@@ -65,17 +83,15 @@ struct Leg {
 }
 
 impl<'a> Ways<'a> {
-    /// Ways between cuts that start and end at these places (in the frame of the path, m), of a path with this placing.
+    /// Ways between the cuts of a part in this space, of a path with this placing.
     pub fn new(
         arm: Arm<'a>,
         placing: &'a Placing,
-        places: impl Iterator<Item = Point3<f64>> + Clone,
+        space: Space,
         requested: &ProgramSettings,
         controller: &ControllerTable,
     ) -> Ways<'a> {
         let up = placing.axis.into_inner();
-        let heights = places.clone().map(|place| place.coords.dot(&up));
-        let first = places.clone().next().unwrap_or_else(Point3::origin);
         let home = controller.home_deg.as_ref().map(|home| {
             let si = |(joint, value): (usize, &f64)| match arm.robot.slides(joint) {
                 true => from_mm(*value),
@@ -87,8 +103,7 @@ impl<'a> Ways<'a> {
             arm,
             rapids: RapidPoses { placing },
             up,
-            top: heights.fold(f64::NEG_INFINITY, f64::max),
-            corners: places.fold([first, first], |[low, high], at| [low.inf(&at), high.sup(&at)]),
+            space,
             retract: requested.retract,
             rapid: rapid_speed(controller),
             home,
@@ -226,7 +241,7 @@ impl<'a> Ways<'a> {
         let Some((from, to)) = from.zip(to) else {
             return Ok(());
         };
-        let [low, high] = self.corners;
+        let [low, high] = self.space.corners;
         let is_near = |tip: &Point3<f64>| {
             let part = |axis: usize| (low[axis] - AROUND..=high[axis] + AROUND).contains(&tip[axis]);
             // Across the direction away from the part.
@@ -239,14 +254,14 @@ impl<'a> Ways<'a> {
             .filter(is_near)
             .map(|tip| tip.coords.dot(&self.up))
             .fold(f64::INFINITY, f64::min);
-        if lowest >= self.top - BELOW {
+        if lowest >= self.space.top - BELOW {
             return Ok(());
         }
         Err(StudyError::value(
             format!(
                 "line {line}: the joint move to or from the cut there would take the tip {:.1} mm below the top of the \
                  part",
-                to_mm(self.top - lowest)
+                to_mm(self.space.top - lowest)
             ),
             "give a home position above the part ([controller] home_deg), or a larger --retract-mm",
         ))
@@ -360,7 +375,7 @@ impl<'a> Ways<'a> {
             StudyError::value(message, "a shorter --retract-mm")
         })?;
         let mut places = vec![(straight.end, self.rapid.min(straight.fastest))];
-        let missing = self.top + self.retract - self.height(&lifted);
+        let missing = self.space.top + self.retract - self.height(&lifted);
         if missing > BELOW {
             let up = self.arm.base_from_path.rotation * self.up * missing;
             let higher = Translation3::from(up) * lifted;
@@ -406,7 +421,7 @@ impl<'a> Ways<'a> {
         let is_clear = all.windows(2).all(|pair| {
             let by = pair[0].inverse() * Point3::from(pair[1].translation.vector);
             let across = by.x.hypot(by.y);
-            across < ACROSS || self.height(&pair[0]).min(self.height(&pair[1])) >= self.top - BELOW
+            across < ACROSS || self.height(&pair[0]).min(self.height(&pair[1])) >= self.space.top - BELOW
         });
         if !is_clear {
             self.left_out.set(self.left_out.get() + poses.len().max(1));
@@ -422,14 +437,14 @@ impl<'a> Ways<'a> {
 
     /// Whether the tip is at the top of the part or above.
     fn is_above(&self, at: &ArmAt) -> bool {
-        self.height(&at.base_from_tool) >= self.top - BELOW
+        self.height(&at.base_from_tool) >= self.space.top - BELOW
     }
 
     /// The pose above the part, along the tool axis.
     fn lifted(&self, at: &ArmAt) -> Isometry {
         let spindle = -(self.arm.base_from_path.inverse() * at.base_from_tool * Vector3::z());
         let rises = spindle.dot(&self.up);
-        let needed = self.top + self.retract - self.height(&at.base_from_tool);
+        let needed = self.space.top + self.retract - self.height(&at.base_from_tool);
         // A tool that leans far would have to retract very far.
         let by = if rises > LEAST_RISE {
             (needed / rises).max(self.retract)

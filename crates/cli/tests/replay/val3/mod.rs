@@ -184,6 +184,12 @@ impl Val3 {
             cursor.expect("(")?;
             return self.instruction(cursor, &call);
         }
+        // A key of the operator is waited for.
+        if cursor.eat_name("get") {
+            cursor.expect("(")?;
+            self.log.stop(&place);
+            return cursor.expect(")");
+        }
         let kind = self
             .data
             .kind(&name)
