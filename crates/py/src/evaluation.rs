@@ -310,8 +310,7 @@ impl PoseEvaluations {
         self.in_plane.array(py)
     }
 
-    /// -> (n,) standard uncertainty of the in-plane deviation from the compliances, m; NaN where it is not known or
-    /// unreachable.
+    /// -> (n,) standard uncertainty of the in-plane deviation from the compliances, m; NaN where unknown or unreachable.
     #[getter]
     fn in_plane_uncertainty<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         self.in_plane_uncertainty.array(py)

@@ -71,6 +71,7 @@ mod line;
 mod line_label;
 mod marker;
 mod rows;
+mod sections;
 mod surface;
 mod tolerance;
 

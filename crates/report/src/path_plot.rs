@@ -9,6 +9,7 @@ use crate::font::{SMALL_PX, Weight, text_width_px};
 use crate::legend::Entry;
 use crate::page::{BORDER_PX, Heading};
 use crate::plane::AxisLabels;
+use crate::sections::{Samples, Sections};
 use crate::svg::{Point, Style, Svg};
 use crate::tolerance;
 
@@ -33,6 +34,23 @@ impl Series {
             .iter()
             .zip(&self.deviation_um)
             .map(|(x, y)| [*x, *y])
+    }
+
+    fn samples(&self) -> Samples<'_> {
+        Samples {
+            position: &self.position,
+            value: &self.deviation_um,
+        }
+    }
+
+    /// The line with the largest value of each section.
+    fn by_sections(&self, sections: Sections) -> Series {
+        let (position, deviation_um) = sections.largest(self.samples());
+        Series {
+            name: self.name.clone(),
+            position,
+            deviation_um,
+        }
     }
 }
 
@@ -61,7 +79,33 @@ pub struct PathPlot {
 
 impl PathPlot {
     /// The plot as a complete SVG document; no values gives a picture that says so.
+    /// Lines that swing too often to be seen are drawn by sections, with the largest value of each.
     pub fn to_svg(&self) -> String {
+        match Sections::of(self.series.iter().chain(&self.envelope).map(Series::samples)) {
+            Some(sections) => self.by_sections(sections).drawn(),
+            None => self.drawn(),
+        }
+    }
+
+    /// The plot with the largest values of each section.
+    fn by_sections(&self, sections: Sections) -> PathPlot {
+        let digits = if sections.length < 10.0 { 1 } else { 0 };
+        PathPlot {
+            position_label: format!(
+                "{}; largest value in sections of {:.digits$}",
+                self.position_label, sections.length
+            ),
+            series: self
+                .series
+                .iter()
+                .map(|line| line.by_sections(sections))
+                .collect(),
+            envelope: self.envelope.as_ref().map(|line| line.by_sections(sections)),
+            ..self.clone()
+        }
+    }
+
+    fn drawn(&self) -> String {
         let heading = Heading::new(&self.title, &self.subtitle);
         let finite = || self.points().filter(|p| p.iter().all(|v| v.is_finite()));
         let tolerance = self.tolerance_um.filter(|l| l.is_finite());

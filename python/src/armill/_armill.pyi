@@ -305,7 +305,7 @@ class Evaluation:
         """-> (n,) largest in-plane deviation of all load cases, m; NaN where unreachable."""
     @property
     def in_plane_uncertainty(self) -> _Floats:
-        """-> (n,) standard uncertainty of the in-plane deviation from the compliances, m; NaN where it is not known or unreachable."""
+        """-> (n,) standard uncertainty of the in-plane deviation from the compliances, m; NaN where unknown or unreachable."""
     @property
     def normal_deviation(self) -> _Floats:
         """-> (n,) deviation along the outward normal, of the load case where its size is largest, m; NaN where unreachable."""

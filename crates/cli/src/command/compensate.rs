@@ -74,6 +74,7 @@ pub(crate) fn run(arguments: &CompensateArguments) -> Result<Outcome, StudyError
                     holes,
                     track,
                     answers,
+                    refused: &one.refused,
                 },
                 requested,
             )?,

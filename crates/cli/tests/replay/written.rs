@@ -17,6 +17,8 @@ use crate::source::ReplayError;
 /// Frame of the example study.
 const FRAME: [f64; 6] = [1700.0, 200.0, 900.0, -90.0, 0.0, 0.0];
 const TOOL: [f64; 6] = [0.0, 90.0, 260.0, 0.0, 0.0, 0.0];
+/// A spindle at 45 deg to the flange, for tools that lean in all directions.
+const LEANING_TOOL: [f64; 6] = [0.0, 45.0, 260.0, 0.0, 45.0, 0.0];
 
 /// Language, file of the program, and statements of the cell that switch the spindle on and off.
 const PROGRAMS: [(Language, &str, [&str; 2]); 6] = [
@@ -64,6 +66,8 @@ struct Case {
     path: &'static str,
     /// X, Y, Z in mm and A, B, C in deg of the plane of the study, which is the user frame of its programs.
     frame: [f64; 6],
+    /// The same of the tool in the flange.
+    tool: [f64; 6],
     /// Height above which the tool moves freely, mm.
     clearance_mm: f64,
     /// Changes of the tool, at each of which the program stops.
@@ -79,6 +83,7 @@ impl Case {
             name: "r2000ic-pocket".to_owned(),
             path: "pocket",
             frame: FRAME,
+            tool: TOOL,
             clearance_mm: 1.9,
             tool_changes: 0,
         }
@@ -215,7 +220,7 @@ fn check(case: &Case, language: Language, program: &str, spindle: [&str; 2]) -> 
             if cut.frame.is_none() {
                 same_reference(&linear.base, case.frame);
             }
-            same_reference(&linear.tool, TOOL);
+            same_reference(&linear.tool, case.tool);
         }
     }
     (events, cut.frame)
@@ -275,22 +280,63 @@ fn the_programs_of_all_languages_follow_the_table_and_each_other() {
     assert!(check_all(&Case::example()) > 1000);
 }
 
-/// Tool paths of other software, and the height above which the tool moves freely, mm.
-///
-/// The first has cuts from the side, with retracts below the top: its heights are not checked.
-const TOOL_PATHS: [(&str, f64); 12] = [
-    ("apt/parts-2021/Teste-Metrologia.apt", -1000.0),
-    ("apt/parts-2021/basemach.apt", 5.0),
-    ("apt/parts-2022/SupPetriLED.apt", 5.0),
-    ("apt/parts-2023/Teflon-gasket.apt", 5.0),
-    ("apt/parts-2024/Suporte-parede-side-drill.apt", 5.0),
-    ("apt/parts-2024/manufacture3-top.apt", 5.0),
-    ("apt/parts-2025/RotateThick.apt", 5.0),
-    ("apt/parts-2025/SlewMachine.apt", 5.0),
-    ("apt/parts-2025/Telemecanique-Tilt-Support1.apt", 5.0),
-    ("gcode/linuxcnc/nc_files/3D_Chips.ngc", 5.0),
-    ("gcode/linuxcnc/nc_files/arcspiral.ngc", 5.0),
-    ("gcode/linuxcnc/nc_files/cds.ngc", 5.0),
+/// A tool path of other software.
+struct ToolPath {
+    file: &'static str,
+    tool: [f64; 6],
+    /// Height above which the tool moves freely, mm.
+    clearance_mm: f64,
+    /// Further keys of the program.
+    keys: &'static str,
+    /// Tables of the analysis after it.
+    tables: &'static str,
+}
+
+impl ToolPath {
+    /// A path with one direction of the tool, from above.
+    const fn of(file: &'static str) -> ToolPath {
+        ToolPath {
+            file,
+            tool: TOOL,
+            clearance_mm: 5.0,
+            keys: "",
+            tables: "",
+        }
+    }
+}
+
+const TOOL_PATHS: [ToolPath; 14] = [
+    // Cuts from the side, with retracts below the top: its heights are not checked.
+    ToolPath {
+        clearance_mm: -1000.0,
+        ..ToolPath::of("apt/parts-2021/Teste-Metrologia.apt")
+    },
+    ToolPath::of("apt/parts-2021/basemach.apt"),
+    ToolPath::of("apt/parts-2022/SupPetriLED.apt"),
+    ToolPath::of("apt/parts-2023/Teflon-gasket.apt"),
+    ToolPath::of("apt/parts-2024/Suporte-parede-side-drill.apt"),
+    ToolPath::of("apt/parts-2024/manufacture3-top.apt"),
+    ToolPath::of("apt/parts-2025/RotateThick.apt"),
+    ToolPath::of("apt/parts-2025/SlewMachine.apt"),
+    ToolPath::of("apt/parts-2025/Telemecanique-Tilt-Support1.apt"),
+    // Two tools, changed three times; from above and from the side (3+2 axes).
+    ToolPath {
+        tool: LEANING_TOOL,
+        ..ToolPath::of("apt/parts-tools/boss.apt")
+    },
+    ToolPath::of("gcode/linuxcnc/nc_files/3D_Chips.ngc"),
+    ToolPath::of("gcode/linuxcnc/nc_files/arcspiral.ngc"),
+    ToolPath::of("gcode/linuxcnc/nc_files/cds.ngc"),
+    // An impeller in five axes: the tool leans by up to 73 deg, to all sides.
+    ToolPath {
+        tool: LEANING_TOOL,
+        clearance_mm: 30.0,
+        keys: ", rotaries = \"table-ac\"",
+        tables: "[analysis.posture.search]\n",
+        ..ToolPath::of(
+            "gcode/linuxcnc/configs/sim/axis/vismach/5axis/table-rotary-tilting/demos/impeller-7bl-xyzac.ngc",
+        )
+    },
 ];
 
 /// Changes between tools of different numbers in the cutter locations or the G-code of these files.
@@ -314,16 +360,19 @@ fn programs_of_real_tool_paths_follow_their_tables() {
         println!("skipped: ARMILL_SAMPLES is not set");
         return;
     };
-    for (file, clearance_mm) in TOOL_PATHS {
-        let file = Path::new(&samples).join("toolpaths").join(file);
+    for path in TOOL_PATHS {
+        let file = Path::new(&samples).join("toolpaths").join(path.file);
         let study = format!(
             "format = 1\nrobot = \"fanuc/r2000ic\"\ntolerance_um = 100\n\
-             tool = {{ flange_from_tool_mm_deg = [0, 90, 260, 0, 0, 0] }}\n\
+             tool = {{ flange_from_tool_mm_deg = {:?} }}\n\
              plane = {{ centre_mm = [1500, 0, 700], tilt_deg = 90, half_size_mm = 100, step_mm = 50 }}\n\
              [load]\nframe = \"feed\"\ncases_n = [[-60, 40, 25]]\n\
              [[analysis]]\nkind = \"path\"\nname = \"pocket\"\n\
-             program = {{ file = {:?}, limits = false }}\n",
-            file.display().to_string()
+             program = {{ file = {:?}, limits = false{} }}\n{}",
+            path.tool,
+            file.display().to_string(),
+            path.keys,
+            path.tables
         );
         let empty = tempfile::tempdir().unwrap();
         let case = Case {
@@ -333,7 +382,8 @@ fn programs_of_real_tool_paths_follow_their_tables() {
             name: file.display().to_string(),
             path: "pocket",
             frame: [1500.0, 0.0, 700.0, -90.0, 0.0, 0.0],
-            clearance_mm,
+            tool: path.tool,
+            clearance_mm: path.clearance_mm,
         };
         // The shortest drills three holes in steps.
         assert!(check_all(&case) > 50, "{}", file.display());

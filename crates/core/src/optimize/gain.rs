@@ -123,6 +123,8 @@ pub struct FollowedTrack<'a> {
     pub path: LoadedTrack<'a>,
     /// The branches, each from the point with that index on.
     pub choices: &'a [(usize, BranchChoice)],
+    /// Home positions of the redundant joints; `None`: those of the question.
+    pub home: Option<&'a [f64]>,
 }
 
 impl FollowedTrack<'_> {
@@ -139,6 +141,10 @@ impl FollowedTrack<'_> {
             Some(UncertainInput::LoadSize(by)) => load.scaled(1.0 + by),
             Some(UncertainInput::Force(by)) => load.with_force(*by, &track.base_from_part),
             _ => load.clone(),
+        };
+        let question = &Question {
+            home: self.home.or(question.home),
+            ..*question
         };
         let along = along_postures(question, track, load, self.choices.to_vec(), watch)?;
         Ok(objective.along(component, track, &along.answers))

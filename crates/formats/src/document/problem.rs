@@ -12,6 +12,7 @@
 //!
 //! The first line alone is what `Display` of one [`Problem`] gives, without the word before it.
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::ops::Range;
 
@@ -27,6 +28,9 @@ pub const MOST_PROBLEMS: usize = 200;
 
 /// More problems than this are counted, not shown; `--json` has them all.
 const MOST_SHOWN: usize = 100;
+
+/// More problems with the same message than this are counted, not shown.
+const MOST_ALIKE: usize = 3;
 
 /// The columns a line of source may take before it is cut around its problem.
 const SHOWN_WIDTH: usize = 140;
@@ -179,7 +183,7 @@ impl fmt::Display for Problem {
 
 /// Everything that is wrong in a file, in the order of the text.
 ///
-/// `Display` is the plain text for a terminal: source, caret and hint of the first 100 problems.
+/// `Display` is the plain text for a terminal: source, caret and hint of the first 100 problems, of those with the same message of the first three.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
 #[serde(transparent)]
 pub struct Problems(Vec<Problem>);
@@ -231,19 +235,39 @@ impl Problems {
         serde_json::to_value(self).expect("strings, numbers and lists of them always serialise")
     }
 
-    /// The first 100 problems with an empty line between, and how many more there are.
+    /// The first 100 problems with an empty line between, and how many more there are; of problems with the same message
+    /// the first three.
     fn rendered(&self, renderer: &Renderer) -> String {
         let renderer = renderer
             .clone()
             .decor_style(DecorStyle::Ascii)
             .term_width(SHOWN_WIDTH);
-        let mut parts: Vec<String> = self
-            .0
-            .iter()
-            .take(MOST_SHOWN)
-            .map(|problem| problem.rendered(&renderer))
-            .collect();
-        if let Some(hidden) = self.0.len().checked_sub(MOST_SHOWN).filter(|hidden| *hidden > 0) {
+        let mut alike: BTreeMap<(&str, &str), Vec<usize>> = BTreeMap::new();
+        let mut parts = Vec::new();
+        let mut shown = 0;
+        for problem in &self.0 {
+            let lines = alike.entry((problem.file(), problem.message())).or_default();
+            lines.push(problem.line);
+            if lines.len() <= MOST_ALIKE && shown < MOST_SHOWN {
+                parts.push(problem.rendered(&renderer));
+                shown += 1;
+            }
+        }
+        let mut hidden = self.0.len() - shown;
+        for ((_, message), lines) in alike {
+            if let [.., last] = lines[..]
+                && lines.len() > MOST_ALIKE
+                && shown < MOST_SHOWN
+            {
+                let more = lines.len() - MOST_ALIKE;
+                hidden -= more;
+                parts.push(format!(
+                    "... and {more} more up to line {last}: {}",
+                    visible(message)
+                ));
+            }
+        }
+        if hidden > 0 {
             parts.push(format!("... and {hidden} more problems in this file"));
         }
         parts.join("\n\n")

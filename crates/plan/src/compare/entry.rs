@@ -121,6 +121,7 @@ fn of_path(
             load: &load,
         },
         choices: &found.along.choices,
+        home: None,
     };
     let measure = (Component::InPlane, Objective::Worst);
     Ok(sensitivity(

@@ -64,6 +64,8 @@ pub struct Commanded<'a> {
     pub picture: Option<String>,
     /// The holes, if it is not a path.
     pub holes: Option<&'a HolesAnalysis>,
+    /// Indices of holes that cannot be drilled, because every posture is rejected.
+    pub refused: Vec<usize>,
     /// Files of the program that the path came from, with its targets moved.
     pub program: Vec<(String, Vec<u8>)>,
 }

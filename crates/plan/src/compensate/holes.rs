@@ -5,6 +5,7 @@ use armill_core::optimize::{Compensation, compensated, hole_postures};
 use armill_core::path::{LoadedTrack, Track};
 use armill_core::units::to_um;
 use armill_study::analysis::holes::HolesAnalysis;
+use armill_study::analysis::holes::answer::is_refused;
 use armill_study::analysis::runner::Runner;
 use armill_study::error::StudyError;
 
@@ -101,6 +102,9 @@ pub(super) fn of_holes<'a>(
         top: holes.path.track.top(),
         spindle: None,
         holes: Some(holes),
+        refused: (0..track.len())
+            .filter(|index| is_refused(&found, *index))
+            .collect(),
         given,
         program: Vec::new(),
     })

@@ -174,6 +174,7 @@ fn of_path<'a>(
     Ok(Commanded {
         picture: Some(picture(name, drawn, before, &found, in_place.as_ref())),
         holes: None,
+        refused: Vec::new(),
         csv: csv::write(&table(name, &found.track)?),
         setting: &path.setting,
         path: (found.track, found.along.answers),

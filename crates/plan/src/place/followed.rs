@@ -13,7 +13,8 @@
 use armill_core::kernel::{BranchChoice, PartPlacement, PlacedPath, Question};
 use armill_core::map::{along_postures, turns_along};
 use armill_core::optimize::{
-    Gain, Placeable, PlacementEvaluation, PlacementObjective, PostureSelection, Score, on_part,
+    FollowedTrack, Gain, Placeable, PlacementEvaluation, PlacementObjective, PostureSelection, Score,
+    gain_along, on_part,
 };
 use armill_core::path::{LoadedTrack, Track};
 use armill_core::robot::BranchPattern;
@@ -43,12 +44,22 @@ pub(super) struct FollowedPath<'a> {
     pub watch: Watch<'a>,
 }
 
+/// A path at a placement, in one branch.
+struct PathThere {
+    track: Track,
+    choices: [(usize, BranchChoice); 1],
+    /// Where the redundant joints are, if not at those of the study.
+    home: Option<Vec<f64>>,
+}
+
 /// A placement with its result.
 pub(super) struct Outcome {
     /// With the forces at equilibrium there.
     path: PlacedPath,
     placement: PartPlacement,
     objective: PlacementObjective,
+    /// The path there; none for holes, and where points are lost.
+    there: Option<PathThere>,
     /// Cost and uncertainty.
     pub evaluation: PlacementEvaluation,
 }
@@ -109,6 +120,7 @@ impl FollowedPath<'_> {
                 path: nominal,
                 placement: *placement,
                 objective,
+                there: None,
                 evaluation: PlacementEvaluation {
                     score,
                     uncertainty: match score.unreachable {
@@ -154,6 +166,11 @@ impl FollowedPath<'_> {
             path,
             placement,
             objective,
+            there: Some(PathThere {
+                track: there,
+                choices: [(0, choice)],
+                home,
+            }),
             evaluation: PlacementEvaluation {
                 score: Score { cost, ..score },
                 uncertainty,
@@ -161,8 +178,30 @@ impl FollowedPath<'_> {
         })
     }
 
-    /// The gain from one outcome to another.
-    pub fn gain(&self, before: &Outcome, after: &Outcome) -> Gain {
+    /// The gain from one outcome to another: of a path with all sources of deviation.
+    ///
+    /// # Errors
+    /// Cancelled by the watch.
+    pub fn gain(&self, before: &Outcome, after: &Outcome) -> Result<Gain, Cancelled> {
+        let PlacementObjective {
+            component, objective, ..
+        } = after.objective;
+        if let (Some(from), Some(to)) = (&before.there, &after.there) {
+            let followed = [from, to].map(|there| FollowedTrack {
+                path: LoadedTrack {
+                    track: &there.track,
+                    load: self.path.load,
+                },
+                choices: &there.choices,
+                home: there.home.as_deref(),
+            });
+            return gain_along(self.question, followed, (component, objective), self.watch);
+        }
+        Ok(self.gain_of_scores(before, after))
+    }
+
+    /// The same by the scores of the search, which take each point by itself.
+    fn gain_of_scores(&self, before: &Outcome, after: &Outcome) -> Gain {
         let [of_before, of_after] = [before, after].map(|outcome| Placeable {
             question: self.question,
             path: &outcome.path,

@@ -342,11 +342,11 @@ impl<'a> PlacementSearch<'a> {
                 &best.spot.at,
             )?;
             let lost = [&kept, &recommended].map(|outcome| outcome.evaluation.score.unreachable);
-            if lost[0] == lost[1] && !followed.gain(&kept, &recommended).is_significant(least) {
+            if lost[0] == lost[1] && !followed.gain(&kept, &recommended)?.is_significant(least) {
                 recommended = kept;
             }
         }
-        let gain = followed.gain(&nominal, &recommended);
+        let gain = followed.gain(&nominal, &recommended)?;
         let answer_of = |outcome: &Outcome| OutcomeAnswer::of(&outcome.evaluation, setting.tolerance);
         let (nominal, recommended) = (answer_of(&nominal), answer_of(&recommended));
         let (lost, before) = (recommended.unreachable_points, nominal.unreachable_points);

@@ -33,8 +33,10 @@ pub struct HolesToWrite<'a> {
     pub holes: &'a HolesAnalysis,
     /// Their positions.
     pub track: &'a Track,
-    /// Their postures; none where a hole cannot be drilled.
+    /// Their postures; none where a hole is out of reach.
     pub answers: &'a Answers,
+    /// Indices of holes whose every posture is rejected.
+    pub refused: &'a [usize],
 }
 
 /// Height above the last depth at which the feed begins again after a peck, m.
@@ -56,6 +58,7 @@ pub fn hole_program(
         holes,
         track,
         answers,
+        refused,
     } = given;
     let drilling = &holes.drilling;
     let depth = drilling.depth.ok_or_else(|| {
@@ -82,7 +85,7 @@ pub fn hole_program(
         match answers.points[index]
             .as_ref()
             .ok()
-            .filter(|found| found.within_limits())
+            .filter(|found| found.within_limits() && !refused.contains(&index))
         {
             Some(found) => drilled.push(hole.at(
                 index,

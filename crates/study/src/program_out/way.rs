@@ -2,8 +2,8 @@
 //!
 //! The rapids of the path are followed as straight moves, at their heights. Where the path has none, or a rapid goes across
 //! below the top of the path, the tool retracts along its axis above the part, and then up where the tool leans far. Where
-//! the arm cannot follow in one posture, and to change the tool, it goes by a joint
-//! move from the highest place after a cut to the highest before the next, over the home position if there is one. A
+//! the arm cannot follow in one posture, it goes by a joint move from the highest place after a cut to the highest before
+//! the next, over the home position if there is one; so it does to change the tool at home. A
 //! joint move must not pass through the space of the part below its top.
 
 use std::cell::Cell;
@@ -160,9 +160,9 @@ impl<'a> Ways<'a> {
         let mut steps = change.at_cut;
         let poses = self.rapids.between(from, to, moves);
         let clear = self.clear(Some(from), poses, Some(to)).filter(|_| has_rapids);
-        if !change.changes_tool
-            && let Some(way) = self.straight_through(from, start, clear.as_deref(), &change.above)
-        {
+        // Without a home position the tool is changed at the highest place of the way.
+        let goes_home = change.changes_tool && self.home.is_some();
+        if !goes_home && let Some(way) = self.straight_through(from, start, clear.as_deref(), &change.above) {
             steps.extend(way);
             return Ok(steps);
         }

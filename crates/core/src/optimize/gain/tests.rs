@@ -89,6 +89,7 @@ fn of<'a>(
     let followed = tracks.map(|track| FollowedTrack {
         path: LoadedTrack { track, load },
         choices,
+        home: None,
     });
     gain_along(question, followed, IN_PLANE, Watch::NONE).unwrap()
 }
@@ -144,6 +145,7 @@ fn the_same_path_gains_nothing_for_certain_and_half_the_load_gains_half() {
     let followed = [&load, &half].map(|load| FollowedTrack {
         path: LoadedTrack { track: &track, load },
         choices: &FRONT,
+        home: None,
     });
     let found = gain_along(&question, followed, IN_PLANE, Watch::NONE).unwrap();
     let single = gain(&question, |question, _| {

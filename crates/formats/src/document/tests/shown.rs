@@ -1,6 +1,6 @@
 //! How problems are placed and shown.
 
-use super::super::{Document, Problems, Source, schema_json};
+use super::super::{Document, Problem, Problems, Source, schema_json};
 use super::{GOOD, Study, read};
 
 #[test]
@@ -111,6 +111,22 @@ fn a_thousand_problems_are_listed_and_a_hundred_shown() {
             .to_string()
             .ends_with("... and 900 more problems in this file")
     );
+}
+
+#[test]
+fn of_problems_with_one_message_three_are_shown_and_the_rest_is_counted() {
+    let problem =
+        |line: usize, message: &str| Problem::of_file("a.ngc", message, "do it").in_file(line, line);
+    let same = (1..=100).map(|line| problem(line, "no rotary axes"));
+    let problems: Problems = same.chain([problem(101, "another")]).collect();
+    let shown = problems.to_string();
+    assert_eq!(shown.matches("error: a.ngc").count(), 4);
+    assert!(shown.contains("a.ngc:101:1: another"));
+    assert!(
+        shown.ends_with("... and 97 more up to line 100: no rotary axes"),
+        "{shown}"
+    );
+    assert_eq!(problems.as_slice().len(), 101);
 }
 
 #[test]

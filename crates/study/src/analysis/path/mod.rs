@@ -8,7 +8,7 @@
 //! `shape` and [`program`] (its keys [`program_table`], its file `program_file`, then `machine_program` or
 //! [`robot_program`]) give its points, [`feature`] marks stretches of them; `load` puts on the load: given cases, a [`cut`], a [`drill`], or [`measured`] forces; `shape_tables`: the tables of
 //! shapes. [`resolve`](mod@resolve) joins these, [`run`] evaluates the path. [`answer`], [`sentence`], [`warnings`] are
-//! its answer; [`columns`], [`pictures`] (with [`point_groups`], `turns`, [`process_limits`]) and [`report`] its files. [`process_loads`]:
+//! its answer; [`columns`], [`pictures`] (with `track_views`, [`point_groups`], `turns`, [`process_limits`]) and [`report`] its files. [`process_loads`]:
 //! what the cut asks of tool and spindle.
 
 pub mod answer;
@@ -33,6 +33,7 @@ pub mod run;
 pub mod sentence;
 mod shape;
 pub mod shape_tables;
+mod track_views;
 mod turns;
 pub mod warnings;
 

@@ -3,7 +3,7 @@
 //! | file name ends in | shows | of |
 //! |---|---|---|
 //! | `vectors` | arrows of the deviation under each case | a shape under constant loads |
-//! | `track` | the path from above, coloured | every other path |
+//! | `track` | the path from above, coloured; `track-2` and so on: from each further side of a part that is milled from several | every other path |
 //! | `along` | deviation over distance | every path |
 //! | `polar` | the resulting circle, magnified | a circle |
 //! | `shares` | shares of the joints at the worst points | a path that is reached |
@@ -28,6 +28,7 @@ use crate::analysis::arm::arm_posture;
 use crate::analysis::path::answer::PathAnswer;
 use crate::analysis::path::point_groups::PointGroups;
 use crate::analysis::path::run::PathResult;
+use crate::analysis::path::track_views::TrackView;
 use crate::analysis::path::{MeasuredForces, PathAnalysis};
 use crate::analysis::picture::{Picture, axes, base_y, share_bar, shares, subtitle};
 use crate::input::setting::Setting;
@@ -57,7 +58,8 @@ pub fn pictures(
         given,
         found,
     };
-    let mut pictures = vec![drawing.where_it_deviates(), drawing.along()];
+    let mut pictures = drawing.where_it_deviates();
+    pictures.push(drawing.along());
     pictures.extend(drawing.polar());
     pictures.extend(drawing.contributions());
     pictures.extend(super::process_limits::picture(
@@ -88,6 +90,19 @@ struct Drawing<'a> {
     analysis: &'a PathAnalysis,
     given: &'a PathAnswer,
     found: &'a PathResult,
+}
+
+/// The direction of the tool of a view, path axes.
+fn direction(view: &TrackView) -> String {
+    let along = view
+        .along
+        .map_or_else(Vector3::z, armill_core::nalgebra::Unit::into_inner);
+    format!(
+        "({:.2}, {:.2}, {:.2})",
+        along.x + 0.0,
+        along.y + 0.0,
+        along.z + 0.0
+    )
 }
 
 impl Drawing<'_> {
@@ -138,29 +153,46 @@ impl Drawing<'_> {
         )
     }
 
-    /// Arrows on a shape under constant loads, else the path coloured by its deviation.
-    fn where_it_deviates(&self) -> Picture {
+    /// Arrows on a shape under constant loads, else the path coloured by its deviation, from each side.
+    fn where_it_deviates(&self) -> Vec<Picture> {
         if self.analysis.shape().is_some() && self.analysis.load.is_steady() {
             let caption = "in-plane deviation along the path under every load case.";
-            return self.picture("vectors", caption, self.vectors());
+            return vec![self.picture("vectors", caption, self.vectors())];
         }
-        let caption = "the path seen along its z axis, coloured by the deviation across the tool.";
-        self.picture("track", caption, self.track())
+        let views = TrackView::all(&self.analysis.track);
+        let picture = |(index, view): (usize, &TrackView)| {
+            let what = match index {
+                0 => "track".to_owned(),
+                _ => format!("track-{}", index + 1),
+            };
+            let caption = match view.along {
+                None => {
+                    "the path seen along its z axis, coloured by the deviation across the tool.".to_owned()
+                }
+                Some(_) => format!(
+                    "cuts with the tool along {}, coloured by the deviation across it.",
+                    direction(view)
+                ),
+            };
+            self.picture(&what, &caption, self.track(view))
+        };
+        views.iter().enumerate().map(picture).collect()
     }
 
-    /// The path seen along its z, stretch by stretch, with the worst points numbered.
-    fn track(&self) -> String {
+    fn track(&self, view: &TrackView) -> String {
         let points = &self.analysis.track.path.points;
-        let at = |i: usize| [to_mm(points[i].at.x), to_mm(points[i].at.y)];
-        let stretch = |range: std::ops::Range<usize>| Stretch {
+        let at = |i: usize| view.at_mm(&points[i].at);
+        let stretch = |range: &std::ops::Range<usize>| Stretch {
             points_mm: range.clone().map(at).collect(),
-            deviation_um: range.map(|i| self.in_plane_um(i)).collect(),
+            deviation_um: range.clone().map(|i| self.in_plane_um(i)).collect(),
         };
-        let stretches = self.analysis.track.path.stretches().map(stretch).collect();
-        let [low, high] = self.analysis.track.path.corners();
-        let apart_mm = to_mm(APART * (high.x - low.x).max(high.y - low.y));
+        let stretches = view.stretches.iter().map(stretch).collect();
+        let apart_mm = APART * view.size_mm(|i| points[i].at);
         let mut markers: Vec<Marker> = Vec::new();
         for (i, worst) in self.found.worst.iter().enumerate() {
+            if !view.shows(worst.index) {
+                continue;
+            }
             let at_mm = at(worst.index);
             // Points above each other have one mark.
             let near = |other: &&mut Marker| {
@@ -177,13 +209,14 @@ impl Drawing<'_> {
                 }),
             }
         }
+        let [horizontal, vertical] = view.labels.map(|label| format!("{label} (mm)"));
         let picture = TrackMap {
-            title: self.given.name.clone(),
-            subtitle: self.subtitle(),
-            axes: AxisLabels {
-                horizontal: "path x (mm)".to_owned(),
-                vertical: "path y (mm)".to_owned(),
+            title: match view.along {
+                None => self.given.name.clone(),
+                Some(_) => format!("{}, tool along {}", self.given.name, direction(view)),
             },
+            subtitle: self.subtitle(),
+            axes: AxisLabels { horizontal, vertical },
             quantity: "deviation across the tool (µm)".to_owned(),
             tolerance_um: Some(to_um(self.analysis.setting.tolerance)),
             stretches,

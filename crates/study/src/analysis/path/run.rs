@@ -175,6 +175,7 @@ impl Runner<'_> {
         let followed = ways.map(|(track, along)| FollowedTrack {
             path: LoadedTrack { track, load: &load },
             choices: &along.choices,
+            home: None,
         });
         let gain = gain_along(
             &question,
