@@ -9,7 +9,7 @@ use crate::font::{SMALL_PX, Weight, text_width_px};
 use crate::legend::Entry;
 use crate::page::{BORDER_PX, Heading};
 use crate::plane::AxisLabels;
-use crate::sections::{Samples, Sections};
+use crate::sections::{SECTIONS, Samples, Sections};
 use crate::svg::{Point, Style, Svg};
 use crate::tolerance;
 
@@ -89,11 +89,10 @@ impl PathPlot {
 
     /// The plot with the largest values of each section.
     fn by_sections(&self, sections: Sections) -> PathPlot {
-        let digits = if sections.length < 10.0 { 1 } else { 0 };
         PathPlot {
             position_label: format!(
-                "{}; largest value in sections of {:.digits$}",
-                self.position_label, sections.length
+                "{}: largest value in each of {SECTIONS} sections",
+                self.position_label
             ),
             series: self
                 .series

@@ -12,7 +12,7 @@ pub(crate) struct Samples<'a> {
 }
 
 /// Sections of a path.
-const SECTIONS: usize = 100;
+pub(crate) const SECTIONS: usize = 100;
 /// Lines with more swings than this are drawn by sections.
 const MOST_SWINGS: usize = 40;
 /// A swing is a change of direction after this fraction of the range.
@@ -22,8 +22,8 @@ const SWING: f64 = 0.15;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Sections {
     first: f64,
-    /// Length of a section, in the unit of the positions.
-    pub length: f64,
+    /// Of a section, in the unit of the positions.
+    length: f64,
 }
 
 impl Sections {
