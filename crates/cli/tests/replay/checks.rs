@@ -14,6 +14,9 @@ pub const ANGLE_DEG: f64 = 1e-3;
 /// A retract or approach is along the tool within this, mm.
 const LATERAL_MM: f64 = 0.01;
 
+/// Cuts are moved by their corrections: on the way from one to the next above it the tool shifts by less than this, mm.
+const SHIFT_MM: f64 = 0.6;
+
 /// A point that the tool has to reach.
 #[derive(Clone, Debug)]
 pub struct CutPoint {
@@ -86,7 +89,9 @@ pub fn follows(events: &[Event], cut: &Cut) -> Result<Matches, ReplayError> {
             .ok_or_else(|| event.place.error("the base of the move is not known"))?;
         let from = ended.replace(pose);
         // Places on the way to and from a cut are checked by `clear`.
-        let is_along_tool = from.is_some_and(|from| along_tool(&from, &pose) || along_tool(&pose, &from));
+        let is_along_tool = from.is_some_and(|from| {
+            along_tool(&from, &pose) || along_tool(&pose, &from) || is_shift(&from, &pose)
+        });
         let near = |point: &CutPoint| distance(point.position_mm, pose.position_mm) <= POSITION_MM;
         let Some(mut index) = (first..cut.points.len()).find(|index| near(&cut.points[*index])) else {
             if pose.position_mm[2] < cut.clearance_mm && !is_along_tool {
@@ -194,12 +199,14 @@ pub fn clear(events: &[Event], cut: &Cut, matches: &Matches) -> Result<(), Repla
                     && (low(&from) || low(&to))
                 {
                     let up = before != At::Arriving && along_tool(&from, &to);
-                    let down = before != At::Leaving && along_tool(&to, &from);
+                    // Also after a way up, as in pecks: along the way that the tool came.
+                    let down = along_tool(&to, &from);
+                    let shift = before == At::Leaving && is_shift(&from, &to);
                     let allowed = match (before, at) {
                         (At::Cut(before), At::Cut(now)) => cut.is_cut(before, now),
                         (At::Cut(_), _) => up,
                         (_, At::Cut(_)) => down,
-                        _ => up || down,
+                        _ => up || down || shift,
                     };
                     if !allowed {
                         return Err(event.place.error(format!(
@@ -208,7 +215,7 @@ pub fn clear(events: &[Event], cut: &Cut, matches: &Matches) -> Result<(), Repla
                         )));
                     }
                     if at == At::Free && low(&to) {
-                        at = if up { At::Leaving } else { At::Arriving };
+                        at = if up && !down { At::Leaving } else { At::Arriving };
                     }
                 }
                 last = Some((to, at));
@@ -349,6 +356,12 @@ pub fn blends_apart(events: &[Event]) -> Result<(), ReplayError> {
 fn along_tool(at: &Pose, away: &Pose) -> bool {
     let [x, y, z] = at.inverse().point(away.position_mm);
     x.hypot(y) <= LATERAL_MM && z <= LATERAL_MM
+}
+
+/// Whether the move is a small one across the tool, at one height.
+fn is_shift(from: &Pose, to: &Pose) -> bool {
+    let [x, y, z] = from.inverse().point(to.position_mm);
+    x.hypot(y) <= SHIFT_MM && z.abs() <= LATERAL_MM
 }
 
 fn to_segment(point: [f64; 3], from: [f64; 3], to: [f64; 3]) -> f64 {

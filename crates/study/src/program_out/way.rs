@@ -27,6 +27,8 @@ const SAME_JOINTS: f64 = 1e-3;
 const AROUND: f64 = 0.02;
 /// A move that leaves the tool axis by more goes across, m: more than a compensated end of a cut is moved.
 const ACROSS: f64 = 2e-3;
+/// Places that differ by less are one, m.
+const SAME_PLACE: f64 = 1e-6;
 /// A joint move may pass this far below the top of the part, m.
 const BELOW: f64 = 1e-4;
 
@@ -411,6 +413,16 @@ impl<'a> Ways<'a> {
                 break;
             };
             pose.translation.vector = tip.coords;
+        }
+        // Both cuts are below the last pose, and their corrections differ: across there, not on the way down.
+        if moved == poses.len()
+            && let Some((mut over, to)) = poses.last().copied().zip(to)
+            && self.height(&over) > self.height(&to.base_from_tool) + ACROSS
+            && let Some(tip) = above(to, &over)
+            && (tip.coords - over.translation.vector).norm() > SAME_PLACE
+        {
+            over.translation.vector = tip.coords;
+            poses.push(over);
         }
         let pose = |at: Option<&ArmAt>| at.map(|at| at.base_from_tool);
         let all: Vec<Isometry> = pose(from)
