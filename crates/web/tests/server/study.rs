@@ -175,7 +175,7 @@ fn changes_by_other_programs_are_seen_and_a_deleted_file_is_made_again() {
         let body = json!({ "text": STUDY, "version": version }).to_string();
         served.analysis("PUT", "/api/study", body.as_bytes())
     };
-    // A page that has not seen that it is gone is told.
+    // A page that has not seen that it is gone gets a conflict.
     let refused = put(&read["version"]);
     assert_eq!((refused.status, refused.kind().as_str()), (409, "conflict"));
     assert!(refused.text().contains("deleted") && !file.exists());
