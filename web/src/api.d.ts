@@ -82,6 +82,51 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/study/version": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The state of its file */
+        get: {
+            parameters: {
+                query?: never;
+                header?: never;
+                path?: never;
+                cookie?: never;
+            };
+            requestBody?: never;
+            responses: {
+                /** @description success */
+                200: {
+                    headers: {
+                        [name: string]: unknown;
+                    };
+                    content: {
+                        "application/json": components["schemas"]["StudyVersion"];
+                    };
+                };
+                /** @description error */
+                default: {
+                    headers: {
+                        [name: string]: unknown;
+                    };
+                    content: {
+                        "application/json": components["schemas"]["ErrorBody"];
+                    };
+                };
+            };
+        };
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/check": {
         parameters: {
             query?: never;
@@ -1086,6 +1131,55 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/tickets": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** An address that opens one file once */
+        post: {
+            parameters: {
+                query?: never;
+                header?: never;
+                path?: never;
+                cookie?: never;
+            };
+            requestBody: {
+                content: {
+                    "application/json": components["schemas"]["TicketRequest"];
+                };
+            };
+            responses: {
+                /** @description success */
+                200: {
+                    headers: {
+                        [name: string]: unknown;
+                    };
+                    content: {
+                        "application/json": components["schemas"]["TicketAnswer"];
+                    };
+                };
+                /** @description error */
+                default: {
+                    headers: {
+                        [name: string]: unknown;
+                    };
+                    content: {
+                        "application/json": components["schemas"]["ErrorBody"];
+                    };
+                };
+            };
+        };
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/openapi.json": {
         parameters: {
             query?: never;
@@ -1497,14 +1591,25 @@ export interface components {
         };
         /** @description Model of the two points. */
         PointsName: "known" | "common" | "separate";
+        /** @description A file to be opened. */
+        TicketRequest: {
+            /** @description The file, in the folder. */
+            path: string;
+        };
         /** @description The study as it is on disk. */
         StudyOnDisk: {
             /** @description The name of its file in messages. */
             file: string;
+            /** @description Identifies the study over restarts of the server: the path of its file, or the name of the example. */
+            identity: string;
             /** @description The folder of its files. */
             folder: string;
+            /** @description Whether its file is there; an example always is. */
+            exists: boolean;
             /** @description Whether it may be written; an example may not. */
             writable: boolean;
+            /** @description Whether it is the example because no study was named and the folder of the server has none. */
+            is_fallback: boolean;
             /** @description Identifies this state of the file. */
             version: string;
             /** @description Its text. */
@@ -1560,6 +1665,13 @@ export interface components {
             start: number;
             /** Format: uint */
             end: number;
+        };
+        /** @description The state of the file of the study. */
+        StudyVersion: {
+            /** @description Identifies it: another one after every change by any program. */
+            version: string;
+            /** @description Whether the file is there. */
+            exists: boolean;
         };
         /** @description The contents of a text; an invalid text has problems, and as much of the contents as can be read. */
         OutlineAnswer: {
@@ -4129,6 +4241,8 @@ export interface components {
             inverse: string;
             /** @description Whether its joint compliances are known. */
             compliance: boolean;
+            /** @description Class of compliances that can be assumed for its payload; none if they are known, or if no class fits its joints. */
+            compliance_class: string | null;
         };
         /** @description Name of a new job. */
         JobBegun: {
@@ -4231,6 +4345,11 @@ export interface components {
         };
         /** @description The probable kind of a file. */
         FileKind: "robot" | "path" | "forces" | "ballbar" | "profile" | "unknown";
+        /** @description An address for a file. */
+        TicketAnswer: {
+            /** @description The address, on this server: it opens the file once, within a minute. */
+            address: string;
+        };
         /** @description An error. */
         ErrorBody: {
             /** @description The error. */

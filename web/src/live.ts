@@ -4,12 +4,14 @@
 // robot is sent to another point of the same map, /api/pose is requested. The returned text is the text of the next
 // change, so that comments and order are kept.
 
+import type { Draft } from "./changes/drafts";
+import { History, type Step } from "./changes/history";
 import { api, Refused } from "./server";
 import { Newest } from "./newest";
 import { choosePosture, worstCase } from "./posture";
 import type { Answer, Analysis, At, Change, Extremes, Follow, MapAnswer, MapLines, Point, Pose, Scene, Setting, Study, Values, View } from "./types";
 
-export type Topic = "study" | "answer" | "pose" | "moving" | "busy" | "error" | "view";
+export type Topic = "study" | "text" | "answer" | "pose" | "moving" | "busy" | "error" | "view";
 
 interface Job {
   analysis: string | null;
@@ -17,6 +19,8 @@ interface Job {
 }
 interface Result {
   sent: Map<string, unknown>;
+  /** The text that the changes were made in. */
+  base: string;
   /** Number of the target that the arm of the view belongs to. */
   wish: number;
   view: View;
@@ -53,6 +57,7 @@ export class Live {
   pose_error: string | null = null;
   /** Time from the last input to the frame. */
   took_ms: number | null = null;
+  readonly history = new History();
 
   private pending = new Map<string, unknown>();
   private listeners: { topics: Topic[]; listener: () => void }[] = [];
@@ -61,11 +66,15 @@ export class Live {
   /** Counts the targets of the robot. */
   private wish = 0;
   private input_at = 0;
+  /** Whether the text itself is invalid, as far as known. */
+  private invalid = false;
+  /** Whether the text was edited since the view was requested. */
+  private edited = false;
 
   private readonly answers = new Newest<Job, Result>({
     work: (job, signal) => this.requestView(job, signal),
     done: (result, job) => this.take(result, job),
-    failed: (error) => this.fail(error),
+    failed: (error) => void this.fail(error),
     busy: (busy) => {
       this.busy = busy;
       this.notify("busy");
@@ -104,10 +113,31 @@ export class Live {
     this.use(study.text, study.analyses);
   }
 
+  /** The text stays, and is based on this state of the file from now on. */
+  rebase(disk: Study): void {
+    this.study = disk;
+    this.notify("study");
+  }
+
+  /** Whether there are changes that the file does not have. */
+  get unsaved(): boolean {
+    return this.study !== null && (this.text !== this.study.text || !this.settled);
+  }
+
+  /** Changes of controls that are not in the text yet. */
+  get waiting(): Change[] {
+    return changesOf(this.pending);
+  }
+
   /** Saves the current text to the file. */
   async save(): Promise<void> {
+    await this.applyWaiting();
     this.study = await api.save(this.text, this.study!.version);
     this.notify("study");
+  }
+
+  discard(): void {
+    if (this.study) this.use(this.study.text, this.study.analyses);
   }
 
   /** Another text, from the file or the editor. */
@@ -115,19 +145,84 @@ export class Live {
     this.text = text;
     this.analyses = analyses;
     this.pending.clear();
+    this.invalid = this.edited = false;
     if (!analyses.some((a) => a.name === this.analysis)) this.analysis = analyses[0]?.name ?? null;
+    this.record(null);
+    this.notify("study", "text");
+    this.refresh();
+  }
+
+  restoreDraft(draft: Draft): void {
+    if (draft.analysis !== null && this.analyses.some((a) => a.name === draft.analysis)) this.analysis = draft.analysis;
+    this.use(draft.text, this.analyses);
+    for (const { key, value, whole } of draft.changes) this.pending.set(whole ? `\n${key}` : key, value);
+    this.refresh();
+  }
+
+  /** Text as it is typed, also an invalid one. The view follows with `showEdited`. */
+  edit(text: string, key: string | null = "text"): void {
+    if (text === this.text) return;
+    this.text = text;
+    this.edited = true;
+    this.record(key);
+    this.notify("text");
+  }
+
+  /** Requests the view of the edited text. */
+  showEdited(analyses: Analysis[]): void {
+    if (!this.edited) return;
+    this.edited = this.invalid = false;
+    if (analyses.length > 0) this.analyses = analyses;
+    if (!this.analyses.some((a) => a.name === this.analysis)) this.analysis = this.analyses[0]?.name ?? null;
     this.notify("study");
     this.refresh();
   }
 
-  choose(analysis: string): void {
-    this.analysis = analysis;
+  undo(): void {
+    if (this.settled) return this.go(this.history.undo());
+    // A change that is not answered yet.
+    this.answers.cancel();
+    this.pending.clear();
+    this.notify("text");
+    this.refresh();
+  }
+
+  redo(): void {
+    this.go(this.history.redo());
+  }
+
+  private go(step: Step | null): void {
+    if (!step) return;
+    this.answers.cancel();
+    this.pending.clear();
+    this.invalid = this.edited = false;
+    if (step.analysis !== this.analysis) this.leaveAnalysis();
+    this.text = step.text;
+    this.analyses = step.analyses;
+    this.analysis = step.analysis;
+    this.section = step.section;
+    this.notify("study", "text");
+    this.refresh();
+  }
+
+  private record(key: string | null): void {
+    const { text, analyses, analysis, section } = this;
+    this.history.record({ text, analyses, analysis, section }, key, performance.now());
+  }
+
+  private leaveAnalysis(): void {
     this.section = 0;
     this.follow = "worst";
     this.at = null;
     this.chosen_branch = null;
+  }
+
+  choose(analysis: string): void {
+    this.leaveAnalysis();
+    this.analysis = analysis;
     this.pending.clear();
-    this.notify("study");
+    this.record("analysis");
+    this.notify("study", "text");
     this.refresh();
   }
 
@@ -175,6 +270,7 @@ export class Live {
   chooseSection(index: number): void {
     this.section = index;
     if (this.at && "y_mm" in this.at) this.at = { ...this.at, section: index };
+    this.record("section");
     this.notify("answer");
     this.sendRobot();
   }
@@ -211,17 +307,23 @@ export class Live {
 
   private async requestView(job: Job, signal: AbortSignal): Promise<Result> {
     const sent = new Map(this.pending);
-    const changes: Change[] = [...sent].map(([key, value]) => ({ key: key.trimStart(), value, whole: key.startsWith("\n") }));
+    const base = this.text;
     const wish = this.wish;
     const there = this.follow === "place";
     const request = { follow: this.follow, at: there ? this.at : null, section: this.section, case: this.fixed_case ?? (there ? this.load_case : null) };
     const { lines, fix_scale } = this.wanted;
     const shown = { arm: request, lines, levels_um: fix_scale ? this.levels_um : null };
-    return { sent, wish, view: await api.view(this.text, job.analysis, changes, shown, signal) };
+    return { sent, base, wish, view: await api.view(base, job.analysis, changesOf(sent), shown, signal) };
   }
 
-  private take({ sent, wish, view }: Result, job: Job): void {
+  private take({ sent, base, wish, view }: Result, job: Job): void {
     if (job.analysis !== this.analysis) return;
+    if (base !== this.text) {
+      // The text was edited meanwhile: the changes are made in the newer one.
+      if (!this.edited) this.refresh();
+      return;
+    }
+    this.invalid = false;
     for (const [key, value] of sent) if (this.pending.get(key) === value) this.pending.delete(key);
     this.text = view.text;
     this.analyses = view.analyses;
@@ -232,6 +334,7 @@ export class Live {
     this.levels_um = view.levels_um ?? this.levels_um;
     this.lines = view.lines;
     if (this.section >= Math.max(1, view.answer.maps.length)) this.section = 0;
+    this.record(sent.size > 0 ? [...sent.keys()].sort().join() : null);
     const begun = performance.now();
     const arm = wish === this.wish ? view.arm : null;
     if (arm) {
@@ -256,14 +359,30 @@ export class Live {
     if (!arm && this.target !== null) this.sendRobot();
   }
 
-  private fail(error: unknown): void {
+  private async fail(error: unknown): Promise<void> {
     if (error instanceof Refused && error.kind === "superseded") return;
-    this.error = error instanceof Refused ? error : new Refused(0, "internal", String(error), []);
-    const [first] = this.error.problems;
-    if (first) this.error = new Refused(this.error.status, this.error.kind, first.message, this.error.problems, first.hint);
-    this.pending.clear();
+    const refused = error instanceof Refused ? error : new Refused(0, "internal", String(error), []);
+    const [first] = refused.problems;
+    this.error = first ? new Refused(refused.status, refused.kind, first.message, refused.problems, first.hint) : refused;
     this.error_at_field = false;
-    this.notify("error");
+    const lost = error instanceof Refused && (error.status === 0 || error.status === 401);
+    if (!lost && this.pending.size === 0) this.invalid = refused.problems.length > 0;
+    // In a text that was invalid before, the change is made all the same; without a server it waits.
+    if (!lost && this.invalid) await this.applyWaiting().catch(() => this.pending.clear());
+    else if (!lost) this.pending.clear();
+    this.notify("error", "text");
+  }
+
+  /** Changes of controls become text without a view. */
+  async applyWaiting(): Promise<void> {
+    if (this.settled) return;
+    const sent = new Map(this.pending);
+    const changed = await api.change(this.text, this.analysis, changesOf(sent));
+    for (const [key, value] of sent) if (this.pending.get(key) === value) this.pending.delete(key);
+    this.text = changed.text;
+    if (changed.analyses.length > 0) this.analyses = changed.analyses;
+    this.record([...sent.keys()].sort().join());
+    this.notify("text");
   }
 
   /** Target of the robot; null if the followed point does not exist. */
@@ -307,3 +426,6 @@ export class Live {
     this.pose = pose;
   }
 }
+
+/** As the server takes them: keys of the study begin with a line break here. */
+const changesOf = (pending: Map<string, unknown>): Change[] => [...pending].map(([key, value]) => ({ key: key.trimStart(), value, whole: key.startsWith("\n") }));

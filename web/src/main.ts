@@ -4,16 +4,26 @@ import "./style/base.css";
 import "./style/live.css";
 import "./style/panels.css";
 import "./style/tabs.css";
-import { api, Refused, takeToken } from "./server";
-import { fill, h } from "./dom";
+import "./style/changes.css";
+import { Kept } from "./changes/kept";
+import { undoKeys } from "./changes/keys";
+import { linkOf, stateOf } from "./changes/link";
+import { Notices } from "./changes/notices";
+import { Pin } from "./changes/pin";
+import { tokenOfOthers } from "./changes/tabs";
+import { offerClass } from "./controls/assume";
+import { api, Refused, robotRows, takeToken, takeTokenOf, tokenNow } from "./server";
+import { fill, h, s } from "./dom";
 import { fixed } from "./format";
 import { Live } from "./live";
+import { problemSentence } from "./problem-words";
 import { filesTab } from "./tabs/files";
 import { jobsTab } from "./tabs/jobs";
 import { liveTab } from "./tabs/live";
 import { picturesTab } from "./tabs/pictures";
 import { studyTab } from "./tabs/study";
 import type { Tab } from "./tabs/tab";
+import type { RobotRow } from "./types";
 import { startTheme, switchTheme, theme } from "./theme";
 
 /** Delay without changes before the computing time is shown. */
@@ -24,13 +34,22 @@ takeToken();
 startTheme(() => undefined);
 
 async function start(): Promise<void> {
+  if (tokenNow() === "") takeTokenOf(await tokenOfOthers(), true);
+  const linked = stateOf(location.hash);
   const opening = api.study();
   // The first paint does not wait for WebGL to start.
   await painted();
   const live = new Live();
+  const notices = new Notices();
+  const pin = new Pin(live);
+  const others = h("span", { class: "others", hidden: true, title: "Tabs of this browser that show this study" });
+  const kept = new Kept(live, notices, (count) => {
+    others.hidden = count === 0;
+    others.textContent = `${count + 1} tabs`;
+  });
   const tabs: Tab[] = [];
   const go = (id: string) => show(tabs.find((t) => t.id === id) ?? tabs[0]!);
-  const study_tab = studyTab(live);
+  const study_tab = studyTab(live, () => kept.save());
   const table = (name: string) => {
     go("study");
     study_tab.reveal(name);
@@ -63,11 +82,26 @@ async function start(): Promise<void> {
     });
     history.replaceState(null, "", `#${tab.id}`);
     tab.shown?.();
+    showError();
   };
 
   const title = h("p", { class: "study-title" });
-  const changed = h("button", { type: "button", class: "changed", hidden: true, title: "Discard all changes since the file", onclick: () => live.study && live.use(live.study.text, live.study.analyses) }, "Unsaved · discard");
-  const keep = h("button", { type: "button", class: "keep", hidden: true, title: "Save the study; comments are kept", onclick: () => live.save().catch(() => go("study")) }, "save");
+  const assumed = h("span", { class: "assumed", hidden: true }, "Compliances assumed");
+  const changed = h("button", { type: "button", class: "changed", hidden: true, title: "Discard all changes since the file", onclick: () => live.discard() }, "Unsaved · discard");
+  const keep = h("button", { type: "button", class: "keep", hidden: true, title: "Save the study; comments are kept", onclick: () => void kept.save() }, "save");
+  const undo = h("button", { type: "button", class: "icon", "aria-label": "Undo", title: "Undo (Ctrl+Z)", disabled: true, onclick: () => live.undo() }, "↶");
+  const redo = h("button", { type: "button", class: "icon", "aria-label": "Redo", title: "Redo (Ctrl+Y)", disabled: true, onclick: () => live.redo() }, "↷");
+  const link = async () => {
+    const state = await linkOf({ text: live.text, analysis: live.analysis, tab: current?.id ?? "live" });
+    if (state === null) return notices.show("link", "This study is too long for a link.", [], true);
+    const address = new URL(state, location.href).href;
+    await navigator.clipboard.writeText(address).then(
+      () => notices.show("link", "The link to this state is copied. It opens in this browser while a tab with this study is open; it contains the text of the study, and no token.", [], true),
+      () => notices.show("link", `Copy this link: ${address}`, [], true),
+    );
+  };
+  const share = h("button", { type: "button", class: "icon share", "aria-label": "Copy a link to this state", title: "Copy a link to this state: text and analysis, without the token", onclick: () => void link() }, s("svg", { viewBox: "0 0 16 16", width: 16, height: 16, "aria-hidden": "true" }, s("path", { d: "M6.5 9.5 9.5 6.5M7 5l1.6-1.6a2.8 2.8 0 0 1 4 4L11 9M9 11l-1.6 1.6a2.8 2.8 0 0 1-4-4L5 7", fill: "none", stroke: "currentColor", "stroke-width": 1.5, "stroke-linecap": "round" })));
+  undoKeys(live, () => kept.save());
   const pace = h("span", { class: "pace", role: "status" });
   const sun = h("button", { type: "button", class: "icon theme", onclick: () => switchTheme(themed) });
   const themed = () => {
@@ -82,9 +116,15 @@ async function start(): Promise<void> {
     title.textContent = live.study?.title ?? live.study?.file ?? "";
     document.title = `${live.study?.title ?? "study"} – armill`;
   });
-  live.listen(["study", "answer"], () => {
-    changed.hidden = !live.study || live.text === live.study.text;
+  live.listen(["answer"], () => {
+    assumed.hidden = !live.answer?.robot.compliance_assumed;
+    assumed.title = live.answer?.warnings.find((warning) => warning.includes("assumed")) ?? "Assumed by the study, not measured";
+  });
+  live.listen(["study", "answer", "text"], () => {
+    changed.hidden = !live.unsaved;
     keep.hidden = changed.hidden || !live.study?.writable;
+    undo.disabled = !live.history.canUndo && live.settled;
+    redo.disabled = !live.history.canRedo;
   });
   // Showing the computing time costs a frame: it waits until no control is dragged.
   let timer: ReturnType<typeof setTimeout> | undefined;
@@ -96,20 +136,45 @@ async function start(): Promise<void> {
       pace.classList.toggle("busy", live.busy);
     }, PAUSE_MS);
   });
-  live.listen(["error"], () => {
-    banner.hidden = live.error === null || (live.error_at_field && current?.id === "live");
-    if (live.error) fill(banner, h("b", {}, live.error.status === 0 ? "No connection. " : "Error: "), live.error.message, h("span", {}, live.answer ? " The page shows the last valid answer." : ""));
-  });
+  let robots: RobotRow[] = [];
+  void robotRows().then((rows) => (robots = rows), () => undefined);
+  const showError = () => {
+    const { error } = live;
+    // Study shows the problems of its text itself.
+    banner.hidden = error === null || error.status === 0 || error.status === 401 || (current?.id === "study" && error.problems.length > 0);
+    if (!error || banner.hidden) return;
+    const { problems } = error;
+    const line = ({ message, hint }: { message: string; hint: string | null }) => [problemSentence(message), offerClass(message, live, robots) ?? (hint ? h("span", { class: "hint" }, hint) : null)];
+    const more = problems.length > 3 ? [h("li", {}, `and ${problems.length - 3} more`)] : [];
+    fill(
+      banner,
+      problems.length > 1 ? [h("b", {}, `${problems.length} problems`), h("ul", {}, problems.slice(0, 3).map((p) => h("li", {}, line(p))), more)] : h("p", {}, h("b", {}, "Error: "), line(error)),
+      h("p", { class: "note" }, live.answer ? "The page shows the last valid answer. " : "", problems.length > 0 ? h("button", { type: "button", class: "link", "data-key": "study", onclick: () => go("study") }, "Open in Study") : null),
+    );
+  };
+  live.listen(["error"], showError);
   const content = h("main", {}, tabs.map((t) => t.root));
   fill(
     app,
-    h("header", { class: "top" }, h("a", { class: "brand", href: "#live", onclick: (e: Event) => (e.preventDefault(), go("live")) }, "armill"), title, changed, keep, nav, pace, sun),
-    banner,
+    h("header", { class: "top" }, h("a", { class: "brand", href: "#live", onclick: (e: Event) => (e.preventDefault(), go("live")) }, "armill"), title, assumed, changed, keep, h("span", { class: "steps" }, undo, redo, share, pin.button), others, nav, pace, sun),
+    notices.root,
+    pin.root,
+    h("div", { class: "banner-place" }, banner),
     content,
   );
-  go(location.hash.slice(1) || "live");
+  go(location.hash.slice(1).split("&")[0] || "live");
   const study = await opening;
-  live.open(study);
+  await kept.open(study);
+  const state = await linked;
+  if (state && (state.text !== live.text || state.analysis !== live.analysis)) {
+    const use = () => {
+      live.use(state.text, live.analyses);
+      if (state.analysis !== null) live.choose(state.analysis);
+      notices.hide("linked");
+    };
+    notices.show("linked", "The address contains another state of the study.", [{ text: "Show it", run: use }], true);
+  }
+  if (study.is_fallback) notices.show("example", `This folder has no study: the page shows the example “${study.title ?? study.file}”. It can be changed, but not saved; \`armill new DIR\` makes a study of your own.`, [], true);
   if (study.problems.length > 0) go("study");
 }
 

@@ -1,7 +1,8 @@
 // Requests to the server, one function each. The token is in the URL that armill opens, and is kept in this tab.
 
+import { Events } from "./events";
 import type { Schema } from "./tables/schema";
-import type { At, Change, Changed, Checked, Job, Picture, Pose, Problem, RobotRow, Shown, StoredFile, Study, Tables, TakenIn, View, Wrong } from "./types";
+import type { At, Change, Changed, Checked, Job, Picture, Pose, Problem, RobotRow, Shown, StoredFile, Study, StudyVersion, Tables, TakenIn, View, Wrong } from "./types";
 
 export class Refused extends Error {
   constructor(
@@ -32,8 +33,15 @@ export function takeToken(): void {
   token = given ?? sessionStorage.getItem(KEY) ?? "";
 }
 
-/** An address with the token, for requests made by the browser. */
-export const addressed = (path: string): string => `${path}${path.includes("?") ? "&" : "?"}token=${token}`;
+export const tokenNow = (): string => token;
+
+/** The token of another tab: used if this one has none, or if the server of its own has ended. Whether it is new. */
+export function takeTokenOf(given: string, lost: boolean): boolean {
+  if (given === "" || given === token || !(lost || token === "")) return false;
+  token = given;
+  sessionStorage.setItem(KEY, given);
+  return true;
+}
 
 export async function raw(method: string, path: string, body?: unknown, signal?: AbortSignal): Promise<Response> {
   const plain = body instanceof Blob;
@@ -69,6 +77,7 @@ async function json<T>(method: string, path: string, body?: unknown, signal?: Ab
 
 export const api = {
   study: () => json<Study>("GET", "/api/study"),
+  version: () => json<StudyVersion>("GET", "/api/study/version"),
   save: (text: string, version: string) => json<Study>("PUT", "/api/study", { text, version }),
   check: (text: string, signal?: AbortSignal) => json<Checked>("POST", "/api/check", { text }, signal),
   schema: () => json<Schema>("GET", "/api/schema"),
@@ -94,10 +103,21 @@ export const api = {
   job: (id: string) => json<Job>("GET", `/api/jobs/${id}`),
   start: (kind: string, text: string, options?: unknown) => json<{ id: string }>("POST", "/api/jobs", { kind, text, ...(options === undefined ? {} : { options }) }),
   cancel: (id: string) => json<Job>("DELETE", `/api/jobs/${id}`),
-  events: (id: string) => new EventSource(addressed(`/api/jobs/${id}/events`)),
+  /** Calls `news` for each event of a job until its end. */
+  events: async (id: string, news: (job: Job) => void, signal: AbortSignal) => {
+    const { body } = await raw("GET", `/api/jobs/${id}/events`, undefined, signal);
+    const events = new Events((data) => news(JSON.parse(data) as Job));
+    const reader = body!.pipeThrough(new TextDecoderStream()).getReader();
+    for (let read = await reader.read(); !read.done; read = await reader.read()) events.take(read.value);
+  },
+  /** An address that opens a file once; the token is not in it. */
+  ticket: (path: string) => json<{ address: string }>("POST", "/api/tickets", { path }),
+  file: (path: string, signal?: AbortSignal) => raw("GET", `/api/files/${path.split("/").map(encodeURIComponent).join("/")}`, undefined, signal),
   files: () => json<{ files: StoredFile[] }>("GET", "/api/files"),
   put: (name: string, bytes: Blob, replace: boolean) =>
     json<TakenIn>("PUT", `/api/files/${encodeURIComponent(name)}${replace ? "?replace=1" : ""}`, bytes),
 };
 
-export const fileAddress = (name: string): string => addressed(`/api/files/${name.split("/").map(encodeURIComponent).join("/")}`);
+let rows: Promise<RobotRow[]> | null = null;
+/** The robot library, requested once. */
+export const robotRows = (): Promise<RobotRow[]> => (rows ??= api.robots().catch((error: unknown) => ((rows = null), Promise.reject(error as Error))));

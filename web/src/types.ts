@@ -10,6 +10,7 @@ export type Vec3 = [number, number, number];
 export type Problem = Schemas["Problem"];
 export type Wrong = Schemas["ErrorDetail"];
 export type Study = Schemas["StudyOnDisk"];
+export type StudyVersion = Schemas["StudyVersion"];
 export type Analysis = Schemas["OutlinedAnalysis"];
 export type Checked = Schemas["OutlineAnswer"];
 export type Changed = Schemas["ChangedAnswer"];

@@ -79,7 +79,7 @@ async function listen() {
   while (listening) {
     await new Promise((done) => {
       const socket = net.connect(Number(at.port), at.hostname, () =>
-        socket.write(`GET /api/jobs/${job.id}/events?token=${token} HTTP/1.1\r\nHost: ${at.host}\r\n\r\n`),
+        socket.write(`GET /api/jobs/${job.id}/events HTTP/1.1\r\nHost: ${at.host}\r\nAuthorization: Bearer ${token}\r\n\r\n`),
       );
       socket.on("data", () => socket.destroy());
       socket.on("error", () => {});

@@ -9,6 +9,7 @@ use armill_formats::sources::Source;
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::compliance_class::ComplianceClass;
 use crate::error::StudyError;
 use crate::joint_unit::JointUnit;
 use crate::number::{decimals, without_rounding};
@@ -30,6 +31,8 @@ pub struct RobotRow {
     /// Whether its joint compliances are known.
     #[serde(rename = "compliance")]
     pub compliance_known: bool,
+    /// Class of compliances that can be assumed for its payload; none if they are known, or if no class fits its joints.
+    pub compliance_class: Option<&'static str>,
 }
 
 impl RobotRow {
@@ -42,8 +45,18 @@ impl RobotRow {
             reach_mm: reach(&found.robot).map(|m| decimals(to_mm(m), 3)),
             inverse: found.robot.inverse().word(),
             compliance_known: found.robot.compliance().is_some(),
+            compliance_class: assumed_class(found).map(ComplianceClass::name),
         }
     }
+}
+
+/// The class that can be assumed for a robot without known compliances.
+fn assumed_class(found: &RobotDescription) -> Option<ComplianceClass> {
+    let class = found
+        .payload_kg
+        .map_or(ComplianceClass::Medium, ComplianceClass::of_payload);
+    let fits = found.robot.compliance().is_none() && class.compliance_of(&found.robot).is_ok();
+    fits.then_some(class)
 }
 
 /// The rows of the library; every robot of it is read for this.

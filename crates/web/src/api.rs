@@ -19,13 +19,13 @@ use serde_json::Value;
 use crate::answers::{
     AnalysisRequest, MeshRequest, PictureRequest, PosturesRequest, TableRequest, ViewRequest,
 };
-use crate::files::{Files, UploadedFile};
+use crate::files::{Files, TicketAnswer, TicketRequest, UploadedFile};
 use crate::job::JobAnswer;
 use crate::jobs::{JobBegun, JobList};
 use crate::openapi::{DELETE, GET, Operation, POST, PUT, describe};
 use crate::reply::{JSON, typed};
 use crate::state::State;
-use crate::study::{ChangeRequest, CheckRequest, StudyOnDisk, StudyUpdate};
+use crate::study::{ChangeRequest, CheckRequest, StudyOnDisk, StudyUpdate, StudyVersion};
 use crate::task::Task;
 use crate::{answers, error, files, jobs, study};
 
@@ -36,6 +36,8 @@ fn operations() -> Vec<Operation> {
         Operation::new(PUT, "/study", "Writes the study", study::write)
             .takes::<StudyUpdate>()
             .answers::<StudyOnDisk>(),
+        Operation::new(GET, "/study/version", "The state of its file", study::version)
+            .answers::<StudyVersion>(),
         Operation::new(POST, "/check", "What is in a text", study::check)
             .takes::<CheckRequest>()
             .answers::<OutlineAnswer>(),
@@ -113,6 +115,14 @@ fn operations() -> Vec<Operation> {
         Operation::new(PUT, "/files/{*path}", "Uploads a file", files::take)
             .answers::<UploadedFile>()
             .with(StatusCode::CREATED),
+        Operation::new(
+            POST,
+            "/tickets",
+            "An address that opens one file once",
+            files::ticket,
+        )
+        .takes::<TicketRequest>()
+        .answers::<TicketAnswer>(),
         Operation::new(GET, "/openapi.json", "This document", openapi),
     ]
 }

@@ -18,6 +18,11 @@ use crate::error::ApiError;
 
 /// The study that is served where none is named and none is in the current folder.
 const EXAMPLE: &str = "mh12-groove";
+/// The version of a file that does not exist.
+const ABSENT: &str = "absent";
+/// The ports from which that of a study is chosen: above those that Linux gives to outgoing connections.
+const FIRST_PORT: u16 = 61000;
+const PORTS: u16 = 4500;
 
 /// The study and its folder.
 pub(crate) struct Cell {
@@ -31,6 +36,8 @@ pub(crate) struct Cell {
     example: Vec<u8>,
     /// Whether the file may be written.
     pub writable: bool,
+    /// Whether it is the example, because no study was named and none was found.
+    pub fallback: bool,
     /// One writer at a time.
     writing: Mutex<()>,
     /// Kept until the end.
@@ -44,6 +51,7 @@ impl Cell {
     /// No study there; a folder for results that cannot be made.
     pub(crate) fn find(given: Option<&Path>) -> Result<Cell, StudyError> {
         let here = Path::new("study.toml").is_file();
+        let fallback = given.is_none() && !here;
         let given = given.unwrap_or_else(|| Path::new(if here { "." } else { EXAMPLE }));
         let found = studies::find(given)?;
         let file = if given.is_dir() {
@@ -73,6 +81,7 @@ impl Cell {
         Ok(Cell {
             shown: found.shown,
             writable: made.is_none() && file.as_ref().is_some_and(|file| !locked(file)),
+            fallback,
             root,
             file,
             example: found.bytes,
@@ -95,7 +104,41 @@ impl Cell {
         }
     }
 
-    /// Replaces the text on disk, if that is still what the page has read.
+    /// Identifies the study over restarts of the server: the path of its file, or the name of the example.
+    pub(crate) fn identity(&self) -> String {
+        self.file
+            .as_deref()
+            .map_or_else(|| self.shown.clone(), |file| file.display().to_string())
+    }
+
+    /// The port that a server of this study prefers: always the same, so that a browser finds again what it has kept.
+    pub(crate) fn preferred_port(&self) -> u16 {
+        // FNV-1a: the same in every version.
+        let hash = self.identity().bytes().fold(0x811c_9dc5_u32, |hash, byte| {
+            (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193)
+        });
+        FIRST_PORT + u16::try_from(hash % u32::from(PORTS)).unwrap_or_default()
+    }
+
+    /// Whether its file is there; an example always is.
+    pub(crate) fn exists(&self) -> bool {
+        self.file
+            .as_deref()
+            .is_none_or(|file| file.try_exists().unwrap_or(true))
+    }
+
+    /// Identifies the present state of the file.
+    pub(crate) fn state(&self) -> String {
+        match self.bytes() {
+            Ok(bytes) => version(&bytes),
+            Err(_) if !self.exists() => ABSENT.to_owned(),
+            // There, but not readable: no page has seen it like that.
+            Err(_) => String::new(),
+        }
+    }
+
+    /// Replaces the text on disk, if that is still what the page has read. A file that was removed is made again, if the
+    /// page has seen that.
     ///
     /// # Errors
     /// An example; a file that was changed by another program; one that cannot be written.
@@ -106,10 +149,12 @@ impl Cell {
             ));
         };
         let _writing = self.writing.lock().unwrap_or_else(PoisonError::into_inner);
-        if version(&self.bytes()?) != seen {
-            return Err(ApiError::conflict(
-                "the file on disk was changed since it was read",
-            ));
+        let state = self.state();
+        if state != seen || state.is_empty() {
+            return Err(ApiError::conflict(match state == ABSENT {
+                true => "the file was deleted since it was read",
+                false => "the file on disk was changed since it was read",
+            }));
         }
         write_atomically(file, text.as_bytes()).map_err(StudyError::from)?;
         Ok(())

@@ -5,10 +5,13 @@
 //! | `GET /api/files` | what is there, two folders deep at most |
 //! | `GET /api/files/PATH` | one file; what a browser can show is shown without scripts, the rest is to be saved |
 //! | `PUT /api/files/NAME` | uploads a file, under a plain name |
+//! | `POST /api/tickets` | an address that opens one file once, without the token |
+//! | `GET /open/TICKET/NAME` | that file |
 //!
 //! Which paths are in the folder: see `folder`.
 
 use std::sync::Arc;
+use std::time::Instant;
 
 use armill_formats::file::new_part;
 use armill_study::StudyError;
@@ -23,9 +26,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tokio::io::{AsyncReadExt, AsyncWriteExt};
 
-use crate::body::Pieces;
+use crate::body::{JsonBody, Pieces};
 use crate::error::{Answered, ApiError};
 use crate::folder::{FileRow, inside, is_plain, listed};
+use crate::guard::TICKETS;
 use crate::reply::{json, media_type};
 use crate::state::State;
 
@@ -68,6 +72,62 @@ pub(crate) struct Taking {
     replace: Option<String>,
 }
 
+/// A file to be opened.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct TicketRequest {
+    /// The file, in the folder.
+    pub path: String,
+}
+
+/// An address for a file.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub(crate) struct TicketAnswer {
+    /// The address, on this server: it opens the file once, within a minute.
+    pub address: String,
+}
+
+/// What is shown for a ticket that is used or too old.
+const USED: &str = "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>armill</title>\
+<p>This address has been used or is older than a minute. Open the file again on the page of armill.</p></html>";
+
+pub(crate) async fn ticket(
+    Shared(state): Shared<Arc<State>>,
+    JsonBody(requested): JsonBody<TicketRequest>,
+) -> Answered {
+    let (shared, path) = (Arc::clone(&state), requested.path);
+    let work = move |_: armill_core::watch::Watch<'_>| {
+        let found = inside(&shared.cell.root, &path);
+        Ok((path, found))
+    };
+    let (path, found) = state.work.done(work).await?;
+    found?;
+    let name = path.rsplit('/').next().unwrap_or_default();
+    let name = percent_encode(name);
+    let ticket = state.tickets.issue(path, Instant::now())?;
+    let address = format!("{TICKETS}{ticket}/{name}");
+    Ok(json(StatusCode::OK, &TicketAnswer { address })?)
+}
+
+/// Every byte that is not a letter, a digit or one of `-._` as `%XX`.
+fn percent_encode(name: &str) -> String {
+    let encoded = |byte: u8| match byte {
+        b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'.' | b'_' => char::from(byte).to_string(),
+        _ => format!("%{byte:02X}"),
+    };
+    name.bytes().map(encoded).collect()
+}
+
+pub(crate) async fn open(
+    Shared(state): Shared<Arc<State>>,
+    InPath((ticket, _)): InPath<(String, String)>,
+) -> Answered {
+    match state.tickets.redeem(&ticket, Instant::now()) {
+        Some(path) => send(&state, path).await,
+        None => Ok((StatusCode::GONE, [(CONTENT_TYPE, media_type("used.html"))], USED).into_response()),
+    }
+}
+
 pub(crate) async fn list(Shared(state): Shared<Arc<State>>) -> Answered {
     let shared = Arc::clone(&state);
     let files = state.work.done(move |_| Ok(listed(&shared.cell.root))).await?;
@@ -75,7 +135,12 @@ pub(crate) async fn list(Shared(state): Shared<Arc<State>>) -> Answered {
 }
 
 pub(crate) async fn read(Shared(state): Shared<Arc<State>>, InPath(path): InPath<String>) -> Answered {
-    let shared = Arc::clone(&state);
+    send(&state, path).await
+}
+
+/// The file at this path of the folder.
+async fn send(state: &Arc<State>, path: String) -> Answered {
+    let shared = Arc::clone(state);
     let requested = path.clone();
     let real = state
         .work

@@ -6,7 +6,9 @@
 //! | the origin of another site | 403 |
 //! | a path under `/api` without the token of this start | 401 |
 //!
-//! The token is 128 random bits, new at every start, and compared in constant time.
+//! The token is 128 random bits, new at every start, and compared in constant time. It is accepted in the header
+//! `Authorization`, and in an address only in that of the page itself, from which the page removes it. Below `/open` a
+//! ticket is required in its place: see `tickets`.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -28,6 +30,9 @@ use crate::error::ApiError;
 /// Bytes of a token: 128 bits.
 const TOKEN_BYTES: usize = 16;
 
+/// Where files are opened by a ticket.
+pub(crate) const TICKETS: &str = "/open/";
+
 /// What the page may load and who may show it: itself alone. Pictures of answers are data, workers are its own.
 const POLICY: HeaderValue = HeaderValue::from_static(
     "default-src 'self'; img-src 'self' data: blob:; style-src 'self' 'unsafe-inline'; worker-src 'self' blob:; \
@@ -43,14 +48,7 @@ impl Token {
     /// # Errors
     /// The system gives no randomness.
     pub(crate) fn random() -> Result<Token, StudyError> {
-        let mut bytes = [0; TOKEN_BYTES];
-        getrandom::fill(&mut bytes).map_err(|error| {
-            StudyError::value(
-                format!("no random numbers for a token: {error}"),
-                "check the random number source of the system",
-            )
-        })?;
-        Ok(Token(bytes.iter().map(|byte| format!("{byte:02x}")).collect()))
+        Ok(Token(random_hex()?))
     }
 
     /// In hexadecimal digits.
@@ -61,6 +59,21 @@ impl Token {
     fn is(&self, given: &str) -> bool {
         self.0.as_bytes().ct_eq(given.as_bytes()).into()
     }
+}
+
+/// 128 random bits, in hexadecimal digits.
+///
+/// # Errors
+/// The system gives no randomness.
+pub(crate) fn random_hex() -> Result<String, StudyError> {
+    let mut bytes = [0; TOKEN_BYTES];
+    getrandom::fill(&mut bytes).map_err(|error| {
+        StudyError::value(
+            format!("no random numbers for a token: {error}"),
+            "check the random number source of the system",
+        )
+    })?;
+    Ok(bytes.iter().map(|byte| format!("{byte:02x}")).collect())
 }
 
 /// What a request must show.
@@ -94,13 +107,16 @@ impl Guard {
         host && authority && all(request.headers(), &ORIGIN).iter().all(of_us)
     }
 
-    /// Whether the token is there, in the header or in the query.
+    /// Whether the token is there: in the header, or in the query of the page itself, the address that armill opens.
     fn has_token(&self, request: &Request) -> bool {
         let headers = all(request.headers(), &AUTHORIZATION);
         let mut borne = headers
             .iter()
             .filter_map(|header| (*header)?.strip_prefix("Bearer "));
-        let query = request.uri().query().unwrap_or_default();
+        let query = match request.uri().path() {
+            "/" => request.uri().query().unwrap_or_default(),
+            _ => "",
+        };
         let mut requested = query.split('&').filter_map(|pair| pair.strip_prefix("token="));
         borne.any(|token| self.token.is(token)) || requested.any(|token| self.token.is(token))
     }
@@ -119,6 +135,7 @@ fn all<'a>(headers: &'a HeaderMap, name: &HeaderName) -> Vec<Option<&'a str>> {
 pub(crate) async fn check(State(guard): State<Arc<Guard>>, request: Request, next: Next) -> Response {
     let path = request.uri().path();
     let is_api = path == "/api" || path.starts_with("/api/");
+    let is_ticket = path.starts_with(TICKETS);
     let begun = Instant::now();
     let is_for_us = guard.is_for_us(&request);
     let has_token = is_for_us && guard.has_token(&request);
@@ -141,7 +158,11 @@ pub(crate) async fn check(State(guard): State<Arc<Guard>>, request: Request, nex
     if let (true, Ok(took)) = (is_api, HeaderValue::from_str(&took)) {
         headers.insert(HeaderName::from_static("server-timing"), took);
     }
-    let kept = if is_api { "no-store" } else { "no-cache" };
+    let kept = if is_api || is_ticket {
+        "no-store"
+    } else {
+        "no-cache"
+    };
     headers.insert(CACHE_CONTROL, HeaderValue::from_static(kept));
     response
 }

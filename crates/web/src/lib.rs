@@ -19,6 +19,7 @@
 //! | `job`, `task` | progress of one job, and what each kind does |
 //! | `work` | threads of the computation, cancelling |
 //! | `opening` | how the browser receives the address |
+//! | `tickets` | addresses that open one file once |
 //! | `cell`, `folder` | the study that is served; the folder of its files |
 //! | `guard` | allowed requests, headers of every answer |
 //! | `connections`, `stream` | number of connections, and which are closed |
@@ -50,6 +51,7 @@ mod state;
 mod stream;
 mod study;
 mod task;
+mod tickets;
 mod work;
 
 pub use api::document as openapi_document;

@@ -130,12 +130,11 @@ pub(crate) fn describe(operations: &[Operation]) -> Value {
             "version": env!("CARGO_PKG_VERSION"),
             "description": "The live page of one study, on this machine alone.",
         },
-        "security": [{ "bearer": [] }, { "query": [] }],
+        "security": [{ "bearer": [] }],
         "paths": paths,
         "components": {
             "securitySchemes": {
                 "bearer": { "type": "http", "scheme": "bearer" },
-                "query": { "type": "apiKey", "in": "query", "name": "token" },
             },
             "schemas": all,
         },

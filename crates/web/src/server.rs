@@ -36,8 +36,9 @@ use crate::opening::{Opening, PAGE_TIME};
 use crate::queue::Queue;
 use crate::state::State;
 use crate::stream::Stream;
+use crate::tickets::Tickets;
 use crate::work::Work;
-use crate::{api, error, guard, page};
+use crate::{api, error, files, guard, page};
 
 /// Connections at a time: half of the files that most systems let a process open.
 const MOST_CONNECTIONS: usize = 512;
@@ -56,7 +57,7 @@ pub struct Options {
     /// Folder with a study, the file itself, or the name of an example; without, the current folder if it contains one,
     /// else the example mh12-groove.
     pub study: Option<PathBuf>,
-    /// Port on 127.0.0.1; 0 is chosen by the system.
+    /// Port on 127.0.0.1; 0: one that depends only on the study, or, if that is taken, one chosen by the system.
     pub port: u16,
     /// Whether [`Server::run`] shows the page in the user's browser.
     pub opens_browser: bool,
@@ -93,8 +94,12 @@ impl Server {
             .enable_all()
             .build()
             .map_err(refused)?;
-        let address = SocketAddr::from((Ipv4Addr::LOCALHOST, options.port));
-        let listener = runtime.block_on(TcpListener::bind(address)).map_err(refused)?;
+        let bind = |port| runtime.block_on(TcpListener::bind(SocketAddr::from((Ipv4Addr::LOCALHOST, port))));
+        let listener = match options.port {
+            0 => bind(cell.preferred_port()).or_else(|_| bind(0)),
+            port => bind(port),
+        };
+        let listener = listener.map_err(refused)?;
         let port = listener.local_addr().map_err(refused)?.port();
         let url = format!("http://127.0.0.1:{port}/?token={}", token.shown());
         let state = Arc::new(State {
@@ -102,6 +107,7 @@ impl Server {
             cell,
             work: Work::new(),
             opening: Opening::default(),
+            tickets: Tickets::default(),
         });
         let (stop, stopped) = watch::channel(false);
         let app = router(&state, Guard::new(port, token));
@@ -171,6 +177,7 @@ impl Server {
 fn router(state: &Arc<State>, guard: Guard) -> Router {
     Router::new()
         .nest("/api", api::router())
+        .route("/open/{ticket}/{name}", get(files::open))
         .route("/", get(page::file))
         .route("/{*path}", get(page::file))
         .method_not_allowed_fallback(error::wrong_method)

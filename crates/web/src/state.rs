@@ -3,6 +3,7 @@
 use crate::cell::Cell;
 use crate::opening::Opening;
 use crate::queue::Queue;
+use crate::tickets::Tickets;
 use crate::work::Work;
 
 /// The study, and the work on it.
@@ -11,4 +12,5 @@ pub(crate) struct State {
     pub jobs: Queue,
     pub work: Work,
     pub opening: Opening,
+    pub tickets: Tickets,
 }

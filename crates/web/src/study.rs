@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `GET /api/study` | text on disk, its outline, its problems |
 //! | `PUT /api/study` | writes it, if it has not been changed since |
+//! | `GET /api/study/version` | identifies the state of the file |
 //! | `POST /api/check` | outline and problems of a text |
 //! | `POST /api/change` | a text with some values changed, its comments kept |
 //! | `POST /api/tables` | the values of a text, each with its place |
@@ -22,7 +23,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::body::{JsonBody, check_text};
-use crate::cell::{Cell, version};
+use crate::cell::{self, Cell};
 use crate::error::Answered;
 use crate::reply::{JSON, json, typed};
 use crate::state::State;
@@ -32,10 +33,16 @@ use crate::state::State;
 pub(crate) struct StudyOnDisk {
     /// The name of its file in messages.
     pub file: String,
+    /// Identifies the study over restarts of the server: the path of its file, or the name of the example.
+    pub identity: String,
     /// The folder of its files.
     pub folder: String,
+    /// Whether its file is there; an example always is.
+    pub exists: bool,
     /// Whether it may be written; an example may not.
     pub writable: bool,
+    /// Whether it is the example because no study was named and the folder of the server has none.
+    pub is_fallback: bool,
     /// Identifies this state of the file.
     pub version: String,
     /// Its text.
@@ -60,6 +67,15 @@ pub(crate) struct StudyUpdate {
     pub text: String,
     /// The state of the file that it is based on.
     pub version: String,
+}
+
+/// The state of the file of the study.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub(crate) struct StudyVersion {
+    /// Identifies it: another one after every change by any program.
+    pub version: String,
+    /// Whether the file is there.
+    pub exists: bool,
 }
 
 /// A text to be checked.
@@ -103,11 +119,25 @@ pub(crate) async fn write(
     Ok(json(StatusCode::OK, &state.work.done(work).await??)?)
 }
 
+pub(crate) async fn version(Shared(state): Shared<Arc<State>>) -> Answered {
+    let shared = Arc::clone(&state);
+    let work = move |_: armill_core::watch::Watch<'_>| {
+        Ok(StudyVersion {
+            version: shared.cell.state(),
+            exists: shared.cell.exists(),
+        })
+    };
+    Ok(json(StatusCode::OK, &state.work.done(work).await?)?)
+}
+
 /// The study as it is now; a file that can no longer be read is reported as a problem.
 fn on_disk(cell: &Cell) -> StudyOnDisk {
-    let (bytes, gone) = match cell.bytes() {
-        Ok(bytes) => (bytes, None),
-        Err(error) => (Vec::new(), Some(error)),
+    let (bytes, version, gone) = match cell.bytes() {
+        Ok(bytes) => {
+            let version = cell::version(&bytes);
+            (bytes, version, None)
+        }
+        Err(error) => (Vec::new(), cell.state(), Some(error)),
     };
     let text = String::from_utf8_lossy(&bytes).into_owned();
     let given = match gone {
@@ -122,9 +152,12 @@ fn on_disk(cell: &Cell) -> StudyOnDisk {
     };
     StudyOnDisk {
         file: cell.shown.clone(),
+        identity: cell.identity(),
+        exists: cell.exists(),
+        is_fallback: cell.fallback,
         folder: cell.root.display().to_string(),
         writable: cell.writable,
-        version: version(&bytes),
+        version,
         title: given.title,
         robot: given.robot,
         analyses: given.analyses,

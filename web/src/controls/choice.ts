@@ -29,7 +29,7 @@ export class Choice {
     if (value !== null) this.select.value = value;
   }
 
-  refuse(message: string, hint: string | null): void {
+  refuse(message: string, hint: string | HTMLElement | null): void {
     this.select.setAttribute("aria-invalid", "true");
     this.error.replaceChildren(message, ...(hint ? [h("span", { class: "hint" }, hint)] : []));
   }

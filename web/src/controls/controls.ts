@@ -1,9 +1,11 @@
 // Controls: part position, tool and load, tolerance and grid, posture, robot. Every change is sent to the server.
 
-import { api, type Refused } from "../server";
+import { robotRows, type Refused } from "../server";
 import { h } from "../dom";
 import type { Live } from "../live";
+import { pathOf, problemSentence, problemWords } from "../problem-words";
 import type { RobotRow, Vec3 } from "../types";
+import { chooseRobot, offerClass } from "./assume";
 import { Choice } from "./choice";
 import { NumberField } from "./field";
 import { Forces } from "./forces";
@@ -11,7 +13,8 @@ import { Forces } from "./forces";
 interface Control {
   readonly id: string;
   readonly root: HTMLElement;
-  refuse(message: string, hint: string | null): void;
+  /** What is wrong, and what to do: in words, or as an element with an action. */
+  refuse(message: string, hint: string | HTMLElement | null): void;
   clear(): void;
 }
 
@@ -57,7 +60,10 @@ export function controls(live: Live): HTMLElement {
   const step = new NumberField({ id: "field-step", label: "Grid step", unit: "mm", range: [5, 100], step: 5, input: (v) => touch(() => step, "plane.step_mm", v) });
   const branch = new Choice("field-branch", "Branch", (v) => touch(() => branch, "posture.branch", v));
   const spin = new NumberField({ id: "field-spin", label: "Tool spin", unit: "°", range: [-180, 180], step: 5, input: (v) => touch(() => spin, ofProgram() ? "program.spin_deg" : "spin_deg", v), hint: "Rotation of the tool about its axis" });
-  const robot = new Choice("field-robot", "Robot", (v) => touch(() => robot, "robot", v, true));
+  const robot = new Choice("field-robot", "Robot", (v) => {
+    last = robot;
+    chooseRobot(live, v, robots.find((r) => r.name === v));
+  });
   const all: Control[] = [analysis, section, x, y, z, tilt, tool, forces, limit, half, step, branch, spin, robot];
 
   const group = (title: string, ...children: Node[]) => h("fieldset", {}, h("legend", {}, title), children);
@@ -95,11 +101,11 @@ export function controls(live: Live): HTMLElement {
   live.listen(["error"], () => {
     for (const control of all) control.clear();
     if (live.error && last && live.error.status >= 400 && live.error.status < 500) {
-      showErrors(live.error, all, last);
+      showErrors(live, robots, live.error, all, last);
       live.error_at_field = true;
     }
   });
-  void api.robots().then((rows) => {
+  void robotRows().then((rows) => {
     robots = rows;
     fill();
   }, () => undefined);
@@ -121,11 +127,17 @@ const KEYS: Record<string, string[]> = {
 };
 
 /** Each problem at the control whose key it names; at the one touched last where it names none. */
-function showErrors({ problems, message, hint }: Refused, all: Control[], last: Control): void {
+function showErrors(live: Live, robots: RobotRow[], { problems, message, hint }: Refused, all: Control[], last: Control): void {
   const list = problems.length > 0 ? problems : [{ message, hint }];
   for (const problem of list.slice(0, 3)) {
-    const named = all.find((c) => KEYS[c.id]?.some((key) => problem.message.includes(key)));
-    const lasts = KEYS[last.id]?.some((key) => problem.message.includes(key)) ?? false;
-    (lasts ? last : (named ?? last)).refuse(problem.message, problem.hint);
+    const names = (control: Control) => KEYS[control.id]?.some((key) => problem.message.includes(key)) ?? false;
+    const path = pathOf(problem.message);
+    const axis = /centre_mm\[([0-2])\]$/.exec(path ?? "")?.[1];
+    const coordinate = axis === undefined ? null : all.find((c) => c.id === `field-${"xyz"[Number(axis)]}`);
+    const control = coordinate ?? (names(last) ? last : (all.find(names) ?? last));
+    // The field itself is next to its name.
+    const { field, what } = problemWords(problem.message);
+    const offer = offerClass(problem.message, live, robots);
+    control.refuse(field !== null && names(control) ? what : problemSentence(problem.message), offer ?? problem.hint);
   }
 }

@@ -21,6 +21,8 @@ export class NumberField {
   private readonly slider: HTMLInputElement | null;
   private readonly error: HTMLElement;
   private value: number | null = null;
+  /** The last value that was accepted. */
+  private accepted: number | null = null;
 
   constructor(private readonly options: FieldOptions) {
     const { id, label, unit, range, step, hint } = options;
@@ -43,6 +45,7 @@ export class NumberField {
   /** Value from the server; a value being typed is kept. */
   set(value: number | null): void {
     this.root.hidden = value === null;
+    this.accepted = value;
     this.clear();
     if (document.activeElement === this.box && parseNumber(this.box.value) === value) return;
     if (document.activeElement === this.slider && this.slider) {
@@ -54,7 +57,7 @@ export class NumberField {
     this.write();
   }
 
-  refuse(message: string, hint: string | null): void {
+  refuse(message: string, hint: string | HTMLElement | null): void {
     this.box.setAttribute("aria-invalid", "true");
     this.error.replaceChildren(message, ...(hint ? [h("span", { class: "hint" }, hint)] : []));
   }
@@ -84,7 +87,7 @@ export class NumberField {
   private typed(): void {
     const value = parseNumber(this.box.value);
     if (value === null) {
-      this.refuse(this.box.value.trim() === "" ? "A number is required." : `"${this.box.value}" is not a number.`, `In ${this.options.unit}, such as ${this.value ?? this.options.step}.`);
+      this.refuse(this.box.value.trim() === "" ? "A number is required." : `"${this.box.value}" is not a number.`, `In ${this.options.unit}, such as ${this.accepted ?? this.options.step}.`);
       return;
     }
     this.clear();

@@ -42,7 +42,7 @@ export class Forces {
     );
   }
 
-  refuse(message: string, hint: string | null): void {
+  refuse(message: string, hint: string | HTMLElement | null): void {
     this.error.replaceChildren(message, ...(hint ? [h("span", { class: "hint" }, hint)] : []));
   }
 

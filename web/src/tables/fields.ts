@@ -2,6 +2,7 @@
 // a problem is shown at its field. Entries of lists of tables can be added and removed.
 
 import { fill, h, type Child } from "../dom";
+import { problemWords } from "../problem-words";
 import type { Problem, Tables } from "../types";
 import { input, type Input } from "./inputs";
 import { beginning, fieldsOf, named, type Field, type Schema } from "./schema";
@@ -141,7 +142,7 @@ export class Fields {
     for (const problem of this.tables?.problems ?? []) {
       const path = this.pathOf(problem);
       if (path === null) continue;
-      this.inputs.get(path)?.refuse(problem.message, problem.hint);
+      this.inputs.get(path)?.refuse(problemWords(problem.message).what, problem.hint);
       this.root.querySelectorAll<HTMLElement>(".fold").forEach((fold) => {
         const table = fold.dataset.table!;
         if (table === "" ? !/[.[]/.test(path) : path === table || path.startsWith(`${table}.`) || path.startsWith(`${table}[`)) fold.classList.add("wrong");

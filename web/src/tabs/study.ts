@@ -1,14 +1,16 @@
 // The study as text and as fields: checked while it is typed, saved with its comments.
 
-import { api, Refused } from "../server";
+import { offerClass } from "../controls/assume";
+import { api, robotRows } from "../server";
 import { fill, h } from "../dom";
 import type { Live } from "../live";
 import { Newest } from "../newest";
+import { problemSentence } from "../problem-words";
 import { Fields } from "../tables/fields";
-import type { Checked, Problem, Tables } from "../types";
+import type { Checked, Problem, RobotRow, Tables } from "../types";
 import type { Tab } from "./tab";
 
-export function studyTab(live: Live): Tab & { reveal: (table: string) => void } {
+export function studyTab(live: Live, store: () => Promise<void>): Tab & { reveal: (table: string) => void } {
   const lines = h("div", { class: "lines", "aria-hidden": "true" });
   const text = h("textarea", { id: "study-text", spellcheck: "false", wrap: "off", "aria-label": "Study file, TOML", "aria-describedby": "study-problems" });
   const problems = h("div", { class: "problems", id: "study-problems", role: "status" });
@@ -17,10 +19,15 @@ export function studyTab(live: Live): Tab & { reveal: (table: string) => void } 
   const name = h("h1", {});
   const message = h("p", { class: "note", role: "status" });
   let checked: Checked | null = null;
+  let robots: RobotRow[] = [];
+  void robotRows().then((rows) => (robots = rows), () => undefined);
+  let shown = false;
+  /** The text that was checked last. */
+  let followed: string | null = null;
 
   const number = (marked: Problem[]) => {
     const count = text.value.split("\n").length;
-    const at = new Map(marked.filter((p) => p.line !== null).map((p) => [p.line!, p.message]));
+    const at = new Map(marked.filter((p) => p.line !== null).map((p) => [p.line!, problemSentence(p.message)]));
     fill(lines, ...Array.from({ length: count }, (_, i) => (at.has(i + 1) ? h("b", { title: at.get(i + 1)! }, i + 1) : h("span", {}, i + 1))));
     lines.scrollTop = text.scrollTop;
   };
@@ -32,7 +39,7 @@ export function studyTab(live: Live): Tab & { reveal: (table: string) => void } 
         ? h("p", { class: "fine" }, "✓ No problems")
         : [
             h("p", { class: "wrong" }, list.length === 1 ? "1 problem" : `${list.length} problems`),
-            h("ul", {}, list.map((p) => h("li", {}, h("button", { type: "button", class: "link", onclick: () => jump(p) }, p.line === null ? "study" : `line ${p.line}${p.column === null ? "" : `, column ${p.column}`}`), " ", p.message, p.hint ? h("span", { class: "hint" }, p.hint) : null))),
+            h("ul", {}, list.map((p) => h("li", {}, h("button", { type: "button", class: "link", onclick: () => jump(p) }, p.line === null ? "study" : `line ${p.line}${p.column === null ? "" : `, column ${p.column}`}`), " ", h("span", { title: p.message }, problemSentence(p.message)), " ", offerClass(p.message, live, robots) ?? (p.hint ? h("span", { class: "hint" }, p.hint) : null)))),
           ],
     );
   };
@@ -50,8 +57,7 @@ export function studyTab(live: Live): Tab & { reveal: (table: string) => void } 
     const made = turn.then(async () => {
       try {
         const made = await api.change(text.value, null, [{ key: path, value, whole: true }]);
-        text.value = made.text;
-        edited();
+        live.edit(made.text, null);
         return true;
       } catch (error) {
         message.textContent = error instanceof Error ? error.message : String(error);
@@ -72,11 +78,19 @@ export function studyTab(live: Live): Tab & { reveal: (table: string) => void } 
     },
     failed: (error) => void (message.textContent = error instanceof Error ? error.message : String(error)),
   });
-  const edited = () => {
+  /** Shows the text of the state, and checks it. */
+  const follow = () => {
+    const begin = firstDifference(text.value, live.text);
+    if (begin !== null) {
+      text.value = live.text;
+      // Where it was changed, not at its end.
+      text.setSelectionRange(begin, begin);
+    }
+    followed = live.text;
     checked = null;
     buttons();
     number([]);
-    checks.submit(text.value);
+    checks.submit(live.text);
   };
   const buttons = () => {
     const study = live.study;
@@ -86,47 +100,19 @@ export function studyTab(live: Live): Tab & { reveal: (table: string) => void } 
     undo.disabled = same;
     message.textContent = study && !study.writable ? "An example study: changes cannot be saved. Start `armill serve` in your own folder to save." : same ? "" : "Unsaved changes.";
   };
-  const store = async () => {
-    try {
-      const study = await api.save(text.value, live.study!.version);
-      live.study = study;
-      live.use(study.text, study.analyses);
-      buttons();
-      message.textContent = "Saved.";
-    } catch (error) {
-      if (error instanceof Refused && error.kind === "conflict") return conflict(error.message);
-      if (error instanceof Refused && error.problems.length > 0) showProblems(error.problems);
-      message.textContent = error instanceof Error ? error.message : String(error);
-    }
-  };
-  const conflict = (why: string) => {
-    const theirs = h("button", { type: "button", class: "link", onclick: () => void reload() }, "Load the file");
-    const mine = h("button", { type: "button", class: "link", onclick: () => void overwrite() }, "Overwrite the file");
-    fill(message, `${why} `, theirs, " or ", mine);
-  };
-  const reload = async () => {
-    live.open(await api.study());
-    text.value = live.text;
-    edited();
-  };
-  const overwrite = async () => {
-    live.study = { ...live.study!, version: (await api.study()).version };
-    await store();
-  };
-
-  text.addEventListener("input", edited);
+  text.addEventListener("input", () => live.edit(text.value));
   text.addEventListener("scroll", () => void (lines.scrollTop = text.scrollTop));
-  text.addEventListener("keydown", (e) => {
-    if (e.key === "s" && (e.ctrlKey || e.metaKey)) {
-      e.preventDefault();
-      if (!save.disabled) void store();
-    }
+  save.addEventListener("click", () => void saved());
+  const saved = async () => {
+    const before = live.study;
+    await store();
+    if (live.study !== before && !live.unsaved) message.textContent = "Saved.";
+  };
+  undo.addEventListener("click", () => live.discard());
+  live.listen(["text", "answer"], () => {
+    if (shown && followed !== live.text) follow();
   });
-  save.addEventListener("click", () => void store());
-  undo.addEventListener("click", () => {
-    text.value = live.study?.text ?? "";
-    edited();
-  });
+  live.listen(["study"], () => shown && buttons());
   const root = h("div", { class: "page study-page" }, h("header", { class: "page-head" }, name, message, undo, save), h("div", { class: "both" }, h("div", { class: "editor" }, lines, text), fields.root), problems);
   return {
     id: "study",
@@ -134,12 +120,22 @@ export function studyTab(live: Live): Tab & { reveal: (table: string) => void } 
     title: "Study",
     root,
     shown: () => {
-      if (text.value !== live.text) text.value = live.text;
-      edited();
+      shown = true;
+      follow();
     },
-    // A text without problems is used by the live view.
     left: () => {
-      if (text.value !== live.text && checked && checked.problems.length === 0) live.use(text.value, checked.analyses);
+      shown = false;
+      // Its analyses are known when it has been checked.
+      if (checked) live.showEdited(checked.analyses);
+      else void api.check(live.text).then((answer) => live.showEdited(answer.analyses), () => live.showEdited([]));
     },
   };
+}
+
+/** Where two texts begin to differ; null if they are equal. */
+function firstDifference(a: string, b: string): number | null {
+  if (a === b) return null;
+  let at = 0;
+  while (at < a.length && a[at] === b[at]) at++;
+  return at;
 }

@@ -38,17 +38,18 @@ async function at(text, work) {
   try {
     const page = await open(browser, server.url);
     await page.click("#tab-jobs");
-    await work(page, server.folder);
+    await work(page, server.folder, server);
     assert.deepEqual(page.complaints, []);
     await page.context().close();
   } finally {
     await server.stop();
   }
 }
+const search_applied = (folder) => json(folder, "posture/result.json").paths[0].search.applied;
 const json = (folder, name) => JSON.parse(readFileSync(join(folder, name), "utf8"));
 
 test("a small placement runs to its end: its place is told, shown, and lies in the folder", () =>
-  at(SMALL, async (page, folder) => {
+  at(SMALL, async (page, folder, server) => {
     await page.click("[data-kind=place]");
     await page.waitForSelector(".job.done", { timeout: 240_000 });
     const placed = json(folder, "place/placement.json");
@@ -56,17 +57,39 @@ test("a small placement runs to its end: its place is told, shown, and lies in t
     assert.ok(words.includes(`deviation ${placed.recommended.cost_um.toFixed(1)} ± `), `${words} does not report ${placed.recommended.cost_um}`);
     for (const name of ["place/placement.json", "place/result.json", "place/report.html"]) assert.ok(existsSync(join(folder, name)), name);
     assert.ok(!existsSync(join(folder, "place/place.rounds")));
-    // Every file of the card can be opened.
-    const links = await page.locator(".job.done .files a").evaluateAll((all) => all.map((a) => a.href));
-    assert.ok(links.length > 3);
-    for (const link of links) assert.equal(await page.evaluate(async (to) => (await fetch(to)).status, link), 200, link);
-    await page.click("text=Show this placement");
+    assert.match(await page.locator(".job.done header").innerText(), /^Placement\n/, "its kind, not only the study");
+    // After a reload its result and its actions are there again.
+    await page.reload();
+    await page.getByRole("button", { name: "Apply this placement" }).waitFor();
+    // Every file of the card can be opened, by an address without the token.
+    const files = await page.locator(".job.done .files [data-file]").evaluateAll((all) => all.map((a) => a.dataset.file));
+    assert.ok(files.length > 3);
+    const token = new URL(server.url).searchParams.get("token");
+    const requests = [];
+    page.context().on("request", (request) => requests.push(request.url()));
+    for (const file of files.filter((name) => name.endsWith(".csv")).slice(0, 1)) {
+      const [download] = await Promise.all([page.waitForEvent("download"), page.locator(`.job.done .files [data-file="${file}"]`).click()]);
+      assert.deepEqual(readFileSync(await download.path()), readFileSync(join(folder, file)));
+    }
+    const [report] = await Promise.all([page.context().waitForEvent("page"), page.getByRole("button", { name: "Show the report" }).press("Enter")]);
+    await report.waitForURL(/\/open\/[0-9a-f]{32}\/report\.html$/);
+    await report.waitForSelector("h1");
+    assert.equal(await report.evaluate(() => window.opener), null);
+    // The address was for once.
+    await report.reload();
+    assert.match(await report.locator("body").innerText(), /has been used or is older than a minute/);
+    await report.close();
+    assert.ok(requests.length > 2 && requests.every((url) => !url.includes(token)), "the token is in no address");
+    await page.getByRole("button", { name: "Apply this placement" }).click();
     await settled(page);
     assert.equal(Number(await page.inputValue("#field-x")), placed.place.centre_mm[0]);
     assert.notEqual(placed.place.centre_mm[0], 1000);
     // The path there is what the placement found.
     const worst = await page.locator("[data-follow=worst] .extreme-value").innerText();
     assert.ok(worst.startsWith(um(placed.recommended.cost_um)), `${worst}, ${placed.recommended.cost_um}`);
+    // It is a change like others.
+    await page.keyboard.press("Control+z");
+    await page.waitForFunction(() => document.querySelector("#field-x").value === "1000");
   }));
 
 test("a placement goes on over a reload and is shown again; cancelled it leaves no answer, and the next one ends", () =>
@@ -74,6 +97,10 @@ test("a placement goes on over a reload and is shown again; cancelled it leaves 
     await page.click("[data-kind=place]");
     await page.waitForSelector(".job.running progress");
     const counted = async () => Number(/^([\d.,]+) of/.exec((await page.locator(".job.running p").first().innerText()).replaceAll("\u202f", ""))?.[1] ?? -1);
+    await page.waitForFunction(() => /about .* left/.test(document.querySelector(".job.running p")?.textContent ?? ""), null, { timeout: 120_000 });
+    const said = await page.locator(".job.running").innerText();
+    assert.match(said, /^Placement\n/);
+    assert.ok((said.match(/best so far/g) ?? []).length <= 1, said);
     await page.waitForFunction(() => / of /.test(document.querySelector(".job.running p")?.textContent ?? ""));
     const before = await counted();
     await page.reload();
@@ -102,6 +129,10 @@ test("the best posture is searched to its end, its table lies in the folder", ()
     assert.equal(search.turns, 12);
     assert.ok((await page.locator(".job.done").innerText()).includes("posture/"), "its files are named");
     assert.match(readFileSync(join(folder, "posture/groove.csv"), "utf8"), /turn_deg/);
+    assert.match(await page.locator(".job.done header").innerText(), /^Posture\n/);
+    assert.match(await page.locator(".job.done .job-lines").innerText(), /^groove .*(µm less by the search|no significant gain)/);
+    const apply = page.getByRole("button", { name: "Apply this search" });
+    assert.equal(await apply.count(), search_applied(folder) ? 1 : 0);
   }));
 
 test("compliances are identified from a table that was dropped, and the study takes the robot", () =>
@@ -119,9 +150,12 @@ test("compliances are identified from a table that was dropped, and the study ta
     await page.getByRole("button", { name: "Start" }).click();
     await page.waitForSelector(".job.done", { timeout: 120_000 });
     assert.match(readFileSync(join(folder, "identify/robot.toml"), "utf8"), /tests\.csv/);
+    assert.match(await page.locator(".job.done").innerText(), /^Compliance identification\n.*springs from 14 load tests.*N m\/rad/s);
+    await page.reload();
+    await page.getByRole("button", { name: "Apply these compliances" }).click();
+    await settled(page);
     await page.click("#tab-study");
-    const editor = page.locator("#study-text");
-    await editor.fill((await editor.inputValue()).replace("yaskawa/mh12", "identify/robot.toml"));
+    assert.match(await page.inputValue("#study-text"), /robot = "identify\/robot\.toml"/);
     await page.waitForSelector(".problems .fine");
     await page.click("#tab-live");
     await settled(page);
@@ -132,4 +166,13 @@ test("compliances are identified from a table that was dropped, and the study ta
     await page.click("[data-kind=identify]");
     await page.getByRole("button", { name: "Start" }).click();
     await page.waitForSelector(".job.failed .note.warn");
+  }));
+
+test("a run with several analyses says each", () =>
+  at(`${SMALL}\n[[analysis]]\nkind = "map"\nname = "plate"\n`, async (page) => {
+    await page.click("[data-kind=run]");
+    await page.waitForSelector(".job.done .job-lines", { timeout: 240_000 });
+    const lines = await page.locator(".job.done .job-lines li").allInnerTexts();
+    assert.equal(lines.length, 2);
+    assert.ok(lines.some((line) => /^plate .*within tolerance, worst .* µm/.test(line)) && lines.some((line) => /^groove /.test(line)), lines.join());
   }));

@@ -11,34 +11,49 @@ import { chromium } from "playwright-core";
 export const STUDY = new URL("../../../studies/mh12-groove/study.toml", import.meta.url).pathname;
 const FLAGS = ["--headless", "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync", "--enable-unsafe-swiftshader"];
 
-/** `edit`: what the study is to be instead. */
-export async function serve(edit = (text) => text) {
+/** Starts `armill serve` on a folder. */
+async function started(folder) {
   const binary = process.env.ARMILL_BIN;
   if (!binary) throw new Error("ARMILL_BIN names no armill binary");
-  const folder = mkdtempSync(join(tmpdir(), "armill-e2e-"));
-  writeFileSync(join(folder, "study.toml"), edit(readFileSync(STUDY, "utf8")));
   const child = spawn(binary, ["serve", folder, "--no-open"], { stdio: ["ignore", "pipe", "inherit"] });
   const url = await new Promise((done, fail) => {
     createInterface({ input: child.stdout }).once("line", done);
     child.once("exit", (code) => fail(new Error(`armill serve ended with ${code}`)));
   });
   // A test that fails does not stop its server: that must not keep this process from ending.
-  const end = () => child.kill("SIGKILL");
-  process.once("exit", end);
+  const kill = () => child.kill("SIGKILL");
+  process.once("exit", kill);
   child.unref();
   child.stdout.unref();
-  const stop = () =>
+  const end = () =>
     new Promise((done) => {
       child.ref();
-      process.removeListener("exit", end);
+      process.removeListener("exit", kill);
       child.removeAllListeners("exit");
-      child.once("exit", (code) => {
-        rmSync(folder, { recursive: true, force: true });
-        done(code);
-      });
+      child.once("exit", done);
       child.kill("SIGTERM");
     });
-  return { url, folder, pid: child.pid, stop };
+  return { url, pid: child.pid, end };
+}
+
+/** `edit`: what the study is to be instead. */
+export async function serve(edit = (text) => text) {
+  const folder = mkdtempSync(join(tmpdir(), "armill-e2e-"));
+  writeFileSync(join(folder, "study.toml"), edit(readFileSync(STUDY, "utf8")));
+  const server = { folder, ...(await started(folder)) };
+  server.stop = async () => {
+    const code = await server.end();
+    rmSync(folder, { recursive: true, force: true });
+    return code;
+  };
+  return server;
+}
+
+/** Starts a server that was ended again, on the same folder; its new address. */
+export async function restart(server) {
+  const { url, pid, end } = await started(server.folder);
+  Object.assign(server, { pid, end });
+  return url;
 }
 
 export const launch = () => chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: FLAGS });
@@ -65,7 +80,7 @@ export async function open(browser, url, { width = 1280, height = 800, dark = fa
   page.complaints = [];
   page.on("pageerror", (error) => page.complaints.push(String(error)));
   page.on("console", (message) => {
-    const expected = /GPU stall|status of 4\d\d|GL Driver/.test(message.text());
+    const expected = /GPU stall|status of 4\d\d|GL Driver|ERR_CONNECTION_REFUSED|ERR_CONNECTION_RESET|ERR_EMPTY_RESPONSE/.test(message.text());
     if (message.type() === "error" && !expected) page.complaints.push(message.text());
   });
   page.on("request", (request) => {

@@ -1,7 +1,7 @@
 // Pictures, study and files, on a study folder of their own.
 
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
+import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { launch, open, serve, settled } from "./setup.mjs";
@@ -45,7 +45,7 @@ test("the study: checked while it is typed, saved with its comments", async () =
   const text = await editor.inputValue();
   await editor.fill(text.replace("tolerance_um = 50", "tolerance_um = -5"));
   await page.waitForSelector(".problems .wrong");
-  assert.match(await page.locator(".problems li").first().innerText(), /line 12.*tolerance_um/s);
+  assert.match(await page.locator(".problems li").first().innerText(), /line 12.*Tolerance: must be at least 0 µm \(got −5 µm\)/s);
   assert.equal(await page.locator(".lines b").innerText(), "12");
   await editor.fill(text.replace("tolerance_um = 50", "tolerance_um = 130 # wider"));
   await page.waitForSelector(".problems .fine");
@@ -106,5 +106,43 @@ test("files: the report is listed; a file that is dropped lies in the folder", a
   await page.setInputFiles("#pick", file);
   await page.click("text=Replace it");
   await page.waitForFunction(() => document.querySelectorAll(".said li").length === 3);
+  await page.context().close();
+});
+
+test("files in groups, with a filter and a preview", async () => {
+  mkdirSync(join(server.folder, "out/deep"), { recursive: true });
+  writeFileSync(join(server.folder, "out/report.html"), '<h1>the report</h1><script>document.body.textContent = "script"</script>');
+  writeFileSync(join(server.folder, "out/plate.svg"), '<svg xmlns="http://www.w3.org/2000/svg" width="90" height="40"><rect width="9" height="9"/></svg>');
+  writeFileSync(join(server.folder, "out/deep/rim.csv"), `x_mm\n${"1\n".repeat(100_000)}`);
+  const page = await open(browser, server.url);
+  await page.click("#tab-files");
+  await page.waitForSelector(".file-group");
+  const titles = await page.locator(".file-group h2").allInnerTexts();
+  assert.deepEqual(titles, ["Study and inputs", "Results of the run: out/", "out/deep/"]);
+  // Text, shortened; a picture; the report, without its scripts.
+  await page.locator('[data-file="out/deep/rim.csv"]').press("Enter");
+  await page.locator(".preview pre").waitFor();
+  assert.match(await page.locator(".preview").innerText(), /x_mm\n1\n[^]*The first 64 kB of 200 kB/);
+  await page.locator('[data-file="out/plate.svg"]').click();
+  await page.waitForFunction(() => document.querySelector(".preview img")?.naturalWidth === 90);
+  assert.equal(await page.locator('[data-file="out/plate.svg"]').getAttribute("aria-pressed"), "true");
+  await page.locator('[data-file="out/report.html"]').click();
+  await page.frameLocator(".preview iframe").locator("h1", { hasText: "the report" }).waitFor();
+  // The filter opens what was folded, and Escape clears it.
+  await page.locator('[data-folder="out/deep"] summary').press("Enter");
+  await page.waitForFunction(() => !document.querySelector('[data-folder="out/deep"]').open);
+  await page.fill("#files-filter", "RIM csv");
+  assert.deepEqual(await page.locator(".file-group [data-file]").evaluateAll((all) => all.map((f) => f.dataset.file)), ["out/deep/rim.csv"]);
+  assert.match(await page.locator(".file-tools").innerText(), /1 of \d+ files/);
+  assert.ok(await page.locator('[data-file="out/deep/rim.csv"]').isVisible());
+  // Its own undo, not that of the study.
+  await page.locator("#files-filter").press("Control+z");
+  await page.fill("#files-filter", "no such file");
+  assert.match(await page.locator(".file-groups").innerText(), /No file matches/);
+  await page.fill("#files-filter", "");
+  const [download] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "Download out/plate.svg" }).click()]);
+  assert.equal(download.suggestedFilename(), "plate.svg");
+  assert.match(readFileSync(await download.path(), "utf8"), /^<svg/);
+  assert.deepEqual(page.complaints.filter((text) => !/Blocked script execution/.test(text)), []);
   await page.context().close();
 });

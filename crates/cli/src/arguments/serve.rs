@@ -15,7 +15,7 @@ The page can only be reached from this machine. Ctrl-C stops the server.")]
 pub(crate) struct ServeArguments {
     /// Folder with a study.toml, the file itself, or the name of an example [default: current folder, else mh12-groove]
     pub study: Option<PathBuf>,
-    /// Port on 127.0.0.1 [default: a free port]
+    /// Port on 127.0.0.1 [default: the same for a study at every start, or a free port]
     #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
     pub port: u16,
     /// Do not open the browser

@@ -54,7 +54,7 @@ fn the_first_line_is_the_address_and_a_signal_ends_it_with_zero() {
     let mut stream = TcpStream::connect(host).unwrap();
     write!(
         stream,
-        "GET /api/study?token={token} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n"
+        "GET /api/study HTTP/1.1\r\nHost: {host}\r\nAuthorization: Bearer {token}\r\nConnection: close\r\n\r\n"
     )
     .unwrap();
     let mut answer = String::new();

@@ -264,7 +264,7 @@ fn events_come_in_order_and_end_with_the_job() {
     );
     let mut stream = served.connect();
     let Served { port, token, .. } = &served;
-    write!(stream, "GET /api/jobs/{id}/events?token={token} HTTP/1.1\r\nHost: localhost:{port}\r\nConnection: close\r\n\r\n").unwrap();
+    write!(stream, "GET /api/jobs/{id}/events HTTP/1.1\r\nAuthorization: Bearer {token}\r\nHost: localhost:{port}\r\nConnection: close\r\n\r\n").unwrap();
     let mut given: Vec<Value> = Vec::new();
     let mut names = 0;
     for line in BufReader::new(stream).lines() {
@@ -298,7 +298,7 @@ fn it_stops_while_a_job_computes_and_a_page_listens() {
     let mut stream = served.connect();
     write!(
         stream,
-        "GET /api/jobs/{id}/events?token={} HTTP/1.1\r\nHost: localhost:{}\r\n\r\n",
+        "GET /api/jobs/{id}/events HTTP/1.1\r\nAuthorization: Bearer {}\r\nHost: localhost:{}\r\n\r\n",
         served.token, served.port
     )
     .unwrap();
@@ -325,7 +325,7 @@ fn listening(served: &Served, id: &str) -> (std::net::TcpStream, u16) {
     let Served { port, token, .. } = served;
     write!(
         stream,
-        "GET /api/jobs/{id}/events?token={token} HTTP/1.1\r\nHost: localhost:{port}\r\n\r\n"
+        "GET /api/jobs/{id}/events HTTP/1.1\r\nAuthorization: Bearer {token}\r\nHost: localhost:{port}\r\n\r\n"
     )
     .unwrap();
     let mut first = String::new();

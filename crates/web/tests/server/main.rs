@@ -8,3 +8,4 @@ mod connections;
 mod jobs;
 mod refused;
 mod study;
+mod tickets;

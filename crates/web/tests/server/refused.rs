@@ -57,7 +57,8 @@ fn without_the_token_there_is_no_api() {
             &format!("GET /api/study?token={}", served.token),
             &[&host]
         ),
-        200
+        401,
+        "an address never contains the token"
     );
     assert_eq!(request(&served, "GET /", &[&host]), 200);
     assert_eq!(

@@ -154,6 +154,95 @@ fn the_study_is_written_only_over_what_was_read() {
 }
 
 #[test]
+fn changes_by_other_programs_are_seen_and_a_deleted_file_is_made_again() {
+    let folder = folder(STUDY);
+    let served = serve(folder.path());
+    let file = folder.path().join("study.toml");
+    let version = || served.get("/api/study/version").json();
+    let read = served.get("/api/study").json();
+    assert_eq!(version(), json!({ "version": read["version"], "exists": true }));
+    std::fs::write(&file, STUDY.replace("100 #", "80 #")).unwrap();
+    assert_ne!(version()["version"], read["version"]);
+    std::fs::remove_file(&file).unwrap();
+    let gone = version();
+    assert_eq!(gone["exists"], false);
+    let on_disk = served.get("/api/study").json();
+    assert_eq!(
+        (&on_disk["exists"], &on_disk["version"], &on_disk["text"]),
+        (&json!(false), &gone["version"], &json!(""))
+    );
+    let put = |version: &Value| {
+        let body = json!({ "text": STUDY, "version": version }).to_string();
+        served.analysis("PUT", "/api/study", body.as_bytes())
+    };
+    // A page that has not seen that it is gone gets a conflict.
+    let refused = put(&read["version"]);
+    assert_eq!((refused.status, refused.kind().as_str()), (409, "conflict"));
+    assert!(refused.text().contains("deleted") && !file.exists());
+    assert_eq!(put(&gone["version"]).status, 200);
+    assert_eq!(std::fs::read_to_string(&file).unwrap(), STUDY);
+    assert_eq!(version()["version"], read["version"]);
+    // The version of a missing file is not one of any other.
+    assert_eq!(put(&gone["version"]).status, 409);
+}
+
+#[test]
+fn a_study_is_served_at_the_same_port_again_while_that_is_free() {
+    let (one, other) = (folder(STUDY), folder(STUDY));
+    let first = serve(one.path());
+    let port = first.port;
+    let identity = first.get("/api/study").json()["identity"].clone();
+    assert!(identity.as_str().unwrap().ends_with("study.toml"));
+    // The port is taken: another one, and the same study.
+    let second = serve(one.path());
+    assert_ne!(second.port, port);
+    assert_eq!(second.get("/api/study").json()["identity"], identity);
+    drop((first, second));
+    assert_eq!(serve(one.path()).port, port);
+    assert_ne!(serve(other.path()).get("/api/study").json()["identity"], identity);
+}
+
+#[test]
+fn robots_without_known_compliances_have_a_class_that_can_be_assumed() {
+    let served = serve(Path::new("mh12-groove"));
+    let rows = served.get("/api/robots").json();
+    let class = |name: &str| {
+        let row = rows.as_array().unwrap().iter().find(|row| row["name"] == name);
+        row.unwrap()["compliance_class"].clone()
+    };
+    assert_eq!(class("yaskawa/mh12"), Value::Null);
+    assert_eq!(class("kuka/kr120r2500pro"), "heavy");
+    // It is enough for an answer, which says so; taken away, the known ones of another robot are used.
+    let change = |text: &str, changes: Value| {
+        served
+            .post(
+                "/api/change",
+                json!({ "text": text, "analysis": null, "changes": changes }),
+            )
+            .json()
+    };
+    let refused = change(STUDY, json!([{ "key": "robot", "value": "kuka/kr120r2500pro" }]));
+    assert!(
+        refused["problems"][0]["message"]
+            .as_str()
+            .unwrap()
+            .starts_with("no joint compliance is known for robot `kuka/kr120r2500pro`")
+    );
+    let assumed = change(
+        refused["text"].as_str().unwrap(),
+        json!([{ "key": "compliance.class", "value": "heavy" }]),
+    );
+    assert_eq!(assumed["problems"], json!([]));
+    let text = assumed["text"].as_str().unwrap();
+    let answer = served
+        .post("/api/answer", json!({ "text": text, "analysis": "plate" }))
+        .json();
+    assert_eq!(answer["robot"]["compliance_assumed"], true);
+    let back = json!([{ "key": "compliance", "value": null }, { "key": "robot", "value": "yaskawa/mh12" }]);
+    assert_eq!(change(text, back)["text"], STUDY);
+}
+
+#[test]
 fn a_change_keeps_the_comments() {
     let served = serve(Path::new("mh12-groove"));
     let changes =

@@ -1,0 +1,29 @@
+// Robots without known joint compliances: those of a class can be assumed by one click, and results are marked then.
+
+import { h } from "../dom";
+import type { Live } from "../live";
+import type { RobotRow } from "../types";
+
+/** The robot that a problem says has no compliances; null if it says something else. */
+export const robotWithout = (message: string): string | null => /^no joint compliance is known for robot `(.+)`$/.exec(message)?.[1] ?? null;
+
+/** Sets the robot, and the class of compliances that this robot requires or no longer requires. */
+export function chooseRobot(live: Live, name: string, row: RobotRow | undefined): void {
+  live.change("robot", name, true);
+  if (!live.answer?.robot.compliance_assumed || !row) return;
+  // Compliances of a class belong to the robot before: known ones replace them, other robots have their own class.
+  if (row.compliance) live.change("compliance", null, true);
+  else if (row.compliance_class) live.change("compliance.class", row.compliance_class, true);
+}
+
+/** A button that assumes the compliances of the class of this robot; null if the problem is another one. */
+export function offerClass(message: string, live: Live, rows: RobotRow[]): HTMLElement | null {
+  const name = robotWithout(message);
+  const found = rows.find((row) => row.name === name)?.compliance_class;
+  if (name === null || !found) return null;
+  const assume = () => {
+    live.change("robot", name, true);
+    live.change("compliance.class", found, true);
+  };
+  return h("span", { class: "offer" }, h("button", { type: "button", class: "quiet small", "data-key": "assume", onclick: assume }, `Assume class ${found}`), " Every result is then marked: compliances assumed, not measured.");
+}
