@@ -212,9 +212,7 @@ library_benchmark_group!(
 );
 main!(
     // Instruction by instruction, so that quotients and roots can be counted; with loads and stores.
-    config = LibraryBenchmarkConfig::default().tool(Callgrind::with_args([
-        "--dump-instr=yes",
-        "--cache-sim=yes"
-    ])),
+    config =
+        LibraryBenchmarkConfig::default().tool(Callgrind::with_args(["--dump-instr=yes", "--cache-sim=yes"])),
     library_benchmark_groups = per_pose
 );
