@@ -177,7 +177,7 @@ fn rust(options: &Options, found: &mut BenchRun) -> Result<(), String> {
     Ok(())
 }
 
-/// After new counts: what bounds missed rows is written anew into the page; `code` where that works.
+/// After new counts: what bounds missed rows is written into the page again; `code` where that works.
 fn renew_bounds(code: ExitCode) -> ExitCode {
     let renewed = fs::read_to_string(PAGE).and_then(|page| fs::write(PAGE, bounds::with_section(&page)));
     match renewed {
