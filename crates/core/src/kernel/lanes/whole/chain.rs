@@ -137,7 +137,7 @@ impl<T: Float> Work<T> for FindFrames<'_, T> {
         while rank < self.frames.len() {
             let (before, after) = self.frames.split_at_mut(rank);
             let tool = self.flange_from_tool;
-            follow::<R>(
+            follow::<R, false>(
                 (self.chain, tool),
                 self.joints,
                 rank,
@@ -163,12 +163,12 @@ impl<T: Float> Work<T> for FindTool<'_, T> {
     fn run<R: Real<Float = T>>(self) {
         let last = self.chain.links.len() + 2;
         let chain = (self.chain, self.flange_from_tool);
-        follow_to::<R>(chain, self.joints, last, [self.tool, self.before]);
+        follow_to::<R, false>(chain, self.joints, last, [self.tool, self.before]);
     }
 }
 
-/// Fills the frame of the flange alone, with one more as memory: two frames stay in the nearest cache, those of all
-/// joints do not.
+/// Fills the frame of the flange alone, to verify it, with one more as memory: two frames stay in the nearest cache,
+/// those of all joints do not.
 pub(in crate::kernel::lanes) struct FindFlange<'a, T> {
     pub chain: &'a ChainConstants,
     pub joints: &'a [Plane<T>],
@@ -181,13 +181,13 @@ impl<T: Float> Work<T> for FindFlange<'_, T> {
     fn run<R: Real<Float = T>>(self) {
         let last = self.chain.links.len() + 1;
         let chain = (self.chain, &Displacement::NONE);
-        follow_to::<R>(chain, self.joints, last, [self.flange, self.before]);
+        follow_to::<R, true>(chain, self.joints, last, [self.flange, self.before]);
     }
 }
 
-/// Fills the first frame with that of rank `last`; the second is memory.
+/// Fills the first frame with that of rank `last`; the second is memory. `EXCHANGES`: see [`follow`].
 #[inline(always)]
-fn follow_to<R: Real>(
+fn follow_to<R: Real, const EXCHANGES: bool>(
     chain: (&ChainConstants, &Displacement),
     joints: &[Plane<R::Float>],
     last: usize,
@@ -201,7 +201,7 @@ fn follow_to<R: Real>(
     place_base::<R>(before);
     let mut rank = 1;
     while rank <= last {
-        follow::<R>(chain, joints, rank, before, after);
+        follow::<R, EXCHANGES>(chain, joints, rank, before, after);
         std::mem::swap(&mut before, &mut after);
         rank += 1;
     }
@@ -219,9 +219,10 @@ fn place_base<R: Real>(base: &mut FramePlanes<R::Float>) {
     }
 }
 
-/// The frame of this rank after that before it.
+/// The frame of this rank after that before it. With `EXCHANGES` a rotation by quarter turns exchanges axes: it neglects
+/// the rounding of its cosines, 6e-17, which a verification may.
 #[inline(always)]
-fn follow<R: Real>(
+fn follow<R: Real, const EXCHANGES: bool>(
     (chain, flange_from_tool): (&ChainConstants, &Displacement),
     joints: &[Plane<R::Float>],
     rank: usize,
@@ -236,7 +237,7 @@ fn follow<R: Real>(
         };
         translate::<R>(before, &by.translation, &mut after.origin);
         match &by.rotation {
-            Some(rotation) => rotate::<R>(&before.axes, rotation, &mut after.axes),
+            Some(rotation) => rotate::<R, EXCHANGES>(&before.axes, rotation, &mut after.axes),
             None => after.axes.clone_from(&before.axes),
         }
         return;
@@ -246,7 +247,7 @@ fn follow<R: Real>(
     let axes = match &link.before.rotation {
         Some(rotation) => {
             rotated = [planes(), planes(), planes()];
-            rotate::<R>(&before.axes, rotation, &mut rotated);
+            rotate::<R, EXCHANGES>(&before.axes, rotation, &mut rotated);
             &rotated
         }
         None => &before.axes,
@@ -315,14 +316,14 @@ fn exchanged(rotation: &Matrix3<f64>) -> Option<[(usize, f64); 3]> {
     Some(rows)
 }
 
-/// The axes after a constant rotation; many are by quarter turns, which exchange axes.
+/// The axes after a constant rotation.
 #[inline(always)]
-fn rotate<R: Real>(
+fn rotate<R: Real, const EXCHANGES: bool>(
     from: &[Planes<R::Float, 3>; 3],
     rotation: &Matrix3<f64>,
     to: &mut [Planes<R::Float, 3>; 3],
 ) {
-    if let Some(rows) = exchanged(rotation) {
+    if EXCHANGES && let Some(rows) = exchanged(rotation) {
         let mut k = 0;
         while k < 3 {
             let ((row, sign), to) = (rows[k], &mut to[k]);
