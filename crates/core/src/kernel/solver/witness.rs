@@ -25,6 +25,9 @@ const TOGETHER: usize = 100 * BLOCK;
 /// Largest difference, relative.
 const ALLOWED: f64 = 1e-12;
 
+/// The same of the drives alone, whose lanes form no angles: near a singularity of the wrist rounding of the pose grows.
+const ALLOWED_SINGULAR: f64 = 1e-10;
+
 /// What was compared.
 #[derive(Default)]
 struct Comparison {
@@ -188,8 +191,13 @@ fn lanes_are_the_plain_row_on_a_million_poses() {
                 found.handed_over,
                 found.singular
             );
+            let allowed = if model.is_drives_alone() {
+                ALLOWED_SINGULAR
+            } else {
+                ALLOWED
+            };
             assert!(
-                found.largest < ALLOWED,
+                found.largest < allowed,
                 "{} {name}: {:e}",
                 robot.name(),
                 found.largest
