@@ -1,33 +1,33 @@
 //! Instructions that a pose costs, counted by Callgrind: the same on a busy machine as on an idle one.
 //!
 //! `cargo xtask bench --instructions` runs this and compares with `bench/instructions.tsv`. Valgrind knows AVX2 and
-//! FMA but not AVX-512. To count another function: one `#[bench]` here; the name ends in the number of poses.
+//! FMA but not AVX-512. To count another function: one `#[bench]` here; the name ends in the number of poses, of
+//! placements in points x cases. The arms, maps and paths are those of the rows with the same names in
+//! `docs/performance.md`.
 // What the macros of gungraun write is not ours to document or to qualify.
 #![allow(missing_docs, unused_qualifications)]
 
 use std::hint::black_box;
 
-use armill_bench::armill::{Arm, ONE_POSTURE, isometry};
+use armill_bench::armill::{Arm, Modelled, ONE_POSTURE, isometry, map};
+use armill_bench::kinds::{Other, STEP, grid};
 use armill_bench::lanes::Places;
+use armill_bench::placements::Places as PathPlaces;
 use armill_bench::workload::poses;
 use armill_core::frame::Isometry;
-use armill_core::kernel::evaluate;
 use armill_core::kernel::lanes::{Arrays, Backend, Batch, Envelopes};
+use armill_core::kernel::{BranchChoice, evaluate};
 use armill_core::nalgebra::Vector3;
-use armill_core::robot::Branch;
+use armill_core::robot::{Branch, BranchPattern};
 use armill_core::watch::Watch;
+use gungraun::Callgrind;
 use gungraun::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 /// Not counted: building the arm, choosing the poses, starting the pool.
 fn evaluate_setup(count: usize) -> (Arm, Vec<Isometry>, ThreadPool) {
     let poses = poses(count).iter().map(isometry).collect();
-    // The benchmark's own thread works: nothing waits, and what waits is not counted.
-    let pool = ThreadPoolBuilder::new()
-        .num_threads(1)
-        .use_current_thread()
-        .build();
-    (Arm::mh12(), poses, pool.expect("a pool of the calling thread"))
+    (Arm::mh12(), poses, pool())
 }
 
 #[library_benchmark(setup = evaluate_setup)]
@@ -80,6 +80,114 @@ fn posture_and_predict(arm: Arm) -> Vector3<f64> {
     sum
 }
 
+/// A pool of the calling thread: nothing waits, and what waits is not counted.
+fn pool() -> ThreadPool {
+    let pool = ThreadPoolBuilder::new().num_threads(1).use_current_thread();
+    pool.build().expect("a pool of the calling thread")
+}
+
+fn arm_and_pool() -> (Arm, ThreadPool) {
+    (Arm::mh12(), pool())
+}
+
+#[library_benchmark(setup = arm_and_pool)]
+#[bench::poses_10201()]
+fn map_of_one_posture((arm, pool): (Arm, ThreadPool)) -> bool {
+    pool.install(|| black_box(map(&arm, Modelled::Drives, ONE_POSTURE)).is_some())
+}
+
+#[library_benchmark(setup = arm_and_pool)]
+#[bench::poses_10201()]
+fn map_of_the_best((arm, pool): (Arm, ThreadPool)) -> bool {
+    pool.install(|| black_box(map(&arm, Modelled::Drives, BranchChoice::Best)).is_some())
+}
+
+#[library_benchmark(setup = arm_and_pool)]
+#[bench::poses_10201()]
+fn springs_map_of_one_posture((arm, pool): (Arm, ThreadPool)) -> bool {
+    pool.install(|| black_box(map(&arm, Modelled::Springs, ONE_POSTURE)).is_some())
+}
+
+#[library_benchmark(setup = arm_and_pool)]
+#[bench::poses_10201()]
+fn backlash_map_of_one_posture((arm, pool): (Arm, ThreadPool)) -> bool {
+    pool.install(|| black_box(map(&arm, Modelled::Backlash, ONE_POSTURE)).is_some())
+}
+
+fn calibrated_and_pool() -> (Other, ThreadPool) {
+    (Other::calibrated(), pool())
+}
+
+#[library_benchmark(setup = calibrated_and_pool)]
+#[bench::poses_3721()]
+fn calibrated_map_of_one_posture((arm, pool): (Other, ThreadPool)) -> bool {
+    let front = BranchChoice::Of(BranchPattern::FRONT_ELBOW_UP);
+    pool.install(|| black_box(arm.map(front, grid(STEP))).is_some())
+}
+
+#[library_benchmark(setup = calibrated_and_pool)]
+#[bench::poses_3721()]
+fn calibrated_map_of_the_best((arm, pool): (Other, ThreadPool)) -> bool {
+    pool.install(|| black_box(arm.map(BranchChoice::Best, grid(STEP))).is_some())
+}
+
+fn ur10_and_pool() -> (Other, ThreadPool) {
+    (Other::ur10(), pool())
+}
+
+fn iiwa_and_pool() -> (Other, ThreadPool) {
+    (Other::iiwa(), pool())
+}
+
+fn open_wrist_and_pool() -> (Other, ThreadPool) {
+    (Other::open_wrist(), pool())
+}
+
+#[library_benchmark(setup = ur10_and_pool)]
+#[bench::poses_4000()]
+fn ur10_postures((arm, pool): (Other, ThreadPool)) -> bool {
+    pool.install(|| black_box(arm.postures()).is_some())
+}
+
+#[library_benchmark(setup = iiwa_and_pool)]
+#[bench::poses_4000()]
+fn iiwa_postures((arm, pool): (Other, ThreadPool)) -> bool {
+    pool.install(|| black_box(arm.postures()).is_some())
+}
+
+#[library_benchmark(setup = open_wrist_and_pool)]
+#[bench::poses_10()]
+fn open_wrist_postures((arm, pool): (Other, ThreadPool)) -> bool {
+    pool.install(|| black_box(arm.postures()).is_some())
+}
+
+fn one_pose_setup() -> (Arm, Vec<Isometry>) {
+    (Arm::mh12(), poses(100).iter().map(isometry).collect())
+}
+
+#[library_benchmark(setup = one_pose_setup)]
+#[bench::poses_100()]
+fn postures_of_one_pose((arm, poses): (Arm, Vec<Isometry>)) -> usize {
+    let all = poses.iter().map(|pose| black_box(arm.all_postures(pose)));
+    all.sum()
+}
+
+fn placement_setup() -> (Arm, PathPlaces, ThreadPool) {
+    (Arm::mh12(), PathPlaces::steady(), pool())
+}
+
+#[library_benchmark(setup = placement_setup)]
+#[bench::poses_80000()]
+fn placement((arm, places, pool): (Arm, PathPlaces, ThreadPool)) -> usize {
+    pool.install(|| black_box(places.evaluate(&arm, Modelled::Drives, 1)).unreachable)
+}
+
+#[library_benchmark(setup = placement_setup)]
+#[bench::poses_80000()]
+fn placement_with_springs((arm, places, pool): (Arm, PathPlaces, ThreadPool)) -> usize {
+    pool.install(|| black_box(places.evaluate(&arm, Modelled::Springs, 1)).unreachable)
+}
+
 library_benchmark_group!(
     name = per_pose,
     benchmarks = [
@@ -87,7 +195,24 @@ library_benchmark_group!(
         lanes_c66,
         lanes_ik8,
         kernel_evaluate,
-        posture_and_predict
+        posture_and_predict,
+        map_of_one_posture,
+        map_of_the_best,
+        springs_map_of_one_posture,
+        backlash_map_of_one_posture,
+        calibrated_map_of_one_posture,
+        calibrated_map_of_the_best,
+        ur10_postures,
+        iiwa_postures,
+        open_wrist_postures,
+        postures_of_one_pose,
+        placement,
+        placement_with_springs
     ]
 );
-main!(library_benchmark_groups = per_pose);
+main!(
+    // Instruction by instruction, so that quotients and roots can be counted; with loads and stores.
+    config =
+        LibraryBenchmarkConfig::default().tool(Callgrind::with_args(["--dump-instr=yes", "--cache-sim=yes"])),
+    library_benchmark_groups = per_pose
+);

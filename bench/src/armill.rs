@@ -6,7 +6,7 @@ use armill_core::compliance::compliance_at_tool;
 use armill_core::frame::Isometry;
 use armill_core::kernel::{BranchChoice, Question, evaluate, evaluate_at_joints, postures_at};
 use armill_core::load::InputUncertainty;
-use armill_core::map::plane_map;
+use armill_core::map::{PlaneMap, plane_map};
 use armill_core::nalgebra::{Matrix3, Point3, Rotation3, Translation3, Unit, UnitQuaternion, Vector3};
 use armill_core::robot::inverse::{OrthoParallel, ToolAt, posture_at, postures};
 use armill_core::robot::joint::{JointCompliance, Sign};
@@ -118,6 +118,16 @@ impl Arm {
             ))
         });
         all.collect()
+    }
+
+    /// Number of postures of this pose, which the function for one pose finds.
+    pub fn all_postures(&self, pose: &Isometry) -> usize {
+        let at = ToolAt {
+            flange_from_tool: &self.tool,
+            near: None,
+            home: None,
+        };
+        postures(&self.robot, pose, at).map_or(0, |found| found.len())
     }
 
     /// What `predict` says of one posture under one load.
@@ -292,11 +302,27 @@ fn one_pose(arm: &Arm) -> Vec<Candidate<'_>> {
     ]
 }
 
+/// A map of 101 x 101 points.
+pub fn map(arm: &Arm, modelled: Modelled, choice: BranchChoice) -> Option<PlaneMap> {
+    let (plane, grid) = map_plane();
+    let question = Question {
+        normal: plane.normal(),
+        ..arm.question_with(modelled, choice)
+    };
+    plane_map(&question, plane, grid, Watch::NONE).ok()
+}
+
+/// Points of [`map`].
+pub const MAP_POINTS: usize = 101 * 101;
+
+fn map_plane() -> (Plane, Grid) {
+    let plane = Plane::tilted(Point3::new(1.0, 0.0, 0.8), 0.0);
+    (plane, Grid::within([0.4, 0.4], 0.008))
+}
+
 /// Maps of 101 x 101 points under four cases, on one thread; the rate counts points.
 fn maps<'a>(arm: &'a Arm, one_thread: &'a ThreadPool) -> Vec<Candidate<'a>> {
     const WHO: &str = "armill, map 101 x 101, 4 cases";
-    let plane = Plane::tilted(Point3::new(1.0, 0.0, 0.8), 0.0);
-    let grid = Grid::within([0.4, 0.4], 0.008);
     let choices = [
         ("one posture", ONE_POSTURE),
         (
@@ -305,24 +331,16 @@ fn maps<'a>(arm: &'a Arm, one_thread: &'a ThreadPool) -> Vec<Candidate<'a>> {
         ),
         ("best of all 8", BranchChoice::Best),
     ];
-    let map = |(name, choice)| {
-        let question = Question {
-            normal: plane.normal(),
-            ..arm.question(choice)
-        };
-        Candidate::new(WHO, name, grid.len(), move || {
-            one_thread
-                .install(|| black_box(plane_map(&question, plane, grid, Watch::NONE)))
-                .ok();
+    let row = |(name, choice)| {
+        Candidate::new(WHO, name, MAP_POINTS, move || {
+            one_thread.install(|| black_box(map(arm, Modelled::Drives, choice)));
         })
     };
-    choices.into_iter().map(map).collect()
+    choices.into_iter().map(row).collect()
 }
 
 /// Maps with more than the drives; the rate counts points.
 fn whole_maps<'a>(arm: &'a Arm, one_thread: &'a ThreadPool) -> Vec<Candidate<'a>> {
-    let plane = Plane::tilted(Point3::new(1.0, 0.0, 0.8), 0.0);
-    let grid = Grid::within([0.4, 0.4], 0.008);
     let models = [
         ("armill, MH12 with 18 springs and gravity", Modelled::Springs),
         ("armill, MH12 with springs, gravity, backlash", Modelled::Backlash),
@@ -332,14 +350,8 @@ fn whole_maps<'a>(arm: &'a Arm, one_thread: &'a ThreadPool) -> Vec<Candidate<'a>
         ("map, best of all", BranchChoice::Best),
     ];
     let row = |who, modelled, name, choice| {
-        let question = Question {
-            normal: plane.normal(),
-            ..arm.question_with(modelled, choice)
-        };
-        Candidate::new(who, name, grid.len(), move || {
-            one_thread
-                .install(|| black_box(plane_map(&question, plane, grid, Watch::NONE)))
-                .ok();
+        Candidate::new(who, name, MAP_POINTS, move || {
+            one_thread.install(|| black_box(map(arm, modelled, choice)));
         })
         .note("angles, limits, shares of every source, uncertainty; verified")
     };

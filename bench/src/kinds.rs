@@ -13,9 +13,9 @@
 use std::hint::black_box;
 
 use armill_core::frame::Isometry;
-use armill_core::kernel::{BranchChoice, Question, postures_at};
+use armill_core::kernel::{BranchChoice, PosturesAt, Question, postures_at};
 use armill_core::load::InputUncertainty;
-use armill_core::map::plane_map;
+use armill_core::map::{PlaneMap, plane_map};
 use armill_core::nalgebra::{Point3, Unit};
 use armill_core::robot::inverse::{Inverse, posture_at};
 use armill_core::robot::{Amount, Axis, BranchPattern, Joint, JointCompliance, Limits, Motion, Robot};
@@ -35,7 +35,7 @@ const POSES: usize = 4000;
 /// The same where postures are searched for: that takes a tenth of a second.
 const POSES_SEARCHED: usize = 10;
 /// Pitch of a map, m.
-const STEP: f64 = 0.005;
+pub const STEP: f64 = 0.005;
 /// The same where all postures are searched for at every point, m.
 const STEP_SEARCHED: f64 = 0.05;
 
@@ -51,21 +51,11 @@ pub struct Other {
 
 /// All arms of the table above.
 pub fn others() -> Vec<Other> {
-    let mh12 = Arm::mh12();
-    let at = |x: f64, z: f64| Plane::tilted(Point3::new(x, 0.0, z), 0.0);
     vec![
-        Other::new(
-            "armill, MH12 a micrometre off",
-            moved(mh12.robot(), [1e-6, 1e-6]),
-            at(1.0, 0.8),
-        ),
-        Other::new(
-            "armill, MH12 with an open wrist",
-            moved(mh12.robot(), [0.0, 0.03]),
-            at(1.0, 0.8),
-        ),
-        Other::new("armill, UR10", of_rows("ur10", &UR10), at(0.7, 0.5)),
-        Other::new("armill, iiwa 14", of_rows("iiwa14", &IIWA14), at(0.45, 0.6)),
+        Other::calibrated(),
+        Other::open_wrist(),
+        Other::ur10(),
+        Other::iiwa(),
     ]
 }
 
@@ -78,7 +68,30 @@ pub fn candidates<'a>(others: &'a [Other], one_thread: &'a ThreadPool) -> Vec<Ca
 }
 
 impl Other {
-    fn new(who: &'static str, robot: Robot, plane: Plane) -> Other {
+    /// The MH12 a micrometre off.
+    pub fn calibrated() -> Other {
+        let robot = moved(Arm::mh12().robot(), [1e-6, 1e-6]);
+        Other::new("armill, MH12 a micrometre off", robot, [1.0, 0.8])
+    }
+
+    /// The MH12 with an open wrist.
+    pub fn open_wrist() -> Other {
+        let robot = moved(Arm::mh12().robot(), [0.0, 0.03]);
+        Other::new("armill, MH12 with an open wrist", robot, [1.0, 0.8])
+    }
+
+    /// The UR10.
+    pub fn ur10() -> Other {
+        Other::new("armill, UR10", of_rows("ur10", &UR10), [0.7, 0.5])
+    }
+
+    /// The iiwa 14.
+    pub fn iiwa() -> Other {
+        Other::new("armill, iiwa 14", of_rows("iiwa14", &IIWA14), [0.45, 0.6])
+    }
+
+    /// The middle of its map is at x and z, m.
+    fn new(who: &'static str, robot: Robot, [x, z]: [f64; 2]) -> Other {
         let compliance = vec![
             JointCompliance {
                 value: 1e-6,
@@ -101,10 +114,40 @@ impl Other {
                 .map(pose)
                 .collect(),
             robot,
-            plane,
+            plane: Plane::tilted(Point3::new(x, 0.0, z), 0.0),
             tool,
             cases: FORCES.map(|force| Wrench::from_force(force.into())).to_vec(),
         }
+    }
+
+    /// Number of its poses.
+    pub fn count(&self) -> usize {
+        self.poses.len()
+    }
+
+    /// Every posture of its poses.
+    pub fn postures(&self) -> Option<PosturesAt> {
+        let tool_from_flange = self.tool.inverse();
+        let flange = |i: usize| self.poses[i] * tool_from_flange;
+        postures_at(&self.robot, self.poses.len(), flange, None, Watch::NONE).ok()
+    }
+
+    /// Its map on this grid.
+    pub fn map(&self, choice: BranchChoice, grid: Grid) -> Option<PlaneMap> {
+        let question = Question {
+            arm: armill_core::source::Arm {
+                robot: &self.robot,
+                compliance: self.robot.compliance().unwrap_or_default(),
+                model: StiffnessModel::DRIVES,
+                flange_from_tool: &self.tool,
+            },
+            home: None,
+            cases: &self.cases,
+            normal: Unit::new_unchecked(NORMAL.into()),
+            choice,
+            uncertainty: InputUncertainty::NONE,
+        };
+        plane_map(&question, self.plane, grid, Watch::NONE).ok()
     }
 
     fn candidates<'a>(&'a self, one_thread: &'a ThreadPool) -> Vec<Candidate<'a>> {
@@ -122,40 +165,13 @@ impl Other {
             ("map, best of all", BranchChoice::Best, pitch),
         ];
         let map = |(name, choice, pitch)| {
-            let grid = Grid::within([0.15, 0.15], pitch);
-            let question = Question {
-                arm: armill_core::source::Arm {
-                    robot: &self.robot,
-                    compliance: self.robot.compliance().unwrap_or_default(),
-                    model: StiffnessModel::DRIVES,
-                    flange_from_tool: &self.tool,
-                },
-                home: None,
-                cases: &self.cases,
-                normal: Unit::new_unchecked(NORMAL.into()),
-                choice,
-                uncertainty: InputUncertainty::NONE,
-            };
+            let grid = grid(pitch);
             Candidate::new(self.who, name, grid.len(), move || {
-                one_thread
-                    .install(|| black_box(plane_map(&question, self.plane, grid, Watch::NONE)))
-                    .ok();
+                one_thread.install(|| black_box(self.map(choice, grid)));
             })
         };
         let all = move || {
-            let tool_from_flange = self.tool.inverse();
-            let flange = |i: usize| self.poses[i] * tool_from_flange;
-            one_thread
-                .install(|| {
-                    black_box(postures_at(
-                        &self.robot,
-                        self.poses.len(),
-                        flange,
-                        None,
-                        Watch::NONE,
-                    ))
-                })
-                .ok();
+            one_thread.install(|| black_box(self.postures()));
         };
         let mut rows: Vec<Candidate<'a>> = choices.into_iter().map(map).collect();
         rows.push(
@@ -164,6 +180,11 @@ impl Other {
         );
         rows
     }
+}
+
+/// The grid of a map with this pitch, m.
+pub fn grid(pitch: f64) -> Grid {
+    Grid::within([0.15, 0.15], pitch)
 }
 
 /// Whether the postures of this arm are searched for.

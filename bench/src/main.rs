@@ -1,5 +1,6 @@
-//! `armill-bench FOLDER [--quick] [--paths | --peers]`: writes the workload into FOLDER for peers in other languages,
-//! checks that all candidates agree, times them in turn, and prints a row for each; called by `cargo xtask bench`.
+//! `armill-bench FOLDER [--quick] [--paths | --peers] [--rows=TEXT]`: writes the workload into FOLDER for peers in other
+//! languages, checks that all candidates agree, times them in turn, and prints a row for each; called by `cargo xtask
+//! bench`. With `--rows=TEXT` only rows whose program and work contain TEXT: to profile one.
 //!
 //! | | rows | built |
 //! |---|---|---|
@@ -37,9 +38,15 @@ const BLOCK: usize = 256;
 fn main() -> ExitCode {
     let arguments: Vec<String> = env::args().skip(1).collect();
     let requested = |name: &str| arguments.iter().skip(1).any(|argument| argument == name);
-    let known = |argument: &String| ["--quick", "--paths", "--peers"].contains(&argument.as_str());
+    let rows = arguments
+        .iter()
+        .skip(1)
+        .find_map(|argument| argument.strip_prefix("--rows="));
+    let known = |argument: &String| {
+        ["--quick", "--paths", "--peers"].contains(&argument.as_str()) || argument.starts_with("--rows=")
+    };
     let (Some(folder), true) = (arguments.first(), arguments.iter().skip(1).all(known)) else {
-        eprintln!("usage: armill-bench FOLDER [--quick] [--paths | --peers]");
+        eprintln!("usage: armill-bench FOLDER [--quick] [--paths | --peers] [--rows=TEXT]");
         return ExitCode::from(2);
     };
     let rounds = if requested("--quick") {
@@ -52,7 +59,7 @@ fn main() -> ExitCode {
         (_, true) => Part::Paths,
         _ => Part::Armill,
     };
-    match run(Path::new(folder), rounds, part) {
+    match run(Path::new(folder), rounds, part, rows.unwrap_or_default()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(problem) => {
             eprintln!("{problem}");
@@ -69,7 +76,7 @@ enum Part {
     Peers,
 }
 
-fn run(folder: &Path, rounds: usize, part: Part) -> Result<(), String> {
+fn run(folder: &Path, rounds: usize, part: Part, rows: &str) -> Result<(), String> {
     let (arm, poses) = (Arm::mh12(), poses(COUNT));
     fs::create_dir_all(folder)
         .and_then(|()| files::write(folder, &poses))
@@ -102,6 +109,7 @@ fn run(folder: &Path, rounds: usize, part: Part) -> Result<(), String> {
         all.extend(paths::candidates(&arm, &zigzag));
         all.extend(placements::candidates(&arm, [&steady, &leaning], &pools[0]));
     }
+    all.retain(|candidate| format!("{} {}", candidate.who, candidate.work).contains(rows));
     let rates = rates(&mut all, rounds);
     for (candidate, rate) in all.iter().zip(&rates) {
         println!("{}", row(candidate, rate));

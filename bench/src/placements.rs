@@ -135,6 +135,62 @@ fn track(lean: f64) -> Track {
     }
 }
 
+/// The score of the best of these placements on the calling thread; a search drops those that are no better.
+fn best(
+    arm: &Arm,
+    modelled: Modelled,
+    (path, placements): (&PlacedPath, &[PartPlacement]),
+    search: Option<Objective>,
+) -> Score {
+    let question: Question<'_> = arm.question_with(modelled, ONE_POSTURE);
+    let placeable = Placeable {
+        question: &question,
+        path,
+        objective: PlacementObjective {
+            component: Component::InPlane,
+            objective: search.unwrap_or(Objective::Worst),
+            branches: BranchPattern::FRONT_ELBOW_UP,
+            margin: 0.0,
+            wrist: 0.0,
+            rank_by: RankBy::Nominal,
+            selection: PostureSelection::ForPath,
+        },
+    };
+    let mut best = Score::NONE;
+    for chunk in placements.chunks(4) {
+        let bar = search.is_some().then_some(&best);
+        let scores = placeable.scores(chunk, bar, Watch::NONE);
+        for score in scores.expect("not cancelled").into_iter().flatten() {
+            assert!(
+                search.is_some() || score.unreachable == 0,
+                "{} points unreachable",
+                score.unreachable
+            );
+            if score.beats(&best) {
+                best = score;
+            }
+        }
+    }
+    best
+}
+
+impl Places {
+    /// Evaluates the first `count` placements, none dropped; the score of the best.
+    pub fn evaluate(&self, arm: &Arm, modelled: Modelled, count: usize) -> Score {
+        best(arm, modelled, (&self.path, &self.placements[..count]), None)
+    }
+
+    /// Points x cases of a placement.
+    pub fn size(&self) -> usize {
+        POINTS * self.path.case_count()
+    }
+
+    fn search(&self, arm: &Arm, objective: Objective) -> Score {
+        let all = (&self.path, &self.placements[..]);
+        best(arm, Modelled::Drives, all, Some(objective))
+    }
+}
+
 /// Every row.
 pub fn candidates<'a>(
     arm: &'a Arm,
@@ -142,69 +198,32 @@ pub fn candidates<'a>(
     one_thread: &'a ThreadPool,
 ) -> Vec<Candidate<'a>> {
     const WHO: &str = "armill placement";
-    let evaluated_with = move |modelled: Modelled,
-                               placements: &[PartPlacement],
-                               path: &PlacedPath,
-                               search: Option<Objective>| {
-        let question: Question<'_> = arm.question_with(modelled, ONE_POSTURE);
-        let placeable = Placeable {
-            question: &question,
-            path,
-            objective: PlacementObjective {
-                component: Component::InPlane,
-                objective: search.unwrap_or(Objective::Worst),
-                branches: BranchPattern::FRONT_ELBOW_UP,
-                margin: 0.0,
-                wrist: 0.0,
-                rank_by: RankBy::Nominal,
-                selection: PostureSelection::ForPath,
-            },
-        };
-        let mut best = Score::NONE;
-        for chunk in placements.chunks(4) {
-            let bar = search.is_some().then_some(&best);
-            let scores = one_thread.install(|| placeable.scores(chunk, bar, Watch::NONE));
-            for score in scores.expect("not cancelled").into_iter().flatten() {
-                assert!(
-                    search.is_some() || score.unreachable == 0,
-                    "{} points unreachable",
-                    score.unreachable
-                );
-                if score.beats(&best) {
-                    best = score;
-                }
-            }
-        }
-        black_box(best);
+    let evaluated = move |places: &Places, modelled: Modelled, count: usize| {
+        one_thread.install(|| black_box(places.evaluate(arm, modelled, count)));
     };
-    let evaluated = move |placements: &[PartPlacement], path: &PlacedPath, search: Option<Objective>| {
-        evaluated_with(Modelled::Drives, placements, path, search);
+    let searched = move |objective: Objective| {
+        one_thread.install(|| black_box(steady.search(arm, objective)));
     };
-    let count = |places: usize| places * POINTS * steady.path.case_count();
+    let count = |places: usize| places * steady.size();
     vec![
         Candidate::new(WHO, STEADY, count(PLACES), move || {
-            evaluated(&steady.placements[..PLACES], &steady.path, None);
+            evaluated(steady, Modelled::Drives, PLACES);
         })
         .note("MH12, 20 000 points, four cases; six free degrees"),
         Candidate::new(WHO, LEANING, count(PLACES), move || {
-            evaluated(&leaning.placements[..PLACES], &leaning.path, None);
+            evaluated(leaning, Modelled::Drives, PLACES);
         })
         .note("the same, with a rotation, directions and wrenches of its own at each point"),
         Candidate::new(WHO, WHOLE, count(PLACES / 8), move || {
-            evaluated_with(
-                Modelled::Springs,
-                &steady.placements[..PLACES / 8],
-                &steady.path,
-                None,
-            );
+            evaluated(steady, Modelled::Springs, PLACES / 8);
         })
         .note("as with one tool axis"),
         Candidate::new(WHO, SEARCH_WORST, count(SEARCHED), move || {
-            evaluated(&steady.placements, &steady.path, Some(Objective::Worst));
+            searched(Objective::Worst)
         })
         .note("480 places; one no better than the best so far is given up, seen in single precision first"),
         Candidate::new(WHO, SEARCH_MEAN, count(SEARCHED), move || {
-            evaluated(&steady.placements, &steady.path, Some(Objective::Mean));
+            searched(Objective::Mean)
         })
         .note("the same, where the mean counts"),
     ]

@@ -111,6 +111,9 @@ const fn aim(text: &'static str, row: Side, must: f64, stretch: f64) -> Aim {
 
 /// How rows of armill's lanes begin, without the back end.
 const LANES: &str = "armill lanes f64";
+/// The row of the Python package, and its work on many poses.
+const PACKAGE: &str = "armill for Python";
+const MANY: &str = "dev from angles, a million poses a call";
 /// The row of the version that anyone would write.
 const PLAIN: &str = "plain Rust with trigonometry";
 
@@ -202,6 +205,23 @@ const GOALS: &[Goal] = &[
         theirs: lanes("dev"),
         must: 1.9,
         stretch: 1.97,
+    },
+    Goal {
+        text: "Python, deviation at joint positions, 100 000 poses a call, against Rust",
+        ours: side(PACKAGE, PACKAGE, "dev from angles"),
+        theirs: side("armill evaluate_at_joints", "", "dev from angles"),
+        must: 0.95,
+        stretch: 1.0,
+    },
+    Goal {
+        text: "Python, a million poses a call, two threads against one",
+        ours: Side {
+            threads: 2,
+            ..side(PACKAGE, PACKAGE, MANY)
+        },
+        theirs: side(PACKAGE, PACKAGE, MANY),
+        must: 1.8,
+        stretch: 1.95,
     },
     Goal {
         text: "dev, AVX2 path against the widest",

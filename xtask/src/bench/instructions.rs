@@ -7,32 +7,57 @@
 //! |---|---|
 //! | `function` | name in `bench/benches/instructions.rs` |
 //! | `instructions_per_pose` | one decimal |
+//! | `quotients_per_pose`, `roots_per_pose` | those of a vector are several; empty without `objdump` |
+//! | `loads_per_pose`, `stores_per_pose` | a vector is one; those of libraries are not included; empty without `objdump` |
+//! | `in_libraries_per_pose` | instructions in libraries of the system; empty without `objdump` |
 //! | `compiler` | what `rustc --version` prints; reported, not compared |
 //!
 //! A rise of more than 2 % against the record is a regression and exits with 1; a fall is reported and needs a new
 //! record only to be kept.
 
 use super::bench_cargo;
+use super::operations::{Dividing, Operations};
 use crate::command::{cargo, printed};
 use crate::{COULD_NOT_RUN, FOUND_WRONG};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 use std::{env, fs};
 
 /// What was counted before, kept in the repository.
 const RECORD: &str = "bench/instructions.tsv";
+const COLUMNS: [&str; 8] = [
+    "function",
+    "instructions_per_pose",
+    "quotients_per_pose",
+    "roots_per_pose",
+    "loads_per_pose",
+    "stores_per_pose",
+    "in_libraries_per_pose",
+    "compiler",
+];
 /// Where the runner is installed.
 const TOOLS: &str = "target/tools";
+/// Where the runner puts what Callgrind writes.
+const OUTPUT: &str = "target/bench-callgrind";
 /// Must be the version of gungraun in `bench/Cargo.toml`.
 const RUNNER: &str = "0.20.0";
 /// A rise above this share is a regression: smaller ones come with any change of the compiler's mind.
 const ALLOWED: f64 = 0.02;
 
-/// What one function costs.
+/// What one function costs a pose.
 #[derive(Debug, PartialEq)]
-struct Count {
+pub struct Count {
     function: String,
-    per_pose: f64,
+    /// Instructions.
+    pub per_pose: f64,
+    /// Where the instructions could be listed.
+    pub operations: Option<Operations>,
+}
+
+/// The count of this function in the record.
+pub fn recorded(function: &str) -> Option<Count> {
+    let all = read(&fs::read_to_string(RECORD).unwrap_or_default());
+    all.into_iter().find(|count| count.function == function)
 }
 
 /// Counts, and compares or records.
@@ -92,11 +117,58 @@ fn counted() -> Result<Vec<Count>, String> {
         printed(&mut cargo(&install))?;
     }
     let mut command = bench_cargo(&["bench", "--bench", "instructions"]);
-    printed(command.env("GUNGRAUN_RUNNER", runner)).map(|given| parse(&given))
+    command.env("GUNGRAUN_RUNNER", runner);
+    command.env(
+        "GUNGRAUN_HOME",
+        env::current_dir().unwrap_or_default().join(OUTPUT),
+    );
+    let mut counts = printed(&mut command).map(|given| parse(&given))?;
+    let mut programs: Vec<(String, Dividing)> = Vec::new();
+    for (count, poses) in &mut counts {
+        count.operations = operations(&count.function, &mut programs).map(|sum| sum.per_pose(*poses));
+    }
+    Ok(counts.into_iter().map(|(count, _)| count).collect())
 }
 
-/// Reads `instructions::group::function poses_100:...` and the line `Instructions: 123|...` after it.
-fn parse(printed: &str) -> Vec<Count> {
+/// Operations of a function in the last run; `programs`: those listed so far.
+fn operations(function: &str, programs: &mut Vec<(String, Dividing)>) -> Option<Operations> {
+    let callgrind = fs::read_to_string(callgrind_file(function)?).ok()?;
+    let name = callgrind.lines().find_map(|line| {
+        let object = line.strip_prefix("ob=")?;
+        let path = object.split_once(' ').map_or(object, |(_, path)| path);
+        Path::new(path)
+            .file_name()
+            .and_then(|name| name.to_str())
+            .filter(|name| name.starts_with("instructions-"))
+            .map(|_| path.to_owned())
+    })?;
+    if !programs.iter().any(|(program, _)| *program == name) {
+        let listing = printed(Command::new("objdump").args(["-d", "--no-show-raw-insn", &name])).ok()?;
+        programs.push((name.clone(), Dividing::of(&listing)));
+    }
+    let (_, dividing) = programs.iter().find(|(program, _)| *program == name)?;
+    dividing.counted(&callgrind, &name)
+}
+
+/// The file that Callgrind wrote for this function.
+fn callgrind_file(function: &str) -> Option<PathBuf> {
+    let folder = Path::new(OUTPUT).join("armill-bench/instructions/per_pose");
+    let case = fs::read_dir(folder).ok()?.flatten().find(|entry| {
+        let name = entry.file_name();
+        let (of, _) = name
+            .to_str()
+            .and_then(|name| name.split_once('.'))
+            .unwrap_or_default();
+        of == function
+    })?;
+    let files = fs::read_dir(case.path()).ok()?.flatten();
+    let mut paths = files.map(|file| file.path());
+    paths.find(|path| path.extension().is_some_and(|extension| extension == "out"))
+}
+
+/// Reads `instructions::group::function poses_100:...` and the line `Instructions: 123|...` after it; with the number of
+/// poses.
+fn parse(printed: &str) -> Vec<(Count, f64)> {
     let mut counts = Vec::new();
     let mut counting: Option<(&str, f64)> = None;
     for line in printed.lines() {
@@ -109,9 +181,13 @@ fn parse(printed: &str) -> Vec<Count> {
                 .split('|')
                 .next()
                 .and_then(|total| total.trim().parse::<f64>().ok());
-            counts.extend(total.map(|total| Count {
-                function: function.to_owned(),
-                per_pose: total / poses,
+            counts.extend(total.map(|total| {
+                let count = Count {
+                    function: function.to_owned(),
+                    per_pose: total / poses,
+                    operations: None,
+                };
+                (count, poses)
             }));
             counting = None;
         }
@@ -147,9 +223,25 @@ fn compared(count: &Count, before: Option<&Count>) -> (String, bool) {
 
 /// The text of the record, one line a function.
 fn written(counts: &[Count], compiler: &str) -> String {
-    let mut text = String::from("function\tinstructions_per_pose\tcompiler\n");
+    let mut text = format!("{}\n", COLUMNS.join("\t"));
     for count in counts {
-        text += &format!("{}\t{:.1}\t{compiler}\n", count.function, count.per_pose);
+        let operations = match count.operations {
+            Some(each) => [
+                each.quotients,
+                each.roots,
+                each.loads,
+                each.stores,
+                each.in_libraries,
+            ]
+            .map(|value| format!("{value:.2}")),
+            None => Default::default(),
+        };
+        text += &format!(
+            "{}\t{:.1}\t{}\t{compiler}\n",
+            count.function,
+            count.per_pose,
+            operations.join("\t")
+        );
     }
     text
 }
@@ -158,9 +250,21 @@ fn written(counts: &[Count], compiler: &str) -> String {
 fn read(text: &str) -> Vec<Count> {
     let row = |line: &str| {
         let mut fields = line.split('\t');
+        let (function, per_pose) = (fields.next()?, fields.next()?.parse().ok()?);
+        let mut number = || fields.next()?.parse().ok();
+        let mut operations = || {
+            Some(Operations {
+                quotients: number()?,
+                roots: number()?,
+                loads: number()?,
+                stores: number()?,
+                in_libraries: number()?,
+            })
+        };
         Some(Count {
-            function: fields.next()?.to_owned(),
-            per_pose: fields.next()?.parse().ok()?,
+            function: function.to_owned(),
+            per_pose,
+            operations: operations(),
         })
     };
     text.lines().filter_map(row).collect()
@@ -174,18 +278,30 @@ mod tests {
         Count {
             function: "evaluate".to_owned(),
             per_pose,
+            operations: None,
         }
     }
 
     #[test]
     fn counts_are_read_per_pose() {
         let printed = "instructions::per_pose::evaluate poses_200:(setup(200))\n  Instructions:   5000|N/A  (*)\n  L1 Hits: 3|N/A\n";
-        assert_eq!(parse(printed), [count(25.0)]);
+        assert_eq!(parse(printed), [(count(25.0), 200.0)]);
     }
 
     #[test]
     fn written_files_can_be_read() {
-        assert_eq!(read(&written(&[count(25.0)], "rustc 1.95.0")), [count(25.0)]);
+        let divided = Count {
+            operations: Some(Operations {
+                quotients: 2.5,
+                roots: 0.25,
+                loads: 12.0,
+                stores: 7.0,
+                in_libraries: 3.0,
+            }),
+            ..count(30.0)
+        };
+        let counts = [count(25.0), divided];
+        assert_eq!(read(&written(&counts, "rustc 1.95.0")), counts);
     }
 
     #[test]

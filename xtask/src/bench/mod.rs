@@ -4,22 +4,27 @@
 //! rows; here they are called, put side by side ([`page`]) and compared with the goals ([`goals`]). What a peer needs
 //! is installed under `target/` ([`peers`]); a peer that is not available is reported and left out.
 //!
-//! `row`: what a program prints; `instructions`: the same work in instructions instead of time; `machine`: where it
-//! ran.
+//! `bounds`: what bounds the rows that miss their goal; `witness`: whether fast and plain version agree; `row`: what a
+//! program prints; `instructions`: the same work in instructions instead of time, `operations`: quotients,
+//! roots, loads and stores of it; `machine`: where it ran.
 //!
 //! | arguments | what runs | writes the page |
 //! |---|---|---|
 //! | none | armill, peers in Rust, Python and C++ | yes |
 //! | `--quick` | the same with fewer rounds | no |
 //! | `--only rust`, `--only paths` | a part | no |
-//! | `--instructions` | counts under Valgrind, against the record | no; `--record` writes the record |
+//! | `--instructions` | counts under Valgrind, against the record | no; `--record` writes the record, and what bounds missed rows |
+//! | `--witness` | compares lanes with the plain version on 10^6 poses of eight arms | no, prints a table |
 
+mod bounds;
 mod goals;
 mod instructions;
 mod machine;
+mod operations;
 mod page;
 mod peers;
 mod row;
+mod witness;
 
 use crate::command::{cargo, printed};
 use crate::{COULD_NOT_RUN, FOUND_WRONG};
@@ -30,7 +35,7 @@ use std::process::{Command, ExitCode};
 
 /// Description in the list of tasks.
 pub const ABOUT: &str =
-    "Times armill and its peers: [--quick] [--only rust|paths] | --instructions [--record].";
+    "Times armill and its peers: [--quick] [--only rust|paths] | --instructions [--record] | --witness.";
 
 /// The page that a full run writes.
 const PAGE: &str = "docs/performance.md";
@@ -49,6 +54,7 @@ struct Options {
     instructions: bool,
     /// Whether counts become the new record; with `instructions` alone.
     record: bool,
+    witness: bool,
 }
 
 /// The selected part of the benchmarks.
@@ -71,11 +77,17 @@ struct BenchRun {
 /// Runs all benchmarks and writes the page, or prints it alone if the run was not a full one.
 pub fn run(arguments: &[String]) -> ExitCode {
     let Some(options) = options(arguments) else {
-        eprintln!("usage: cargo xtask bench [--quick] [--only rust|paths] | --instructions [--record]");
+        eprintln!(
+            "usage: cargo xtask bench [--quick] [--only rust|paths] | --instructions [--record] | --witness"
+        );
         return ExitCode::from(COULD_NOT_RUN);
     };
+    if options.witness {
+        return witness::run();
+    }
     if options.instructions {
-        return instructions::run(options.record);
+        let code = instructions::run(options.record);
+        return if options.record { renew_bounds(code) } else { code };
     }
     match measured(&options).and_then(|found| publish(&options, &found)) {
         Ok(()) => ExitCode::SUCCESS,
@@ -102,6 +114,7 @@ fn options(arguments: &[String]) -> Option<Options> {
             }
             "--instructions" => options.instructions = true,
             "--record" => options.record = true,
+            "--witness" => options.witness = true,
             _ => return None,
         }
     }
@@ -123,6 +136,7 @@ fn measured(options: &Options) -> Result<BenchRun, String> {
         Ok(()) => {
             found.read(&printed(options.quicken(&mut peers::python()))?);
             for (who, peer) in [
+                ("armill for Python", peers::package()),
                 ("Pinocchio", peers::pinocchio()),
                 ("C++ by hand", peers::by_hand()),
             ] {
@@ -163,6 +177,18 @@ fn rust(options: &Options, found: &mut BenchRun) -> Result<(), String> {
     Ok(())
 }
 
+/// After new counts: what bounds missed rows is written into the page again; `code` where that works.
+fn renew_bounds(code: ExitCode) -> ExitCode {
+    let renewed = fs::read_to_string(PAGE).and_then(|page| fs::write(PAGE, bounds::with_section(&page)));
+    match renewed {
+        Ok(()) => code,
+        Err(problem) => {
+            eprintln!("cannot renew {PAGE}: {problem}");
+            ExitCode::from(COULD_NOT_RUN)
+        }
+    }
+}
+
 /// `cargo` on the package in `bench/`.
 fn bench_cargo(arguments: &[&str]) -> Command {
     let mut command = cargo(arguments);
@@ -173,7 +199,7 @@ fn bench_cargo(arguments: &[&str]) -> Command {
 
 /// Prints the page, and writes it after a full run.
 fn publish(options: &Options, found: &BenchRun) -> Result<(), String> {
-    let page = page::page(&found.rows, &found.skipped, &machine::lines());
+    let page = bounds::with_section(&page::page(&found.rows, &found.skipped, &machine::lines()));
     println!("{page}");
     if options.quick || options.only.is_some() {
         eprintln!("{PAGE} is left as it is: only a full run writes it");

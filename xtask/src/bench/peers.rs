@@ -55,6 +55,23 @@ pub fn python() -> Command {
     command
 }
 
+/// armill's own Python package.
+///
+/// # Errors
+/// How to install it, where it is not.
+pub fn package() -> Result<Command, String> {
+    let mut there = Command::new(in_venv("python"));
+    there.args(["-c", "import armill"]).stderr(Stdio::null());
+    if !there.status().is_ok_and(|status| status.success()) {
+        return Err(format!("no wheel, built for release, is installed in {VENV}"));
+    }
+    let mut command = Command::new(in_venv("python"));
+    command.arg("bench/python/armill_package.py");
+    command.envs(THREADS.iter().map(|name| (name, "1")));
+    command.env("PYTHONDONTWRITEBYTECODE", "1");
+    Ok(command)
+}
+
 /// A source in C++ and the program made of it.
 struct CppPeer {
     source: &'static str,

@@ -194,3 +194,5 @@ fn follow(robot: &Robot, before: &[f64], joints: &mut [f64], evaluation: &mut Ev
 
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod witness;

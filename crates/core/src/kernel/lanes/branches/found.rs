@@ -39,6 +39,15 @@ impl BranchPlanes {
         }
     }
 
+    /// Takes all points of another branch of the same arm.
+    pub fn copy_from(&mut self, other: &BranchPlanes) {
+        self.joints.copy_from_slice(&other.joints);
+        self.margin = other.margin;
+        self.nearest = other.nearest;
+        self.state = other.state;
+        self.singularity = other.singularity;
+    }
+
     /// Takes point `i` of another branch.
     pub fn take(&mut self, other: &BranchPlanes, i: usize) {
         for (joint, from) in self.joints.iter_mut().zip(&other.joints) {

@@ -191,19 +191,22 @@ impl BranchSolver {
                 form.solve(branch);
                 form.start(branch, theta, &mut found.state);
             }
-            Form::ThreeParallel(form) => form.solve(branch, *backend, theta, &mut found.state),
+            Form::ThreeParallel(form) => {
+                let filled = [&mut found.state, &mut found.singularity];
+                form.solve(branch, *backend, theta, filled);
+            }
         }
         if let Some(newton) = newton {
             let targets = seen.as_ref().unwrap_or(targets);
             newton.reach(*backend, targets, theta, &mut found.state);
+            backend.run(CheckNames {
+                names,
+                branch,
+                theta,
+                state: &mut found.state,
+                singularity: &mut found.singularity,
+            });
         }
-        backend.run(CheckNames {
-            names,
-            branch: newton.is_some().then_some(branch),
-            theta,
-            state: &mut found.state,
-            singularity: &mut found.singularity,
-        });
         backend.run(TakePositions {
             rows,
             theta,

@@ -1,4 +1,5 @@
-//! Name and singularity of a posture from its chain positions: the formulas of `robot::inverse` for closed forms.
+//! Name and singularity of a posture of a calibrated arm from its chain positions: the formulas of `robot::inverse` for
+//! closed forms.
 //!
 //! ```text
 //! r = a1 + l2 sin psi + l3 sin chi + hand        front where r >= 0
@@ -52,10 +53,10 @@ impl NameConstants {
     }
 }
 
-/// Fills the singularities; makes points undecided whose posture is not in `branch`, if that is given.
+/// Fills the singularities; makes points undecided whose posture is not in `branch`.
 pub(super) struct CheckNames<'a, T> {
     pub names: &'a NameConstants,
-    pub branch: Option<Branch>,
+    pub branch: Branch,
     pub theta: &'a [Plane<T>],
     pub state: &'a mut Plane<T>,
     pub singularity: &'a mut Plane<T>,
@@ -75,7 +76,7 @@ impl<T: Float> Work<T> for CheckNames<'_, T> {
         let (zero, one) = (R::of(0.0), R::of(1.0));
         let near = R::of(NEAR_SINGULAR);
         let near_shoulder = R::of(NEAR_SINGULAR * (names.l2 + names.l3));
-        let branch = self.branch.unwrap_or(Branch::ALL[0]);
+        let branch = self.branch;
         let sign = |positive: bool| R::of(if positive { 1.0 } else { -1.0 });
         let front = sign(branch.shoulder == Shoulder::Front);
         let up = sign(branch.elbow == Elbow::Up);
@@ -112,14 +113,13 @@ impl<T: Float> Work<T> for CheckNames<'_, T> {
             let (sin, _) = sin_cos(s5.mul_add(R::load(self.theta[4][i]), bend_at_zero));
             sin_bend[i] = sin.store();
         }
-        let checked = if self.branch.is_some() { one } else { zero };
         for i in 0..BLOCK {
             R::step();
             let (r, u) = (R::load(r[i]), R::load(u[i]));
             let (sin_elbow, sin_bend) = (R::load(sin_elbow[i]), R::load(sin_bend[i]));
             // Least sign of the three: -1 where one differs.
             let (side, lift) = (r.sign() * front, sin_elbow.sign() * u.sign() * up);
-            let same = side.min(lift).min(sin_bend.sign() * plain) * checked;
+            let same = side.min(lift).min(sin_bend.sign() * plain);
             let before = R::load(self.state[i]);
             let renamed = R::either(same < zero, undecided, before);
             self.state[i] = R::either(before > reached, before, renamed).store();

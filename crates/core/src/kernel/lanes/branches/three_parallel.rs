@@ -7,7 +7,7 @@ use super::found::state;
 use crate::kernel::lanes::whole::FramePlanes;
 use crate::numbers::{BLOCK, Backend, Float, Plane, Planes, Real, Vector, Work, atan2, planes, put, vector};
 use crate::robot::inverse::ThreeParallel;
-use crate::robot::inverse::two_links::{NEARLY_STRAIGHT, WRIST_SINGULAR};
+use crate::robot::inverse::two_links::{NEAR_SINGULAR, NEARLY_STRAIGHT, WRIST_SINGULAR};
 use crate::robot::{Branch, Elbow, Shoulder, Wrist};
 
 /// An arm and the poses of a block, in the arm's axes.
@@ -38,13 +38,13 @@ impl ThreeParallelBlock {
         });
     }
 
-    /// Chain positions of one branch.
+    /// Chain positions of one branch, whether it reaches each pose, and the singularity that it is near.
     pub fn solve(
         &mut self,
         branch: Branch,
         backend: Backend,
         theta: &mut [Plane<f64>],
-        state: &mut Plane<f64>,
+        [state, singularity]: [&mut Plane<f64>; 2],
     ) {
         let ThreeParallelBlock { arm, aims, turns } = self;
         backend.run(FindTurns {
@@ -53,6 +53,7 @@ impl ThreeParallelBlock {
             aims,
             turns,
             state,
+            singularity,
         });
         backend.run(FindAngles { arm, turns, theta });
     }
@@ -97,13 +98,15 @@ fn seen<R: Real>(rows: &[Vector<R>; 3], v: Vector<R>) -> Vector<R> {
     Vector::new(rows[0].dot(v), rows[1].dot(v), rows[2].dot(v))
 }
 
-/// Fills the six angles of a branch as lengths along x and y: phi1, psi, chi, turn of joints 2 to 4, bend, phi6.
+/// Fills the six angles of a branch as lengths along x and y: phi1, psi, chi, turn of joints 2 to 4, bend, phi6. The
+/// sines that show a singularity are among them.
 struct FindTurns<'a, T> {
     arm: &'a ThreeParallel,
     branch: Branch,
     aims: &'a Planes<T, 9>,
     turns: &'a mut Planes<T, 12>,
     state: &'a mut Plane<T>,
+    singularity: &'a mut Plane<T>,
 }
 
 impl<T: Float> Work<T> for FindTurns<'_, T> {
@@ -115,6 +118,7 @@ impl<T: Float> Work<T> for FindTurns<'_, T> {
             aims,
             turns,
             state,
+            singularity,
         } = self;
         let sign = |positive: bool| R::of(if positive { 1.0 } else { -1.0 });
         let shoulder = sign(branch.shoulder == Shoulder::Front);
@@ -139,6 +143,9 @@ impl<T: Float> Work<T> for FindTurns<'_, T> {
         let (hand_x, hand_z) = (R::of(arm.hand.x), R::of(arm.hand.z));
         let (axis_x, axis_z) = (R::of(arm.axis_5.x), R::of(arm.axis_5.z));
         let singular = R::of(WRIST_SINGULAR);
+        let near_wrist = R::of(NEAR_SINGULAR);
+        let near_elbow = R::of(NEAR_SINGULAR * arm.links.l3);
+        let near_shoulder = R::of(NEAR_SINGULAR * (arm.links.l2 + arm.links.l3));
         let (reached, unreached) = (R::of(state::REACHED), R::of(state::UNREACHED));
         let undecided = R::of(state::UNDECIDED);
         for i in 0..BLOCK {
@@ -204,8 +211,9 @@ impl<T: Float> Work<T> for FindTurns<'_, T> {
             let sp = R::either(on_shoulder, zero, sp * per_length);
             turns[2][i] = cp.store();
             turns[3][i] = sp.store();
-            turns[4][i] = (-l2).mul_add(cp, v).store();
-            turns[5][i] = (-l2).mul_add(sp, u).store();
+            let (cc, sc) = ((-l2).mul_add(cp, v), (-l2).mul_add(sp, u));
+            turns[4][i] = cc.store();
+            turns[5][i] = sc.store();
 
             let axis_5 = Vector::new(x5, zero, z5);
             turns[10][i] = axis_5.dot(second).store();
@@ -213,6 +221,11 @@ impl<T: Float> Work<T> for FindTurns<'_, T> {
             // With axis 6 parallel to axes 2 to 4 joint 6 is free, and the reach depends on it.
             let found = R::either(lateral | far | near, unreached, reached);
             state[i] = R::either(straight, undecided, found).store();
+            // The forearm has the length l3.
+            let bend = sc.mul_add(cp, -(cc * sp)).abs();
+            let close = R::either(r.abs() < near_shoulder, R::of(3.0), zero);
+            let close = R::either(bend < near_elbow, R::of(2.0), close);
+            singularity[i] = R::either(bent < near_wrist, one, close).store();
         }
     }
 }

@@ -3,7 +3,7 @@
 use crate::frame::Isometry;
 use crate::kernel::answer::AT_LIMIT;
 use crate::kernel::lanes::branches::{BranchPlanes, BranchSolver, find_missed, state};
-use crate::kernel::lanes::whole::{ChainConstants, Displacement, FindFrames, FramePlanes};
+use crate::kernel::lanes::whole::{ChainConstants, FindFlange, FramePlanes};
 use crate::kernel::question::Question;
 use crate::numbers::{BLOCK, Backend, Plane};
 use crate::robot::Branch;
@@ -13,7 +13,8 @@ pub(in crate::kernel) struct EveryBranch {
     backend: Backend,
     solver: BranchSolver,
     chain: ChainConstants,
-    frames: Vec<FramePlanes<f64>>,
+    /// The flange that the joint positions give, and memory for the frame before it.
+    flange: Box<[FramePlanes<f64>; 2]>,
     missed: Plane<f64>,
     /// In the order of [`Branch::ALL`].
     found: Vec<BranchPlanes>,
@@ -29,7 +30,7 @@ impl EveryBranch {
             backend,
             solver: BranchSolver::of(question, backend)?,
             chain: ChainConstants::of(robot),
-            frames: vec![FramePlanes::unknown(); joints + 2],
+            flange: Box::new([FramePlanes::unknown(), FramePlanes::unknown()]),
             missed: [0.0; BLOCK],
             found: vec![BranchPlanes::of(joints); Branch::ALL.len()],
         })
@@ -40,14 +41,14 @@ impl EveryBranch {
         self.solver.aim_at(poses, &Isometry::identity());
         for (branch, kept) in Branch::ALL.into_iter().zip(&mut self.found) {
             let found = self.solver.solve(branch);
-            self.backend.run(FindFrames {
+            let [flange, before] = &mut *self.flange;
+            self.backend.run(FindFlange {
                 chain: &self.chain,
-                flange_from_tool: &Displacement::NONE,
                 joints: &found.joints,
-                frames: &mut self.frames,
+                flange,
+                before,
             });
-            kept.clone_from(found);
-            let flange = &self.frames[self.frames.len() - 1];
+            kept.copy_from(found);
             self.backend
                 .run(find_missed(self.solver.targets(), flange, &mut self.missed));
             for (state, missed) in kept.state.iter_mut().zip(&self.missed) {

@@ -137,7 +137,7 @@ impl<T: Float> Work<T> for FindFrames<'_, T> {
         while rank < self.frames.len() {
             let (before, after) = self.frames.split_at_mut(rank);
             let tool = self.flange_from_tool;
-            follow::<R>(
+            follow::<R, false>(
                 (self.chain, tool),
                 self.joints,
                 rank,
@@ -162,19 +162,48 @@ impl<T: Float> Work<T> for FindTool<'_, T> {
     #[inline(always)]
     fn run<R: Real<Float = T>>(self) {
         let last = self.chain.links.len() + 2;
-        // Such that the last one of the two in turn is the tool.
-        let (mut before, mut after) = match last % 2 {
-            0 => (self.tool, self.before),
-            _ => (self.before, self.tool),
-        };
-        place_base::<R>(before);
-        let mut rank = 1;
-        while rank <= last {
-            let tool = self.flange_from_tool;
-            follow::<R>((self.chain, tool), self.joints, rank, before, after);
-            std::mem::swap(&mut before, &mut after);
-            rank += 1;
-        }
+        let chain = (self.chain, self.flange_from_tool);
+        follow_to::<R, false>(chain, self.joints, last, [self.tool, self.before]);
+    }
+}
+
+/// Fills the frame of the flange alone, to verify it, with one more as memory: two frames stay in the nearest cache,
+/// those of all joints do not.
+pub(in crate::kernel::lanes) struct FindFlange<'a, T> {
+    pub chain: &'a ChainConstants,
+    pub joints: &'a [Plane<T>],
+    pub flange: &'a mut FramePlanes<T>,
+    pub before: &'a mut FramePlanes<T>,
+}
+
+impl<T: Float> Work<T> for FindFlange<'_, T> {
+    #[inline(always)]
+    fn run<R: Real<Float = T>>(self) {
+        let last = self.chain.links.len() + 1;
+        let chain = (self.chain, &Displacement::NONE);
+        follow_to::<R, true>(chain, self.joints, last, [self.flange, self.before]);
+    }
+}
+
+/// Fills the first frame with that of rank `last`; the second is memory. `EXCHANGES`: see [`follow`].
+#[inline(always)]
+fn follow_to<R: Real, const EXCHANGES: bool>(
+    chain: (&ChainConstants, &Displacement),
+    joints: &[Plane<R::Float>],
+    last: usize,
+    [found, memory]: [&mut FramePlanes<R::Float>; 2],
+) {
+    // Such that the last one of the two in turn is the one to be found.
+    let (mut before, mut after) = match last % 2 {
+        0 => (found, memory),
+        _ => (memory, found),
+    };
+    place_base::<R>(before);
+    let mut rank = 1;
+    while rank <= last {
+        follow::<R, EXCHANGES>(chain, joints, rank, before, after);
+        std::mem::swap(&mut before, &mut after);
+        rank += 1;
     }
 }
 
@@ -190,9 +219,10 @@ fn place_base<R: Real>(base: &mut FramePlanes<R::Float>) {
     }
 }
 
-/// The frame of this rank after that before it.
+/// The frame of this rank after that before it. With `EXCHANGES` a rotation by quarter turns exchanges axes: it neglects
+/// the rounding of its cosines, 6e-17, which a verification may.
 #[inline(always)]
-fn follow<R: Real>(
+fn follow<R: Real, const EXCHANGES: bool>(
     (chain, flange_from_tool): (&ChainConstants, &Displacement),
     joints: &[Plane<R::Float>],
     rank: usize,
@@ -207,7 +237,7 @@ fn follow<R: Real>(
         };
         translate::<R>(before, &by.translation, &mut after.origin);
         match &by.rotation {
-            Some(rotation) => rotate::<R>(&before.axes, rotation, &mut after.axes),
+            Some(rotation) => rotate::<R, EXCHANGES>(&before.axes, rotation, &mut after.axes),
             None => after.axes.clone_from(&before.axes),
         }
         return;
@@ -217,7 +247,7 @@ fn follow<R: Real>(
     let axes = match &link.before.rotation {
         Some(rotation) => {
             rotated = [planes(), planes(), planes()];
-            rotate::<R>(&before.axes, rotation, &mut rotated);
+            rotate::<R, EXCHANGES>(&before.axes, rotation, &mut rotated);
             &rotated
         }
         None => &before.axes,
@@ -244,11 +274,18 @@ fn follow<R: Real>(
 /// The origin after a constant translation; most are along one axis.
 #[inline(always)]
 fn translate<R: Real>(before: &FramePlanes<R::Float>, by: &Vector3<f64>, origin: &mut Planes<R::Float, 3>) {
-    origin.clone_from(&before.origin);
+    let mut is_first = true;
     let mut k = 0;
     while k < 3 {
         let (axis, length) = (&before.axes[k], R::of(by[k]));
-        if by[k] != 0.0 {
+        if by[k] != 0.0 && is_first {
+            for i in 0..BLOCK {
+                R::step();
+                let from = vector::<R>(&before.origin, i);
+                put(origin, i, vector::<R>(axis, i).mul_add(length, from));
+            }
+            is_first = false;
+        } else if by[k] != 0.0 {
             for i in 0..BLOCK {
                 R::step();
                 let so_far = vector::<R>(origin, i);
@@ -257,15 +294,48 @@ fn translate<R: Real>(before: &FramePlanes<R::Float>, by: &Vector3<f64>, origin:
         }
         k += 1;
     }
+    if is_first {
+        origin.clone_from(&before.origin);
+    }
+}
+
+/// Entries of a rotation below this are rounding: cosines of quarter turns.
+const ROUNDING: f64 = 1e-15;
+
+/// For each column of a rotation by quarter turns the row that is not zero, and its sign; none for other rotations.
+fn exchanged(rotation: &Matrix3<f64>) -> Option<[(usize, f64); 3]> {
+    let mut rows = [(0, 1.0); 3];
+    for (k, row) in rows.iter_mut().enumerate() {
+        let column = rotation.column(k);
+        let largest = column.iamax();
+        if (0..3).any(|other| other != largest && column[other].abs() >= ROUNDING) {
+            return None;
+        }
+        *row = (largest, column[largest].signum());
+    }
+    Some(rows)
 }
 
 /// The axes after a constant rotation.
 #[inline(always)]
-fn rotate<R: Real>(
+fn rotate<R: Real, const EXCHANGES: bool>(
     from: &[Planes<R::Float, 3>; 3],
     rotation: &Matrix3<f64>,
     to: &mut [Planes<R::Float, 3>; 3],
 ) {
+    if EXCHANGES && let Some(rows) = exchanged(rotation) {
+        let mut k = 0;
+        while k < 3 {
+            let ((row, sign), to) = (rows[k], &mut to[k]);
+            let (axis, sign) = (&from[row], R::of(sign));
+            for i in 0..BLOCK {
+                R::step();
+                put(to, i, vector::<R>(axis, i).scaled(sign));
+            }
+            k += 1;
+        }
+        return;
+    }
     let columns = [
         Vector::<R>::of(&rotation.column(0).into_owned()),
         Vector::<R>::of(&rotation.column(1).into_owned()),

@@ -33,7 +33,7 @@ use crate::spatial::Wrench;
 pub(in crate::kernel::lanes) use answer::TakeRoot;
 use backlash::{GapPlanes, gaps_of};
 use chain::FindTool;
-pub(in crate::kernel::lanes) use chain::{ChainConstants, Displacement, FindFrames, FramePlanes};
+pub(in crate::kernel::lanes) use chain::{ChainConstants, Displacement, FindFlange, FindFrames, FramePlanes};
 use compensator::{AddCompensated, CompensatorPlanes, FindCompensation};
 use curves::{AddTurns, CurvePlanes, Curved, FindSag, curves_of};
 use model::ModelConstants;
