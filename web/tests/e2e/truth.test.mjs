@@ -61,6 +61,26 @@ test("a plate inside joint limits has its tick, and no hatching in the legend", 
   await page.context().close();
 });
 
+test("a path outside joint limits: counted inside them, dashed, no green tick", async () => {
+  const name = "(ii) vertical plate, tool 100 mm, elbow up";
+  const page = await open(browser, server.url);
+  await page.selectOption("#field-analysis", name);
+  await settled(page);
+  await page.fill("#field-limit", "500");
+  await settled(page);
+  assert.match(await line(page), /The whole path is within 500 µm/);
+  await page.selectOption("#field-branch", "front elbow-down flip");
+  await settled(page);
+  const edited = (await request("POST", "/api/change", { text, analysis: name, changes: [{ key: "tolerance_um", value: 500 }, { key: "posture.branch", value: "front elbow-down flip" }] })).text;
+  const [path] = (await request("POST", "/api/answer", { text: edited, analysis: name })).paths;
+  assert.ok(path.outside_joint_limits > 0 && path.fraction_within === 1);
+  assert.match(await line(page), path.fraction_within_and_inside_joint_limits > 0 ? /of the path is within 500 µm and inside joint limits/ : /No point of the path is within 500 µm and inside joint limits/);
+  assert.equal(await page.locator(".verdict-line.good").count(), 0);
+  assert.match(await page.locator(".legend .marks").innerText(), /outside joint limits/);
+  assert.deepEqual(page.complaints, []);
+  await page.context().close();
+});
+
 test("holes: those that cannot be drilled are named and crossed; the arm takes the posture of the answer", async () => {
   const own = await serve((text) => text, "kr210-rivets");
   const page = await open(browser, own.url);
