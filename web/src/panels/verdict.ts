@@ -16,8 +16,8 @@ export function verdict(live: Live, fit: () => void): HTMLElement {
   const meter = h("div", { class: "meter", role: "img" }, h("span"));
   const points = h("div", { class: "verdict-points" });
   const extra = h("p", { class: "verdict-extra" });
-  const main = h("div", { class: "verdict-main" }, meter, h("div", { class: "verdict-foot" }, warningsBadge(live), extra));
-  const root = h("section", { class: "verdict", "aria-label": "Verdict", "aria-live": "polite" }, line, main, points);
+  const main = h("div", { class: "verdict-main" }, meter, warningsBadge(live));
+  const root = h("section", { class: "verdict", "aria-label": "Verdict", "aria-live": "polite" }, line, main, points, extra);
   const reach = new NearestPlace(live, fit, () => draw());
   const draw = () => {
     const { answer, setting, map } = live;

@@ -38,7 +38,7 @@ const NAMED = [0xe69f00, 0x56b4e9, 0x009e73, 0xf0e442, 0x0072b2, 0xd55e00, 0xcc7
 const NONE: Rgb = [0.55, 0.58, 0.62];
 
 /** A layer with its values. */
-export interface Shown {
+export interface ShownLayer {
   key: LayerKey;
   layer: Layer;
   /** Null if no point has a value, and for names. */
@@ -50,7 +50,7 @@ export interface Shown {
 }
 
 /** The chosen layer, or the first one until its values have come. */
-export function shownLayer(live: Live): Shown {
+export function shownLayer(live: Live): ShownLayer {
   const got = live.layer_answer;
   if (got && got.key === live.layer) {
     return { key: got.key, layer: LAYERS[got.key], scale: got.levels, names: got.names, values: (i) => got.values[i] ?? [], lines: (i) => (got.lines[i] ?? []) as { level: number; lines_mm: Line[] }[] };
@@ -66,7 +66,7 @@ export function shownLayer(live: Live): Shown {
 }
 
 /** The colour of a value of this layer; grey where it is not known. */
-export function colourOf({ layer, scale, names }: Pick<Shown, "layer" | "scale" | "names">, value: number | null): Rgb {
+export function colourOf({ layer, scale, names }: Pick<ShownLayer, "layer" | "scale" | "names">, value: number | null): Rgb {
   if (value === null) return NONE;
   if (layer.named) return value < names.length ? namedColour(value) : NONE;
   return scale ? viridis(along(scale, value)) : NONE;
@@ -78,7 +78,7 @@ export function namedColour(index: number): Rgb {
 }
 
 /** A value with its unit. */
-export function textOf({ layer, names }: Pick<Shown, "layer" | "names">, value: number | null | undefined): string {
+export function textOf({ layer, names }: Pick<ShownLayer, "layer" | "names">, value: number | null | undefined): string {
   if (value === null || value === undefined) return "not known";
   if (layer.named) return names[value] ?? "not known";
   return layer.unit === "°" ? `${layer.text(value)}°` : layer.unit ? `${layer.text(value)} ${layer.unit}` : layer.text(value);

@@ -6,7 +6,7 @@ import { headline, lostHoles } from "../headline";
 import type { Live } from "../live";
 import type { LayerKey } from "../types";
 import { along, css, ends, viridis, type Scale } from "./colour";
-import { FIRST, LAYERS, levelText, namedColour, shownLayer, textOf, type Shown } from "./layers";
+import { FIRST, LAYERS, levelText, namedColour, shownLayer, textOf, type ShownLayer } from "./layers";
 import { outsideLimits } from "./plate";
 import type { View } from "./stage";
 import { ELLIPSOID, type SceneView, type Show, type Under } from "./view";
@@ -110,23 +110,23 @@ function legend(box: HTMLElement, card: HTMLElement, live: Live): void {
   const about = shown.key === FIRST ? (cases > 1 ? `largest of ${cases} load cases` : "") : (shown.layer.about ?? "");
   const name = h("p", { class: "legend-name" }, h("b", {}, shown.layer.unit), about ? h("small", {}, ` ${about}`) : null);
   box.setAttribute("aria-label", legendText(shown, setting.tolerance_um));
-  const bar = shown.layer.named ? namedBar(shown) : shown.scale ? scaleBar(shown, shown.scale, setting.tolerance_um) : h("p", { class: "legend-name" }, "not known for these points");
+  const bar = shown.layer.named ? namedBar(shown, live.section) : shown.scale ? scaleBar(shown, shown.scale, setting.tolerance_um) : h("p", { class: "legend-name" }, "not known for these points");
   renew(box, shown.layer.unit || about ? name : null, bar, marks(live));
 }
 
-function legendText({ layer, scale, names }: Shown, tolerance_um: number): string {
+function legendText({ layer, scale, names }: ShownLayer, tolerance_um: number): string {
   if (layer.tolerance && scale) return `Colours from ${um(scale[0])} to ${um(scale.at(-1))} micrometres; tolerance ${um(tolerance_um)}`;
   if (layer.named) return `${layer.title}: ${names.join(", ")}`;
   return scale ? `${layer.title}: colours from ${textOf({ layer, names }, scale[0])} to ${textOf({ layer, names }, scale.at(-1))}` : `${layer.title}: not known`;
 }
 
-/** The names that occur. */
-function namedBar({ names, values }: Shown): HTMLElement {
-  const there = new Set(values(0));
+/** The names that occur in the map shown, or at the points. */
+function namedBar({ names, values }: ShownLayer, index: number): HTMLElement {
+  const there = new Set(values(index));
   return h("p", { class: "marks named" }, names.map((name, i) => (there.has(i) ? h("span", {}, h("i", { class: "mark", style: `background:${css(namedColour(i))}` }), name) : null)));
 }
 
-function scaleBar({ layer }: Shown, scale: Scale, tolerance: number): SVGElement {
+function scaleBar({ layer }: ShownLayer, scale: Scale, tolerance: number): SVGElement {
   const W = 280;
   const [low, high] = ends(scale);
   const at = (value: number) => 14 + (W - 28) * along(scale, value);

@@ -6,7 +6,7 @@ import { LineGeometry } from "three/addons/lines/LineGeometry.js";
 import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
 import type { ScenePoints } from "../types";
-import { colourOf, type Shown } from "./layers";
+import { colourOf, type ShownLayer } from "./layers";
 import { fat } from "./lines";
 
 const MOST_BEADS = 4000;
@@ -22,7 +22,7 @@ export class PathView {
   private places = new Float32Array(0);
 
   /** `magnified`: mm drawn for 1 µm; 0 draws no deviation. */
-  draw(points: ScenePoints, shown: Shown, joined: boolean, magnified: number): void {
+  draw(points: ScenePoints, shown: ShownLayer, joined: boolean, magnified: number): void {
     this.clear();
     const colour = new THREE.Color();
     const values = shown.values(0);

@@ -8,7 +8,7 @@ import type { Line, MapAnswer, MapGrid, Plate, Vec3 } from "../types";
 import { along, type Rgb } from "./colour";
 import { Hatch } from "./hatch";
 import type { Labels } from "./labels";
-import { colourOf, levelText, type Shown } from "./layers";
+import { colourOf, levelText, type ShownLayer } from "./layers";
 import { Lines } from "./lines";
 
 const vector = (v: Vec3): THREE.Vector3 => new THREE.Vector3(v[0], v[1], v[2]);
@@ -23,9 +23,9 @@ const linear = (colours: Rgb[]): Float32Array => {
 };
 const NONE = linear([[0.55, 0.58, 0.62]]);
 /** Sizes have one table, since each scale has the same colours; names have one entry each. */
-const SIZES = { layer: { named: false }, scale: [0, 1], names: [] } as unknown as Shown;
+const SIZES = { layer: { named: false }, scale: [0, 1], names: [] } as unknown as ShownLayer;
 const OF_SIZES = linear(Array.from({ length: STEPS }, (_, i) => colourOf(SIZES, i / (STEPS - 1))));
-const tableOf = (shown: Shown): Float32Array => (shown.layer.named ? linear(shown.names.map((_, i) => colourOf(shown, i))) : OF_SIZES);
+const tableOf = (shown: ShownLayer): Float32Array => (shown.layer.named ? linear(shown.names.map((_, i) => colourOf(shown, i))) : OF_SIZES);
 
 export class PlateView {
   readonly group = new THREE.Group();
@@ -50,7 +50,7 @@ export class PlateView {
   }
 
   /** `index`: of the map in the answer; `tolerance_mm`: the lines where the in-plane deviation is the tolerance. */
-  draw(map: MapAnswer, plate: Plate, shown: Shown, index: number, tolerance_mm: Line[], options: { certainty: boolean; rectangle: boolean }): void {
+  draw(map: MapAnswer, plate: Plate, shown: ShownLayer, index: number, tolerance_mm: Line[], options: { certainty: boolean; rectangle: boolean }): void {
     this.moveTo(plate);
     this.build(map.grid);
     this.surface.visible = true;
@@ -137,7 +137,7 @@ export class PlateView {
     this.frame.draw([rectangle([y0, z0], [y1, z1])]);
   }
 
-  private colour(shown: Shown, index: number): void {
+  private colour(shown: ShownLayer, index: number): void {
     const colours = this.surface.geometry.getAttribute("color") as THREE.BufferAttribute;
     const to = colours.array as Float32Array;
     const values = shown.values(index);

@@ -3,7 +3,7 @@
 
 import * as THREE from "three";
 import type { Scene, Vec3 } from "../types";
-import { colourOf, type Shown } from "./layers";
+import { colourOf, type ShownLayer } from "./layers";
 import { surfaceBelow } from "./surface";
 
 type Box = NonNullable<Scene["box"]>;
@@ -31,7 +31,7 @@ export class VolumeView {
     this.group.add(this.surface, this.edges, ...this.sections);
   }
 
-  draw({ box, points }: Scene, shown: Shown, tolerance_um: number): void {
+  draw({ box, points }: Scene, shown: ShownLayer, tolerance_um: number): void {
     this.group.visible = box !== null;
     this.box = box;
     if (!box) return;
@@ -61,7 +61,7 @@ export class VolumeView {
   }
 
   /** Sections through the point at this place (mm), as far as it is in the box; else through the middle. */
-  through(point: Vec3 | null, shown: Shown): void {
+  through(point: Vec3 | null, shown: ShownLayer): void {
     if (this.box) this.cut(shown, point ? this.placeOf(point) : null);
   }
 
@@ -87,7 +87,7 @@ export class VolumeView {
     }) as [number, number, number];
   }
 
-  private cut(shown: Shown, at: [number, number, number] | null): void {
+  private cut(shown: ShownLayer, at: [number, number, number] | null): void {
     const { counts } = this.box!;
     const [nx, ny] = counts;
     const middle = at ?? (counts.map((n) => Math.floor((n - 1) / 2)) as [number, number, number]);
