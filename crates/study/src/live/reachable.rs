@@ -32,8 +32,8 @@ pub struct ReachableAnswer {
     pub tested_points: usize,
 }
 
-/// Points that are tested at a placement.
-const TESTED: usize = 25;
+/// Points between the outermost ones that are tested at a placement.
+const BETWEEN: usize = 10;
 /// Places along half a side of the grid.
 const GRID: i32 = 12;
 /// Reach of an arm whose reach is not known, m.
@@ -122,10 +122,7 @@ impl<'a> Placement<'a> {
             }
         };
         let flange = setting.flange_from_tool.inverse();
-        // First and last point are among them: corners of a grid.
-        let last = tips.len().saturating_sub(1);
-        let count = tips.len().min(TESTED);
-        let tested = (0..count).map(|k| tips[k * last / count.saturating_sub(1).max(1)] * flange);
+        let tested = tested(&tips).into_iter().map(|index| tips[index] * flange);
         Ok(Placement {
             edited,
             home: setting.home.as_deref(),
@@ -201,4 +198,24 @@ impl<'a> Placement<'a> {
         }
         Ok(true)
     }
+}
+
+/// The points that are tested: the outermost one in each direction along axes and diagonals, and some between them.
+fn tested(tips: &[Isometry]) -> Vec<usize> {
+    let signs = [-1.0, 0.0, 1.0];
+    let directions = signs
+        .iter()
+        .flat_map(|x| signs.iter().map(move |y| (*x, *y)))
+        .flat_map(|(x, y)| signs.iter().map(move |z| Vector3::new(x, y, *z)));
+    let outermost = |direction: Vector3<f64>| {
+        let along = |index: &usize| tips[*index].translation.vector.dot(&direction);
+        (0..tips.len()).max_by(|a, b| along(a).total_cmp(&along(b)))
+    };
+    let between = (0..BETWEEN)
+        .map(|k| k * tips.len() / BETWEEN)
+        .filter(|index| *index < tips.len());
+    let mut indices: Vec<usize> = directions.filter_map(outermost).chain(between).collect();
+    indices.sort_unstable();
+    indices.dedup();
+    indices
 }
