@@ -59,7 +59,7 @@ fn the_posture_shown_at_holes_and_along_paths_is_that_of_the_table() {
             let shown = pose
                 .answered
                 .unwrap_or_else(|| panic!("{study} {analysis} {index}"));
-            let shown = pose.answer.postures[shown].branch.as_ref().unwrap();
+            let shown = &pose.answer.postures[shown].branch;
             assert_eq!(shown, branch, "{study} {analysis} {index}");
         }
     }
@@ -90,7 +90,7 @@ fn the_posture_shown_on_a_plate_is_that_of_the_map() {
             };
             let pose = postures(text(&found), &question, Watch::NONE).unwrap();
             let branch = pose.answer.postures[pose.answered.unwrap()].branch.clone();
-            assert_eq!(branch.as_ref(), Some(&branches[index]), "{analysis} {index}");
+            assert_eq!(branch, branches[index], "{analysis} {index}");
         }
     }
 }
