@@ -13,8 +13,10 @@ use armill_study::live::{
 use armill_study::studies::{self, FoundStudy};
 use serde_json::json;
 
+/// The example study, as a folder with its files.
 fn example(name: &str) -> FoundStudy {
-    studies::find(Path::new(name)).unwrap()
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies");
+    studies::find(&folder.join(name)).unwrap()
 }
 
 fn text(found: &FoundStudy) -> StudyText<'_> {
