@@ -564,6 +564,55 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/reachable": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** The nearest placement that the robot reaches */
+        post: {
+            parameters: {
+                query?: never;
+                header?: never;
+                path?: never;
+                cookie?: never;
+            };
+            requestBody: {
+                content: {
+                    "application/json": components["schemas"]["AnalysisRequest"];
+                };
+            };
+            responses: {
+                /** @description success */
+                200: {
+                    headers: {
+                        [name: string]: unknown;
+                    };
+                    content: {
+                        "application/json": components["schemas"]["ReachableAnswer"];
+                    };
+                };
+                /** @description error */
+                default: {
+                    headers: {
+                        [name: string]: unknown;
+                    };
+                    content: {
+                        "application/json": components["schemas"]["ErrorBody"];
+                    };
+                };
+            };
+        };
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/scene": {
         parameters: {
             query?: never;
@@ -1279,6 +1328,8 @@ export interface components {
              * @default false
              */
             lines: boolean;
+            /** @description The quantity that colours show; the in-plane deviation, which is in the answer, if left out. */
+            layer?: components["schemas"]["LayerRequest"] | null;
         };
         /** @description The pose of the arm to show. */
         PoseRequest: {
@@ -1331,6 +1382,15 @@ export interface components {
              */
             section?: number | null;
         };
+        /** @description The requested quantity. */
+        LayerRequest: {
+            /** @description Which. */
+            key: components["schemas"]["LayerKey"];
+            /** @description The levels of a fixed colour scale, rising; chosen for the values if left out. */
+            levels?: number[] | null;
+        };
+        /** @description A quantity that colours can show: its key in tables. */
+        LayerKey: "in_plane_um" | "normal_um" | "full_um" | "in_plane_u_um" | "probability_within" | "limit_margin_deg" | "largest_share";
         /** @description A shape of the robot. */
         MeshRequest: {
             /** @description The text of the study. */
@@ -1730,6 +1790,8 @@ export interface components {
             levels_um: number[] | null;
             /** @description Lines of equal deviation, one entry a map. */
             lines: components["schemas"]["LinesAnswer"][];
+            /** @description The requested quantity at every point; `null` if none was requested. */
+            layer: components["schemas"]["LayerAnswer"] | null;
             /** @description The arm at the requested point; `null` if none was requested, and if there is no such point. */
             arm: components["schemas"]["PoseAtTarget"] | null;
         };
@@ -1745,12 +1807,14 @@ export interface components {
             base: string;
             /** @description Available reference frames. */
             bases: string[];
-            /** @description Centre of the plane. */
+            /** @description Centre of the plane; of a volume with a centre of its own that of its box. */
             centre_mm: [
                 number,
                 number,
                 number
             ];
+            /** @description The key that gives it: `plane.centre_mm` or `box.centre_mm`. */
+            centre_key: string;
             /**
              * Format: double
              * @description Its tilt; `null` if it is given by `rotation_deg`.
@@ -1934,6 +1998,8 @@ export interface components {
                 number,
                 number
             ] | null)[];
+            /** @description Points with a posture outside joint limits, from 0. */
+            outside_joint_limits: number[];
             /**
              * @description `state`, `branch`, `in_plane_um`, `normal_um`, `full_um`, of a path `along_um`, `cross_um`, `axial_um`, `line`,
              *     `distance_mm`: see the table of the analysis.
@@ -2485,6 +2551,11 @@ export interface components {
              * @description Points within the tolerance over all points.
              */
             fraction_within: number;
+            /**
+             * Format: double
+             * @description The same, of points inside the joint limits only.
+             */
+            fraction_within_and_inside_joint_limits: number;
             /**
              * Format: double
              * @description Of circles reached everywhere, the path itself or its features: the largest roundness of all cases (peak to
@@ -3106,6 +3177,11 @@ export interface components {
              */
             fraction_within_and_inside_joint_limits: number;
             /**
+             * Format: uint
+             * @description Points with a posture outside joint limits.
+             */
+            outside_joint_limits: number;
+            /**
              * Format: double
              * @description Volume of the points within, each representing one cell.
              */
@@ -3701,6 +3777,35 @@ export interface components {
                 number
             ][][];
         };
+        /** @description The values of a quantity. */
+        LayerAnswer: {
+            /** @description Which. */
+            key: components["schemas"]["LayerKey"];
+            /**
+             * @description Values of each map in the order of the answer, else one list for the points of the scene; `null` where it is not
+             *     known.
+             */
+            values: (number | null)[][];
+            /** @description The levels of its colour scale, from end to end; `null` if no point has a value, and of names. */
+            levels: number[] | null;
+            /** @description What the values are indices of, for `largest_share`; empty otherwise. */
+            names: string[];
+            /** @description Lines of equal value, one entry a map. */
+            lines: components["schemas"]["LayerLine"][][];
+        };
+        /** @description Lines at one level. */
+        LayerLine: {
+            /**
+             * Format: double
+             * @description The value along them.
+             */
+            level: number;
+            /** @description y', z' along each line; closed lines repeat their first point. */
+            lines_mm: [
+                number,
+                number
+            ][][];
+        };
         /** @description The arm at its target. */
         PoseAtTarget: {
             /** @description The target. */
@@ -3728,6 +3833,12 @@ export interface components {
              *     Along a path, backlash and geometry are included for the posture in which it is followed.
              */
             in_plane: (components["schemas"]["CaseAnswer"] | null)[][];
+            /**
+             * Format: uint
+             * @description Index of the posture of the analysis there: the one whose deviation is in its answer; `null` if it has none, and
+             *     at a target given by joints.
+             */
+            answered: number | null;
         };
         /** @description Every posture of a pose. Positions in the frame `base`, everything else about the TCP in base axes. */
         PoseAnswer: {
@@ -4185,6 +4296,12 @@ export interface components {
              * @description Its length.
              */
             full_um: number;
+            /** @description The force of the case there, base axes. */
+            force_n: [
+                number,
+                number,
+                number
+            ];
             /** @description The whole vector, of the TCP, base axes. */
             deviation_um: [
                 number,
@@ -4204,6 +4321,27 @@ export interface components {
              * @description Force that meets the tolerance in any direction.
              */
             permissible_any_direction_n: number | null;
+        };
+        /** @description The nearest placement that the robot reaches. */
+        ReachableAnswer: {
+            /** @description The key of the analysis that moves it: `plane.centre_mm` or `box.centre_mm`. */
+            key: string;
+            /** @description The new value of that key; `null` if no placement was found, or if the analysis gives the distances itself. */
+            centre_mm: [
+                number,
+                number,
+                number
+            ] | null;
+            /**
+             * Format: double
+             * @description Distance from the present placement.
+             */
+            distance_mm: number | null;
+            /**
+             * Format: uint
+             * @description Points of the analysis that were tested at each placement.
+             */
+            tested_points: number;
         };
         /** @description The pictures of an analysis. */
         PicturesAnswer: {

@@ -6,10 +6,11 @@
 
 import type { Draft } from "./changes/drafts";
 import { History, type Step } from "./changes/history";
+import { FIRST } from "./scene/layers";
 import { api, Refused } from "./server";
 import { Newest } from "./newest";
 import { choosePosture, worstCase } from "./posture";
-import type { Answer, Analysis, At, Change, Extremes, Follow, MapAnswer, MapLines, Point, Pose, Scene, Setting, Study, Values, View } from "./types";
+import type { Answer, Analysis, At, Change, Extremes, Follow, LayerAnswer, LayerKey, MapAnswer, MapLines, Point, Pose, Scene, Setting, Study, Values, View } from "./types";
 
 export type Topic = "study" | "text" | "answer" | "pose" | "moving" | "busy" | "error" | "view";
 
@@ -42,6 +43,9 @@ export class Live {
   lines: MapLines[] = [];
   /** Whether lines at the levels are requested, and whether the levels stay as they are; the next answer follows it. */
   readonly wanted = { lines: true, fix_scale: false };
+  /** What colours show, and its values where the answer does not have them. */
+  layer: LayerKey = FIRST;
+  layer_answer: LayerAnswer | null = null;
   pose: Pose | null = null;
   posture = 0;
   load_case = 1;
@@ -240,6 +244,8 @@ export class Live {
 
   goTo(at: At): void {
     this.follow = "place";
+    // Along a path and at holes each point has its own posture; a chosen one is kept on a plate.
+    if (typeof at.point === "number") this.chosen_branch = null;
     this.at = at;
     this.input_at = performance.now();
     this.sendRobot();
@@ -254,7 +260,7 @@ export class Live {
 
   choosePosture(index: number): void {
     this.posture = index;
-    this.chosen_branch = this.pose?.answer.postures[index]?.branch ?? null;
+    this.chosen_branch = index === this.pose?.answered ? null : (this.pose?.answer.postures[index]?.branch ?? null);
     this.notify("pose");
   }
 
@@ -265,6 +271,13 @@ export class Live {
   }
   get case_is_fixed(): boolean {
     return this.fixed_case !== null;
+  }
+
+  /** What colours show. */
+  chooseLayer(key: LayerKey): void {
+    this.layer = key;
+    if (key === FIRST) this.notify("view");
+    else this.refresh();
   }
 
   chooseSection(index: number): void {
@@ -312,7 +325,9 @@ export class Live {
     const there = this.follow === "place";
     const request = { follow: this.follow, at: there ? this.at : null, section: this.section, case: this.fixed_case ?? (there ? this.load_case : null) };
     const { lines, fix_scale } = this.wanted;
-    const shown = { arm: request, lines, levels_um: fix_scale ? this.levels_um : null };
+    const levels = fix_scale && this.layer_answer?.key === this.layer ? this.layer_answer.levels : null;
+    const layer = this.layer === FIRST ? null : { key: this.layer, levels };
+    const shown = { arm: request, lines, levels_um: fix_scale ? this.levels_um : null, layer };
     return { sent, base, wish, view: await api.view(base, job.analysis, changesOf(sent), shown, signal) };
   }
 
@@ -333,6 +348,7 @@ export class Live {
     this.extremes = view.extremes;
     this.levels_um = view.levels_um ?? this.levels_um;
     this.lines = view.lines;
+    this.layer_answer = view.layer;
     if (this.section >= Math.max(1, view.answer.maps.length)) this.section = 0;
     this.record(sent.size > 0 ? [...sent.keys()].sort().join() : null);
     const begun = performance.now();
@@ -415,7 +431,7 @@ export class Live {
 
   private takePose(pose: Pose, at: At, load_case: number): void {
     this.pose_error = pose.answer.postures.length === 0 ? (pose.answer.unreachable?.message ?? "The robot has no posture there.") : null;
-    this.posture = choosePosture(pose, this.chosen_branch ?? this.followed?.branch ?? null, this.values?.branch_meant ?? null);
+    this.posture = choosePosture(pose, this.chosen_branch, this.followed?.branch ?? this.values?.branch_meant ?? null);
     const decides = worstCase(pose.in_plane[this.posture] ?? []);
     if (this.fixed_case === null && decides !== null && decides !== load_case) {
       this.load_case = decides;

@@ -19,8 +19,8 @@ const words = (branch: string): string[] => branch.split(" ").filter(Boolean);
 export const fits = (branch: string | null, pattern: string): boolean => branch !== null && words(pattern).every((word) => words(branch).includes(word));
 
 /**
- * The branch chosen by name; else the best of those that the study specifies, inside joint limits before outside. With
- * "best" or a name that no posture has, the best of all.
+ * The branch chosen by the user; else the posture of the answer. Where the answer has none: the best of those that the
+ * study specifies, inside joint limits before outside; with "best" or a name that no posture has, the best of all.
  */
 export function choosePosture(pose: Pose, chosen: string | null, specified: string | null): number {
   const postures = pose.answer.postures;
@@ -28,6 +28,7 @@ export function choosePosture(pose: Pose, chosen: string | null, specified: stri
     const exact = postures.findIndex((p) => p.branch === chosen);
     if (exact >= 0) return exact;
   }
+  if (pose.answered !== null && pose.answered < postures.length) return pose.answered;
   const open = postures.map((_, i) => i).filter((i) => specified !== null && fits(postures[i]!.branch, specified));
   const from = open.length > 0 ? open : postures.map((_, i) => i);
   const cost = (i: number) => (postures[i]!.within_limits ? 0 : 1e12) + (envelope(pose.in_plane[i] ?? [])?.in_plane_um ?? 1e11);

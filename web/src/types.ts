@@ -28,6 +28,8 @@ export type Posture = Omit<Schemas["PostureAnswer"], "compliance" | "stiffness" 
 export type Answer = Omit<Schemas["StudyAnswer"], "maps"> & { maps: MapAnswer[] };
 export type Point = Schemas["PointAnswer"];
 export type Setting = Schemas["SettingAnswer"];
+export type HoleRow = Schemas["HoleAnswer"];
+export type Reachable = Schemas["ReachableAnswer"];
 export type Values = Schemas["ValuesAnswer"];
 /** The grid of a map that is requested alone. */
 export type MapGrid = Schemas["GridAnswer"];
@@ -35,6 +37,10 @@ export type MapGrid = Schemas["GridAnswer"];
 export type Line = [number, number][];
 /** Lines of equal deviation on a map. */
 export type MapLines = Schemas["LinesAnswer"];
+
+export type LayerKey = Schemas["LayerKey"];
+/** The values of the quantity that colours show. */
+export type LayerAnswer = Schemas["LayerAnswer"];
 
 export type At = Schemas["PoseTarget"];
 export type PoseRequest = Schemas["PoseRequest"];
@@ -71,7 +77,7 @@ export type Scene = Omit<Schemas["SceneAnswer"], "points" | "plate" | "sections"
 };
 
 /** What is to be shown in addition to the answer. */
-export type Shown = Pick<Schemas["ViewRequest"], "arm" | "levels_um" | "lines">;
+export type Shown = Pick<Schemas["ViewRequest"], "arm" | "levels_um" | "lines" | "layer">;
 
 /** All that is shown of an analysis after a change. */
 export interface View {
@@ -85,6 +91,8 @@ export interface View {
   levels_um: number[] | null;
   /** One entry a map. */
   lines: MapLines[];
+  /** The requested quantity; null if none was requested. */
+  layer: LayerAnswer | null;
   /** The arm at the requested point; null if there is no such point. */
   arm: { at: At; case: number; pose: Pose } | null;
 }

@@ -7,6 +7,7 @@
 //! | `POST /api/values` | the settings that an analysis resolves to |
 //! | `POST /api/pose` | the arm at one place of an analysis |
 //! | `POST /api/scene` | the geometry of an analysis for drawing |
+//! | `POST /api/reachable` | the nearest placement that the robot reaches |
 //! | `POST /api/mesh` | the shape of a link, where the robot's file names one |
 //! | `POST /api/table` | the table of an analysis |
 //! | `POST /api/pictures`, `POST /api/picture.png` | its pictures, and one in pixels |
@@ -16,8 +17,9 @@ use std::sync::{Arc, OnceLock};
 
 use armill_core::watch::Watch;
 use armill_study::live::{
-    ChangedValue, PoseRequest, PoseTarget, PostureQuestion, StudyText, ViewQuestion, answer_json,
-    measured_csv, mesh_bytes, picture_svg, pictures, postures, scene, table_csv, values, view,
+    ChangedValue, LayerRequest, PoseRequest, PoseTarget, PostureQuestion, StudyText, ViewQuestion,
+    answer_json, measured_csv, mesh_bytes, picture_svg, pictures, postures, reachable, scene, table_csv,
+    values, view,
 };
 use armill_study::robot_answers::library_rows;
 use armill_study::{StudyError, output};
@@ -61,6 +63,8 @@ pub(crate) struct ViewRequest {
     /// Whether maps have lines of equal deviation at these levels, in addition to those at the tolerance.
     #[serde(default)]
     pub lines: bool,
+    /// The quantity that colours show; the in-plane deviation, which is in the answer, if left out.
+    pub layer: Option<LayerRequest>,
 }
 
 /// A shape of the robot.
@@ -172,6 +176,7 @@ pub(crate) async fn of_view(
             arm: of.arm.as_ref(),
             levels_um: of.levels_um.as_deref(),
             lines: of.lines,
+            layer: of.layer.as_ref(),
         };
         as_json(&view(text, &question, watch)?)
     })
@@ -208,6 +213,18 @@ pub(crate) async fn pose(
             case: of.case,
         };
         as_json(&postures(text, &question, watch)?)
+    })
+    .await
+}
+
+pub(crate) async fn of_reachable(
+    Shared(state): Shared<Arc<State>>,
+    headers: HeaderMap,
+    JsonBody(of): JsonBody<AnalysisRequest>,
+) -> Answered {
+    let headers = for_itself(&headers, "reachable");
+    answered(state, (of.text, headers, JSON), move |text, watch| {
+        as_json(&reachable(text, of.analysis.as_deref(), watch)?)
     })
     .await
 }

@@ -6,8 +6,8 @@ use std::sync::{Arc, LazyLock};
 
 use armill_study::answer::StudyAnswer;
 use armill_study::live::{
-    ChangedAnswer, OutlineAnswer, PicturesAnswer, PosturesAnswer, SceneAnswer, TablesAnswer, ValuesAnswer,
-    ViewAnswer,
+    ChangedAnswer, OutlineAnswer, PicturesAnswer, PosturesAnswer, ReachableAnswer, SceneAnswer, TablesAnswer,
+    ValuesAnswer, ViewAnswer,
 };
 use armill_study::robot_answers::RobotRow;
 use axum::Router;
@@ -73,6 +73,14 @@ fn operations() -> Vec<Operation> {
         Operation::new(POST, "/pose", "The arm at one place", answers::pose)
             .takes::<PosturesRequest>()
             .answers::<PosturesAnswer>(),
+        Operation::new(
+            POST,
+            "/reachable",
+            "The nearest placement that the robot reaches",
+            answers::of_reachable,
+        )
+        .takes::<AnalysisRequest>()
+        .answers::<ReachableAnswer>(),
         Operation::new(
             POST,
             "/scene",

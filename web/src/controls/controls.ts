@@ -34,7 +34,7 @@ export function controls(live: Live): HTMLElement {
   const place = (axis: number) => (value: number) => {
     const now = centre(axis, value);
     live.values!.centre_mm = now;
-    touch(() => [x, y, z][axis]!, "plane.centre_mm", now);
+    touch(() => [x, y, z][axis]!, live.values!.centre_key, now);
   };
   const x = new NumberField({ id: "field-x", label: "Distance x", unit: "mm", range: [300, 1600], step: 10, input: place(0), hint: "From the first axis of the robot to the centre of the plate" });
   const y = new NumberField({ id: "field-y", label: "Sideways y", unit: "mm", range: [-800, 800], step: 10, input: place(1) });
@@ -56,7 +56,7 @@ export function controls(live: Live): HTMLElement {
   });
   const forces = new Forces((cases) => touch(() => forces, "load.cases_n", cases));
   const limit = new NumberField({ id: "field-limit", label: "Tolerance", unit: "µm", range: [5, 300], step: 5, input: (v) => touch(() => limit, "tolerance_um", v), hint: "Largest permitted in-plane deviation" });
-  const half = new NumberField({ id: "field-half", label: "Half-width", unit: "mm", range: [50, 800], step: 50, input: (v) => touch(() => half, "plane.half_size_mm", v), hint: "Half the width and height of the plate" });
+  const half = new NumberField({ id: "field-half", label: "Plate half-width", unit: "mm", range: [50, 800], step: 50, input: (v) => touch(() => half, "plane.half_size_mm", v), hint: "Half the width and height of the plate" });
   const step = new NumberField({ id: "field-step", label: "Grid step", unit: "mm", range: [5, 100], step: 5, input: (v) => touch(() => step, "plane.step_mm", v) });
   const branch = new Choice("field-branch", "Branch", (v) => touch(() => branch, "posture.branch", v));
   const spin = new NumberField({ id: "field-spin", label: "Tool spin", unit: "°", range: [-180, 180], step: 5, input: (v) => touch(() => spin, ofProgram() ? "program.spin_deg" : "spin_deg", v), hint: "Rotation of the tool about its axis" });

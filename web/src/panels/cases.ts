@@ -10,8 +10,7 @@ export function cases(live: Live): HTMLElement {
   const { root, show } = panel("cases", "Load cases");
   const draw = () => {
     const values = live.pose?.in_plane[live.posture];
-    const forces = live.setting?.cases_n;
-    if (!values || !forces) return show(h("p", { class: "note" }, "The load cases at the position of the robot are listed here."));
+    if (!values) return show(h("p", { class: "note" }, "The load cases at the position of the robot are listed here."));
     const decides = worstCase(values);
     show(
       h(
@@ -31,7 +30,7 @@ export function cases(live: Live): HTMLElement {
                 h(
                   "button",
                   { type: "button", class: "row-button", "data-key": `case ${i}`, "aria-pressed": String(live.load_case === i + 1), title: "Show this load case", onclick: () => live.chooseCase(i + 1) },
-                  forces[i] ? forces[i]!.map(newton).join(", ") : `Case ${i + 1}`,
+                  v ? v.force_n.map(newton).join(", ") : `Case ${i + 1}`,
                 ),
               ),
               h("td", { class: decides === i + 1 ? "strong" : "" }, um(v?.in_plane_um)),

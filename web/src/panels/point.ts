@@ -2,6 +2,7 @@
 
 import { h, type Child } from "../dom";
 import { DASH, fixed, mm, newton, plusMinus, um } from "../format";
+import { lostHoles } from "../headline";
 import type { Live } from "../live";
 import { panel } from "./panel";
 
@@ -16,12 +17,14 @@ export function point(live: Live): HTMLElement {
     const along = values.permissible_along_load_n ?? answered?.permissible_along_load_n;
     const any = values.permissible_any_direction_n ?? answered?.permissible_any_direction_n;
     const tolerance = live.setting?.tolerance_um ?? Infinity;
+    const hole = typeof live.at?.point === "number" ? live.at.point + 1 : null;
+    const lost = live.answer ? lostHoles(live.answer).find((row) => row.hole === hole) : undefined;
     const over = values.in_plane_um > tolerance;
     show(
       h(
         "div",
         { class: "three" },
-        figure("In the plane", values.in_plane_um, over ? "over" : "within", u),
+        figure("In the plane", values.in_plane_um, over ? "over" : posture.within_limits && !lost ? "within" : "", u),
         figure("Along the normal", values.normal_um),
         figure("Full", values.full_um),
       ),
@@ -34,6 +37,8 @@ export function point(live: Live): HTMLElement {
         along ? fact("Largest force within tolerance", newton(along), "N along this load") : null,
         any ? fact("", newton(any), "N in any direction") : null,
       ),
+      lost ? h("p", { class: "note warn" }, `Hole ${lost.hole} cannot be drilled: ${lost.why}.`) : null,
+      posture.within_limits ? null : h("p", { class: "note warn" }, `${posture.limit_joint ?? "A joint"} is outside its limits: the robot cannot take this posture.`),
       posture.singularity ? h("p", { class: "note warn" }, `Near a singularity: ${posture.singularity.replaceAll("_", " ")}.`) : null,
     );
   };

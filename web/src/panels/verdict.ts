@@ -1,62 +1,93 @@
-// The verdict: fraction within tolerance, extreme deviations, joint with the largest share.
+// The verdict: fraction within tolerance inside joint limits, extreme deviations, joint with the largest share, number of
+// warnings; where nothing is reached, the nearest placement that is.
 
 import { h, renew, type Child } from "../dom";
-import { DASH, percent, plusMinus, trimmed, um } from "../format";
+import { DASH, mm, percent, plusMinus, um } from "../format";
+import { headline } from "../headline";
 import type { Live } from "../live";
-import type { Point } from "../types";
+import { Newest } from "../newest";
+import { api } from "../server";
+import type { Point, Reachable } from "../types";
+import { warningsBadge } from "./warnings";
 
-export function verdict(live: Live): HTMLElement {
-  const root = h("section", { class: "verdict", "aria-label": "Verdict", "aria-live": "polite" });
+/** `fit`: moves the camera so that all is seen. */
+export function verdict(live: Live, fit: () => void): HTMLElement {
+  const line = h("p", { class: "verdict-line" }, "…");
+  const meter = h("div", { class: "meter", role: "img" }, h("span"));
+  const points = h("div", { class: "verdict-points" });
+  const extra = h("p", { class: "verdict-extra" });
+  const main = h("div", { class: "verdict-main" }, meter, warningsBadge(live));
+  const root = h("section", { class: "verdict", "aria-label": "Verdict", "aria-live": "polite" }, line, main, points, extra);
+  const reach = new NearestPlace(live, fit, () => draw());
   const draw = () => {
-    const { answer, setting } = live;
-    if (!answer || !setting) return renew(root, h("div", { class: "verdict-main" }, h("p", { class: "verdict-line" }, "…")));
-    const tolerance = `${trimmed(setting.tolerance_um, 1)}\u00a0µm`;
-    const { share, what, extra } = fractionWithin(live);
-    const state = share >= 1 ? "good" : share > 0 ? "part" : "none";
-    renew(
-      root,
-      h(
-        "div",
-        { class: "verdict-main" },
-        h("p", { class: `verdict-line ${state}` }, h("span", { class: "verdict-mark", "aria-hidden": "true" }, state === "good" ? "✓" : state === "part" ? "◐" : "✕"), sentence(share, what, tolerance)),
-        h("div", { class: "meter", role: "img", "aria-label": `${percent(share)} within tolerance` }, h("span", { style: `width:${(100 * share).toFixed(2)}%` })),
-      ),
-      h("div", { class: "verdict-points" }, extreme(live, "worst", live.worst), extreme(live, "best", live.best), blame(live)),
-      h("p", { class: "verdict-extra" }, extra || "\u00a0"),
-    );
+    const { answer, setting, map } = live;
+    if (!answer || !setting) return;
+    const { share, state, line: text, extra: facts, reached } = headline(answer, map);
+    line.className = `verdict-line ${state}`;
+    renew(line, h("span", { class: "verdict-mark", "aria-hidden": "true" }, state === "good" ? "✓" : state === "part" ? "◐" : "✕"), text);
+    meter.setAttribute("aria-label", `${percent(share)} within tolerance`);
+    renew(meter, h("span", { style: `width:${(100 * share).toFixed(2)}%` }));
+    if (reached) renew(points, extreme(live, "worst", live.worst), extreme(live, "best", live.best), blame(live));
+    else renew(points, reach.shown());
+    const more = facts.join(" · ");
+    if (extra.textContent !== more) extra.textContent = extra.title = more;
   };
+  live.listen(["answer"], () => reach.ask());
   live.listen(["answer", "pose"], draw);
   draw();
   return root;
 }
 
-function fractionWithin(live: Live): { share: number; what: string; extra: Child } {
-  const map = live.map;
-  if (map) {
-    const robust = map.certainty ? `robustly ${percent(map.certainty.fraction_robustly_within)}, possibly ${percent(map.certainty.fraction_possibly_within)}` : null;
-    const unreachable = map.grid.points - (map.counts.within ?? 0) - (map.counts.above_tolerance ?? 0);
-    const parts = [
-      robust,
-      map.outside_joint_limits > 0 ? `${map.outside_joint_limits} of ${map.grid.points} points outside joint limits` : null,
-      unreachable > 0 ? `${unreachable} points without posture` : null,
-    ].filter(Boolean);
-    return { share: map.fraction_within, what: "plate", extra: parts.join(" · ") };
-  }
-  const path = live.answer!.paths[0];
-  if (path) {
-    const parts = [`${path.points} points`, path.unreachable > 0 ? `${path.unreachable} unreachable` : null, path.outside_joint_limits > 0 ? `${path.outside_joint_limits} outside joint limits` : null, path.roundness_um !== null ? `roundness ${um(path.roundness_um)} µm` : null];
-    return { share: path.fraction_within, what: "path", extra: parts.filter(Boolean).join(" · ") };
-  }
-  const volume = live.answer!.volumes[0];
-  if (volume) return { share: volume.fraction_within, what: "box", extra: `${(volume.volume_within_mm3 / 1e6).toFixed(1)} litres (dm³) of it` };
-  const holes = live.answer!.holes[0];
-  return { share: holes?.fraction_within ?? 0, what: "holes", extra: holes ? `${holes.holes} holes, ${holes.unreachable} unreachable` : null };
-}
+/** Where nothing is reached: the nearest placement that is, from the server, and a button that moves the part there. */
+class NearestPlace {
+  private found: Reachable | null = null;
+  private searching = false;
+  private moved = false;
+  private readonly search = new Newest<string, Reachable>({
+    work: (text, signal) => api.reachable(text, this.live.analysis, signal),
+    done: (found) => {
+      this.found = found;
+      this.changed();
+    },
+    failed: () => {
+      this.found = null;
+      this.changed();
+    },
+    busy: (busy) => {
+      this.searching = busy;
+    },
+  });
 
-function sentence(share: number, what: string, tolerance: string): string {
-  if (share <= 0) return what === "holes" ? `No hole is within ${tolerance}` : `No point of the ${what} is within ${tolerance}`;
-  if (share >= 1) return what === "holes" ? `All holes are within ${tolerance}` : `The whole ${what} is within ${tolerance}`;
-  return `${percent(share)} of the ${what} ${what === "holes" ? "are" : "is"} within ${tolerance}`;
+  constructor(private readonly live: Live, private readonly fit: () => void, private readonly changed: () => void) {}
+
+  ask(): void {
+    const { answer, map } = this.live;
+    this.found = null;
+    this.search.cancel();
+    if (!answer) return;
+    if (!headline(answer, map).reached) this.search.submit(this.live.text);
+    else if (this.moved) this.fit();
+    this.moved = false;
+  }
+
+  shown(): Child {
+    const { found, live } = this;
+    const centre = found?.centre_mm;
+    const fit = h("button", { type: "button", class: "quiet small", "data-key": "fit", onclick: () => this.fit() }, "Fit view");
+    if (!found) return h("div", { class: "nearest" }, h("p", {}, this.searching ? "Searching the nearest reachable position …" : "No reachable position is known."), fit);
+    if (!centre) return h("div", { class: "nearest" }, h("p", {}, "No reachable position was found with this tilt and posture."), fit);
+    const go = () => {
+      this.moved = true;
+      live.change(found.key, centre);
+    };
+    return h(
+      "div",
+      { class: "nearest" },
+      h("p", {}, "Nearest reachable position: ", h("b", {}, `x ${mm(centre[0])}, y ${mm(centre[1])}, z ${mm(centre[2])} mm`), h("small", {}, ` ${mm(found.distance_mm)} mm away`)),
+      h("button", { type: "button", class: "primary small", "data-key": "go", onclick: go }, "Move the part there"),
+      fit,
+    );
+  }
 }
 
 function extreme(live: Live, which: "worst" | "best", point: Point | null): Child {

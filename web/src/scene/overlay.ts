@@ -2,8 +2,12 @@
 
 import { fill, h, renew, s } from "../dom";
 import { fixed, mm, percent, plusMinus, trimmed, um } from "../format";
+import { headline, lostHoles } from "../headline";
 import type { Live } from "../live";
-import { along, css, ends, viridis } from "./colour";
+import type { LayerKey } from "../types";
+import { along, css, ends, viridis, type Scale } from "./colour";
+import { FIRST, LAYERS, levelText, namedColour, shownLayer, textOf, type ShownLayer } from "./layers";
+import { outsideLimits } from "./plate";
 import type { View } from "./stage";
 import { ELLIPSOID, type SceneView, type Show, type Under } from "./view";
 
@@ -11,7 +15,10 @@ const VIEWS: [View, string, string][] = [["overview", "Overview", "1"], ["front"
 const SWITCHES: [keyof Show | keyof Live["wanted"], string][] = [["arm", "Arm"], ["shape", "CAD meshes"], ["forces", "Force arrow"], ["deviation", "Deviation arrow"], ["parts", "Components: in plane, normal"], ["ellipsoid", "Compliance ellipsoid"], ["lines", "Lines of equal deviation"], ["certainty", "Robustly within (dashed)"], ["rectangle", "Largest rectangle within"], ["fix_scale", "Fix the colour scale"]];
 
 export function overlay(view: SceneView, live: Live): HTMLElement {
-  const legendBox = h("div", { class: "legend card", role: "img" });
+  const legendBox = h("div", { class: "legend", role: "img" });
+  const layer = h("select", { id: "layer", "aria-label": "Colours show" }, Object.entries(LAYERS).map(([key, { title }]) => h("option", { value: key }, title)));
+  layer.addEventListener("change", () => live.chooseLayer(layer.value as LayerKey));
+  const colours = h("div", { class: "colours card" }, layer, legendBox);
   const tip = h("div", { class: "tip card", hidden: true });
   const magnified = h("output", {}, times(view.show.magnified));
   const slider = h("input", { id: "magnified", type: "range", min: 2, max: 5, step: 0.05, value: Math.log10(view.show.magnified), "aria-label": "Deviation drawn larger by" });
@@ -22,12 +29,14 @@ export function overlay(view: SceneView, live: Live): HTMLElement {
     magnified.textContent = times(view.show.magnified);
     redraw();
   });
+  const force = h("span", {}, forceScale(view.show.mm_per_n));
   const soft = h("p", { hidden: true }, h("i", { class: "swatch soft" }), `ellipsoid, ${ELLIPSOID} mm per µm/N`);
   const parts = h("p", { hidden: true }, h("i", { class: "swatch flat" }), "in plane", h("i", { class: "swatch normal" }), "normal");
   const views = h(
     "div",
     { class: "views card", role: "group", "aria-label": "Views" },
     VIEWS.map(([name, text, key]) => h("button", { type: "button", title: `${text} view (key ${key})`, onclick: () => view.look(name) }, text)),
+    h("button", { type: "button", title: "Fit all into the view (key 0)", onclick: () => view.fit() }, "Fit"),
   );
   const shown = h(
     "details",
@@ -56,22 +65,25 @@ export function overlay(view: SceneView, live: Live): HTMLElement {
     h("p", {}, h("i", { class: "swatch moved" }), h("label", { for: "magnified" }, "deviation "), magnified),
     slider,
     parts,
-    h("p", {}, h("i", { class: "swatch force" }), `force, ${view.show.mm_per_n} mm per N`),
+    h("p", {}, h("i", { class: "swatch force" }), force),
     soft,
   );
   document.addEventListener("keydown", (e) => {
     const target = e.target as HTMLElement;
     if (e.ctrlKey || e.metaKey || e.altKey || target.matches("input, textarea, select") || view.stage.host.offsetParent === null) return;
+    if (e.key === "0") view.fit();
     const hit = VIEWS.find(([, , key]) => key === e.key);
     if (hit) view.look(hit[0]);
   });
   view.onScale = () => {
-    legend(legendBox, live);
+    legend(legendBox, colours, live);
+    if (layer.value !== live.layer) layer.value = live.layer;
     magnified.textContent = times(view.show.magnified);
+    force.textContent = forceScale(view.show.mm_per_n);
     slider.value = String(Math.log10(view.show.magnified));
   };
   view.onHover = (under, x, y) => hover(tip, live, under, x, y, view.stage.host);
-  const cards = [views, shown, scales, legendBox];
+  const cards = [views, shown, scales, colours];
   const keepOut = new ResizeObserver(() => {
     const host = view.stage.host.getBoundingClientRect();
     view.stage.labels.keep_out = cards.map((card) => {
@@ -81,41 +93,78 @@ export function overlay(view: SceneView, live: Live): HTMLElement {
     view.stage.draw();
   });
   for (const element of [view.stage.host, ...cards]) keepOut.observe(element);
-  return h("div", { class: "overlay" }, views, shown, scales, legendBox, tip);
+  return h("div", { class: "overlay" }, views, shown, scales, colours, tip);
 }
 
+const forceScale = (mm_per_n: number): string => `force, ${trimmed(mm_per_n, 3)} mm per N`;
 const times = (n: number): string => `× ${trimmed(n, 0)}`;
 
-/** The colour bar, with ticks at the lines' levels and the tolerance marked. */
-function legend(box: HTMLElement, live: Live): void {
-  const scale = live.levels_um;
-  const tolerance = live.setting?.tolerance_um;
-  if (!scale || tolerance === undefined) return;
+/** The colour bar, with ticks at the lines' levels and the tolerance marked; names with their colours. */
+function legend(box: HTMLElement, card: HTMLElement, live: Live): void {
+  const { answer, setting } = live;
+  // Where nothing is reached, nothing has a colour.
+  card.hidden = answer === null || setting === null || !headline(answer, live.map).reached;
+  if (card.hidden || !setting) return;
+  const shown = shownLayer(live);
+  const cases = setting.cases_n.length;
+  const about = shown.key === FIRST ? (cases > 1 ? `largest of ${cases} load cases` : "") : (shown.layer.about ?? "");
+  const name = h("p", { class: "legend-name" }, h("b", {}, shown.layer.unit), about ? h("small", {}, ` ${about}`) : null);
+  box.setAttribute("aria-label", legendText(shown, setting.tolerance_um));
+  const bar = shown.layer.named ? namedBar(shown, live.section) : shown.scale ? scaleBar(shown, shown.scale, setting.tolerance_um) : h("p", { class: "legend-name" }, "not known for these points");
+  renew(box, shown.layer.unit || about ? name : null, bar, marks(live));
+}
+
+function legendText({ layer, scale, names }: ShownLayer, tolerance_um: number): string {
+  if (layer.tolerance && scale) return `Colours from ${um(scale[0])} to ${um(scale.at(-1))} micrometres; tolerance ${um(tolerance_um)}`;
+  if (layer.named) return `${layer.title}: ${names.join(", ")}`;
+  return scale ? `${layer.title}: colours from ${textOf({ layer, names }, scale[0])} to ${textOf({ layer, names }, scale.at(-1))}` : `${layer.title}: not known`;
+}
+
+/** The names that occur in the map shown, or at the points. */
+function namedBar({ names, values }: ShownLayer, index: number): HTMLElement {
+  const there = new Set(values(index));
+  return h("p", { class: "marks named" }, names.map((name, i) => (there.has(i) ? h("span", {}, h("i", { class: "mark", style: `background:${css(namedColour(i))}` }), name) : null)));
+}
+
+function scaleBar({ layer }: ShownLayer, scale: Scale, tolerance: number): SVGElement {
   const W = 280;
   const [low, high] = ends(scale);
   const at = (value: number) => 14 + (W - 28) * along(scale, value);
   const stops = Array.from({ length: 21 }, (_, i) => s("stop", { offset: i / 20, "stop-color": css(viridis(i / 20)) }));
   const every = Math.ceil(scale.length / 6);
   const inside = tolerance >= low && tolerance <= high;
-  const cases = live.setting!.cases_n.length;
-  box.setAttribute("aria-label", `Colours from ${um(low)} to ${um(high)} micrometres; tolerance ${um(tolerance)}`);
-  renew(
-    box,
-    h("p", { class: "legend-name" }, "In-plane deviation ", h("b", {}, "µm"), cases > 1 ? h("small", {}, ` largest of ${cases} load cases`) : null),
-    s(
-      "svg",
-      { width: W, height: 46, viewBox: `0 0 ${W} 46`, "aria-hidden": "true" },
-      s("defs", {}, s("linearGradient", { id: "bar" }, stops)),
-      s("rect", { x: 14, y: 15, width: W - 28, height: 12, rx: 2, fill: "url(#bar)" }),
-      scale.filter((_, i) => i % every === 0).map((level) => [
-        s("line", { x1: at(level), x2: at(level), y1: 27, y2: 31, class: "tick" }),
-        s("text", { x: at(level), y: 43, "text-anchor": "middle" }, trimmed(level, 1)),
-      ]),
-      inside
+  const top = layer.tolerance ? 15 : 3;
+  const height = layer.tolerance ? 46 : 34;
+  return s(
+    "svg",
+    { width: W, height, viewBox: `0 0 ${W} ${height}`, "aria-hidden": "true" },
+    s("defs", {}, s("linearGradient", { id: "bar" }, stops)),
+    s("rect", { x: 14, y: top, width: W - 28, height: 12, rx: 2, fill: "url(#bar)" }),
+    scale.filter((_, i) => i % every === 0).map((level) => [
+      s("line", { x1: at(level), x2: at(level), y1: top + 12, y2: top + 16, class: "tick" }),
+      s("text", { x: at(level), y: top + 28, "text-anchor": "middle" }, levelText(layer, level)),
+    ]),
+    !layer.tolerance
+      ? null
+      : inside
         ? [s("path", { d: `M${at(tolerance)} 29 V13 m-5 -7 h10 l-5 7 z`, class: "limit" }), s("text", { x: at(tolerance) > W - 90 ? at(tolerance) - 9 : at(tolerance) + 9, y: 10, class: "limit-text", "text-anchor": at(tolerance) > W - 90 ? "end" : "start" }, `tolerance ${trimmed(tolerance, 1)}`)]
         : [s("text", { x: tolerance < low ? 14 : W - 14, y: 10, class: "limit-text", "text-anchor": tolerance < low ? "start" : "end" }, tolerance < low ? `◀ tolerance ${trimmed(tolerance, 1)}, all above it` : `tolerance ${trimmed(tolerance, 1)}, all below it ▶`)],
-    ),
   );
+}
+
+/** What is drawn in other ways than by a colour, where there is any. */
+function marks(live: Live): HTMLElement | null {
+  const { answer, map, scene } = live;
+  const columns = scene?.points?.columns.in_plane_um ?? map?.grid.in_plane_um ?? [];
+  const shown: [boolean, string, string][] = [
+    [map !== null && outsideLimits(map.grid).length > 0, "hatched", "outside joint limits"],
+    [map === null && answer!.paths.length > 0 && scene!.points!.outside_joint_limits.length > 0, "dashed", "outside joint limits"],
+    [lostHoles(answer!).length > 0, "crossed", "cannot be drilled"],
+    [answer!.volumes.length > 0, "surface", "surface: tolerance"],
+    [columns.includes(null), "empty", "no posture"],
+  ];
+  const list = shown.filter(([there]) => there);
+  return list.length === 0 ? null : h("p", { class: "marks" }, list.map(([, kind, text]) => h("span", {}, h("i", { class: `mark ${kind}` }, kind === "crossed" ? "✕" : ""), text)));
 }
 
 function hover(tip: HTMLElement, live: Live, under: Under, x: number, y: number, host: HTMLElement): void {
@@ -135,6 +184,9 @@ function hover(tip: HTMLElement, live: Live, under: Under, x: number, y: number,
     rows.push(["Point", String(i + 1)], ["x, y, z", `${points.xyz_mm[i]!.map((v) => fixed(v, 1)).join(", ")} mm`]);
     for (const [name, list] of [["In plane", columns.in_plane_um], ["Along", columns.along_um], ["Across", columns.cross_um], ["Normal", columns.normal_um], ["Full", columns.full_um]] as const) if (list) rows.push([name, `${um(list[i])} µm`]);
   }
+  const chosen = shownLayer(live);
+  // Deviations are in every tooltip.
+  if (!["in_plane_um", "normal_um", "full_um"].includes(chosen.key)) rows.push([chosen.layer.title, textOf(chosen, chosen.values(live.section)[under.index])]);
   fill(tip, h("dl", {}, rows.map(([name, value]) => [h("dt", {}, name), h("dd", {}, value)])), h("p", {}, "Click: the robot goes there"));
   const box = host.getBoundingClientRect();
   const left = x - box.left + (x - box.left > box.width - 230 ? -225 : 16);

@@ -6,26 +6,32 @@ import { LineGeometry } from "three/addons/lines/LineGeometry.js";
 import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
 import type { ScenePoints } from "../types";
-import { along, viridis, type Scale } from "./colour";
+import { colourOf, type ShownLayer } from "./layers";
 import { fat } from "./lines";
 
 const MOST_BEADS = 4000;
+/** A point so near to the pointer is under it. */
+const NEAR_PX = 9;
 /** More whiskers would be a sheet. */
 const MOST_WHISKERS = 72;
 
 export class PathView {
   readonly group = new THREE.Group();
   beads: THREE.InstancedMesh | null = null;
+  /** x, y, z of all points, to find the one under the pointer where there are too many for beads. */
+  private places = new Float32Array(0);
 
   /** `magnified`: mm drawn for 1 µm; 0 draws no deviation. */
-  draw(points: ScenePoints, scale: Scale, joined: boolean, magnified: number): void {
+  draw(points: ScenePoints, shown: ShownLayer, joined: boolean, magnified: number): void {
     this.clear();
     const colour = new THREE.Color();
-    const colours = points.columns.in_plane_um.map((value) => {
-      const [r, g, b] = value === null ? [0.55, 0.58, 0.62] : viridis(along(scale, value));
-      return colour.setRGB(r!, g!, b!, THREE.SRGBColorSpace).clone();
+    const values = shown.values(0);
+    const colours = points.xyz_mm.map((_, i) => {
+      const [r, g, b] = colourOf(shown, values[i] ?? null);
+      return colour.setRGB(r, g, b, THREE.SRGBColorSpace).clone();
     });
     const n = points.xyz_mm.length;
+    this.places = n > MOST_BEADS ? new Float32Array(points.xyz_mm.flat()) : new Float32Array(0);
     if (joined && n > 1) {
       const first = points.xyz_mm[0]!;
       const last = points.xyz_mm[n - 1]!;
@@ -51,7 +57,24 @@ export class PathView {
       this.beads.computeBoundingSphere();
       this.group.add(this.beads);
     }
+    if (joined) this.outside(points);
     if (magnified > 0 && n <= MOST_BEADS) this.deviation(points, magnified, joined);
+  }
+
+  /** Where postures are outside joint limits: dashes over the line. */
+  private outside({ xyz_mm, outside_joint_limits }: ScenePoints): void {
+    const flagged = new Set(outside_joint_limits);
+    const ends = xyz_mm.flatMap((p, i) => (i > 0 && (flagged.has(i) || flagged.has(i - 1)) ? [...xyz_mm[i - 1]!, ...p] : []));
+    if (ends.length === 0) return;
+    const line = fat({ width: 8, colour: 0x10151b, opacity: 0.9, dashed: true });
+    line.geometry = new LineSegmentsGeometry().setPositions(ends);
+    line.computeLineDistances();
+    const length = Math.max(2, 0.02 * this.reach({ xyz_mm }));
+    [line.material.dashSize, line.material.gapSize] = [length, length];
+    line.material.depthTest = false;
+    line.renderOrder = 3;
+    line.visible = true;
+    this.group.add(line);
   }
 
   /**
@@ -79,6 +102,23 @@ export class PathView {
     }
   }
 
+  /** The point nearest to (x, y) in the picture, if it is within some pixels. */
+  under(camera: THREE.Camera, x: number, y: number, width: number, height: number): number | null {
+    const m = new THREE.Matrix4().multiplyMatrices(camera.matrixWorldInverse.clone().premultiply(camera.projectionMatrix), this.group.matrixWorld).elements;
+    const at = this.places;
+    let [best, least] = [-1, NEAR_PX * NEAR_PX];
+    for (let i = 0; i < at.length; i += 3) {
+      const [px, py, pz] = [at[i]!, at[i + 1]!, at[i + 2]!];
+      const w = m[3]! * px + m[7]! * py + m[11]! * pz + m[15]!;
+      if (w <= 0) continue;
+      const dx = (((m[0]! * px + m[4]! * py + m[8]! * pz + m[12]!) / w + 1) * width) / 2 - x;
+      const dy = ((1 - (m[1]! * px + m[5]! * py + m[9]! * pz + m[13]!) / w) * height) / 2 - y;
+      const apart = dx * dx + dy * dy;
+      if (apart < least) [best, least] = [i / 3, apart];
+    }
+    return best < 0 ? null : best;
+  }
+
   clear(): void {
     for (const child of this.group.children) (child as THREE.Mesh).geometry.dispose();
     this.beads?.dispose();
@@ -86,7 +126,7 @@ export class PathView {
     this.group.clear();
   }
 
-  private reach(points: ScenePoints): number {
+  private reach(points: Pick<ScenePoints, "xyz_mm">): number {
     const box = new THREE.Box3().setFromPoints(points.xyz_mm.map((p) => new THREE.Vector3(...p)));
     return box.getSize(new THREE.Vector3()).length() || 100;
   }

@@ -4,20 +4,28 @@
 
 import * as THREE from "three";
 import { trimmed } from "../format";
-import type { Line, MapAnswer, MapGrid, MapLines, Plate, Vec3 } from "../types";
-import { along, viridis, type Scale } from "./colour";
+import type { Line, MapAnswer, MapGrid, Plate, Vec3 } from "../types";
+import { along, type Rgb } from "./colour";
+import { Hatch } from "./hatch";
 import type { Labels } from "./labels";
+import { colourOf, levelText, type ShownLayer } from "./layers";
 import { Lines } from "./lines";
 
 const vector = (v: Vec3): THREE.Vector3 => new THREE.Vector3(v[0], v[1], v[2]);
 
-// The colour map once, in the light's own linear numbers; the last entry is for points without value.
+/** Colours of a scale are computed once, in the light's own linear numbers. */
 const STEPS = 1024;
-const TABLE = new Float32Array(3 * (STEPS + 1));
-for (let i = 0; i <= STEPS; i++) {
-  const [r, g, b] = i === STEPS ? [0.55, 0.58, 0.62] : viridis(i / (STEPS - 1));
-  new THREE.Color().setRGB(r!, g!, b!, THREE.SRGBColorSpace).toArray(TABLE, 3 * i);
-}
+
+const linear = (colours: Rgb[]): Float32Array => {
+  const to = new Float32Array(3 * colours.length);
+  colours.forEach(([r, g, b], i) => new THREE.Color().setRGB(r, g, b, THREE.SRGBColorSpace).toArray(to, 3 * i));
+  return to;
+};
+const NONE = linear([[0.55, 0.58, 0.62]]);
+/** Sizes have one table, since each scale has the same colours; names have one entry each. */
+const SIZES = { layer: { named: false }, scale: [0, 1], names: [] } as unknown as ShownLayer;
+const OF_SIZES = linear(Array.from({ length: STEPS }, (_, i) => colourOf(SIZES, i / (STEPS - 1))));
+const tableOf = (shown: ShownLayer): Float32Array => (shown.layer.named ? linear(shown.names.map((_, i) => colourOf(shown, i))) : OF_SIZES);
 
 export class PlateView {
   readonly group = new THREE.Group();
@@ -28,32 +36,37 @@ export class PlateView {
   private readonly robust = new Lines({ width: 2, colour: 0xffffff, opacity: 0.95, dashed: true });
   private readonly largest = new Lines({ width: 2, colour: 0xffb14a, opacity: 1 });
   private readonly frame = new Lines({ width: 1.6, colour: 0x6b7683, opacity: 1 });
+  private readonly hatch = new Hatch();
   private shape = "";
   private grid: MapGrid | null = null;
 
   constructor(private readonly labels: Labels, private readonly name: string) {
     this.surface = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.MeshBasicMaterial({ vertexColors: true, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 2 }));
-    this.group.add(this.surface, ...[this.frame, this.iso, this.casing, this.tolerance, this.robust, this.largest].map((lines) => lines.object));
+    this.group.add(this.surface, this.hatch.mesh, ...[this.frame, this.iso, this.casing, this.tolerance, this.robust, this.largest].map((lines) => lines.object));
     this.group.matrixAutoUpdate = false;
     this.casing.object.renderOrder = 1;
     this.tolerance.object.renderOrder = 2;
     this.robust.object.renderOrder = 2;
   }
 
-  draw(map: MapAnswer, plate: Plate, scale: Scale, lines: MapLines, options: { certainty: boolean; rectangle: boolean }): void {
+  /** `index`: of the map in the answer; `tolerance_mm`: the lines where the in-plane deviation is the tolerance. */
+  draw(map: MapAnswer, plate: Plate, shown: ShownLayer, index: number, tolerance_mm: Line[], options: { certainty: boolean; rectangle: boolean }): void {
     this.moveTo(plate);
     this.build(map.grid);
     this.surface.visible = true;
-    this.colour(map.grid, scale);
-    this.iso.draw(lines.levels.flatMap((level) => level.lines_mm));
-    this.casing.draw(lines.tolerance_mm);
-    this.tolerance.draw(lines.tolerance_mm);
-    this.robust.draw(options.certainty && map.certainty ? map.certainty.boundary_robust_mm : []);
+    this.colour(shown, index);
+    this.hatch.draw(this.surface.geometry, outsideLimits(map.grid), this.size);
+    const lines = shown.lines(index);
+    const tolerance = shown.layer.tolerance ? tolerance_mm : [];
+    this.iso.draw(lines.flatMap((level) => level.lines_mm));
+    this.casing.draw(tolerance);
+    this.tolerance.draw(tolerance);
+    this.robust.draw(options.certainty && shown.layer.tolerance && map.certainty ? map.certainty.boundary_robust_mm : []);
     this.labels.group(this.name);
     const corners = options.rectangle ? map.region.rectangle_mm : null;
     this.largest.draw(corners ? [rectangle(...corners)] : []);
-    this.tag(lines.tolerance_mm, `tolerance ${trimmed(map.setting.tolerance_um, 1)} µm`, "limit-tag", 1);
-    for (const { level_um, lines_mm } of lines.levels) this.tag(lines_mm, trimmed(level_um, 1), "iso", 2);
+    this.tag(tolerance, `tolerance ${trimmed(map.setting.tolerance_um, 1)} µm`, "limit-tag", 1);
+    for (const { level, lines_mm } of lines) this.tag(lines_mm, levelText(shown.layer, level), "iso", 2);
   }
 
   /** Only its edges: a plane other than the one shown. */
@@ -61,7 +74,7 @@ export class PlateView {
     this.moveTo(plate);
     this.build(map.grid);
     for (const part of [this.iso, this.casing, this.tolerance, this.robust, this.largest]) part.object.visible = false;
-    this.surface.visible = false;
+    this.surface.visible = this.hatch.mesh.visible = false;
     this.labels.group(this.name);
   }
 
@@ -80,6 +93,11 @@ export class PlateView {
   nearest(y: number, z: number): number {
     const next = (list: number[], to: number) => list.reduce((best, v, i) => (Math.abs(v - to) < Math.abs(list[best]! - to) ? i : best), 0);
     return next(this.grid!.z_mm, z) * this.grid!.y_mm.length + next(this.grid!.y_mm, y);
+  }
+
+  private get size(): number {
+    const { y_mm, z_mm } = this.grid!;
+    return Math.hypot(y_mm.at(-1)! - y_mm[0]!, z_mm.at(-1)! - z_mm[0]!);
   }
 
   private point(y: number, z: number): THREE.Vector3 {
@@ -119,14 +137,19 @@ export class PlateView {
     this.frame.draw([rectangle([y0, z0], [y1, z1])]);
   }
 
-  private colour(grid: MapGrid, scale: Scale): void {
+  private colour(shown: ShownLayer, index: number): void {
     const colours = this.surface.geometry.getAttribute("color") as THREE.BufferAttribute;
     const to = colours.array as Float32Array;
-    const values = grid.in_plane_um;
+    const values = shown.values(index);
+    const { scale } = shown;
+    const table = tableOf(shown);
+    const last = table.length / 3 - 1;
     for (let i = 0; i < values.length; i++) {
       const value = values[i]!;
-      const at = value === null ? STEPS : Math.round((STEPS - 1) * Math.min(1, Math.max(0, along(scale, value))));
-      for (let k = 0; k < 3; k++) to[3 * i + k] = TABLE[3 * at + k]!;
+      const at = value === null ? -1 : scale ? Math.round(last * Math.min(1, Math.max(0, along(scale, value)))) : Math.min(last, value);
+      const from = at < 0 ? NONE : table;
+      const start = at < 0 ? 0 : 3 * at;
+      for (let k = 0; k < 3; k++) to[3 * i + k] = from[start + k]!;
     }
     colours.needsUpdate = true;
   }
@@ -139,3 +162,6 @@ export class PlateView {
 }
 
 const rectangle = ([y0, z0]: [number, number], [y1, z1]: [number, number]): Line => [[y0, z0], [y1, z0], [y1, z1], [y0, z1], [y0, z0]];
+
+/** Points with a posture outside joint limits. */
+export const outsideLimits = (grid: MapGrid): number[] => grid.flags.find((flag) => flag.reason === "outside_joint_limits")?.points ?? [];

@@ -133,11 +133,21 @@ export class Stage {
       top: new THREE.Vector3(-0.0001, 0, 1),
       plate: plate ? plate.normal.clone().addScaledVector(plate.up, 0.0001) : new THREE.Vector3(-1, 0, 0.0001),
     };
+    this.aim(target, radius, from[view].normalize());
+  }
+
+  /** All of the subject, from the present direction. */
+  fit({ box }: Subject): void {
+    const direction = this.camera.position.clone().sub(this.controls.target).normalize();
+    this.aim(box.getCenter(new THREE.Vector3()), box.getBoundingSphere(new THREE.Sphere()).radius, direction);
+  }
+
+  private aim(target: THREE.Vector3, radius: number, direction: THREE.Vector3): void {
     const fov = (this.camera.fov * Math.PI) / 180;
     const narrow = Math.min(1, this.camera.aspect);
     const distance = (radius * 1.08) / Math.sin(fov / 2) / narrow;
     this.controls.target.copy(target);
-    this.camera.position.copy(target).addScaledVector(from[view].normalize(), distance);
+    this.camera.position.copy(target).addScaledVector(direction, distance);
     this.camera.near = Math.max(5, distance / 200);
     this.camera.far = distance * 12 + 20000;
     this.camera.updateProjectionMatrix();

@@ -2,15 +2,18 @@
 
 import * as THREE from "three";
 import { niceStep } from "../format";
+import { lostHoles } from "../headline";
 import { api } from "../server";
 import type { Live } from "../live";
 import { sharesOf } from "../shares";
-import type { At, Plate } from "../types";
+import type { At, Line, Plate, Vec3 } from "../types";
 import { Arm } from "./arm";
 import { Arrow } from "./arrows";
 import { shade } from "./colour";
 import { isCovered } from "./covered";
+import { Crosses } from "./crosses";
 import { Ellipsoid } from "./ellipsoid";
+import { shownLayer } from "./layers";
 import { Part } from "./part";
 import { PathView } from "./path";
 import { PlateView } from "./plate";
@@ -39,6 +42,8 @@ export interface Show {
 /** The object under the pointer. */
 export type Under = { kind: "map"; index: number; y_mm: number; z_mm: number } | { kind: "point"; index: number } | null;
 
+/** mm in the picture for 1 N, of a small force. */
+const MM_PER_N = 25;
 /** mm in the picture for 1 µm/N. */
 export const ELLIPSOID = 8;
 
@@ -47,7 +52,7 @@ const STOUT = 1.7;
 
 export class SceneView {
   readonly stage: Stage;
-  readonly show: Show = { arm: true, shape: true, forces: true, deviation: true, parts: false, ellipsoid: false, certainty: true, rectangle: false, magnified: 1000, magnified_by_hand: false, mm_per_n: 25 };
+  readonly show: Show = { arm: true, shape: true, forces: true, deviation: true, parts: false, ellipsoid: false, certainty: true, rectangle: false, magnified: 1000, magnified_by_hand: false, mm_per_n: MM_PER_N };
   onHover: (under: Under, x: number, y: number) => void = () => {};
   onScale: () => void = () => {};
   private readonly arm = new Arm();
@@ -60,6 +65,7 @@ export class SceneView {
   private readonly path = new PathView();
   private readonly volume = new VolumeView();
   private readonly part = new Part();
+  private readonly crosses: Crosses;
   private readonly plates: PlateView[] = [];
   private readonly caster = new THREE.Raycaster();
   private looked = "";
@@ -69,9 +75,10 @@ export class SceneView {
 
   constructor(private readonly host: HTMLElement, private readonly live: Live) {
     this.stage = new Stage(host);
+    this.crosses = new Crosses(this.stage.labels);
     this.shapes = new Shapes((file) => api.mesh(live.text, file), () => this.drawPose());
     this.stage.covered = (group, at) => group !== "arm" && this.show.arm && !this.ghost && this.live.pose !== null && isCovered(this.arm.limbs, this.stage.camera.position, at, this.shapes.group.visible ? STOUT : 1);
-    this.stage.scene.add(this.arm.group, this.shapes.group, this.force.group, this.deviation.group, this.in_plane.group, this.normal.group, this.ellipsoid.group, this.path.group, this.volume.group, this.part.group);
+    this.stage.scene.add(this.arm.group, this.shapes.group, this.force.group, this.deviation.group, this.in_plane.group, this.normal.group, this.ellipsoid.group, this.path.group, this.volume.group, this.part.group, this.crosses.group);
     live.listen(["answer", "view"], () => this.drawAnswer());
     live.listen(["pose", "view"], () => this.drawPose());
     this.point();
@@ -90,12 +97,17 @@ export class SceneView {
     this.stage.look(view, this.subject());
   }
 
+  /** All of it, from the present direction. */
+  fit(): void {
+    this.stage.fit(this.subject());
+  }
+
   // ---- The answer: plates, path, volume ----
 
   private drawAnswer(): void {
     const { answer, scene, setting } = this.live;
     if (!answer || !scene || !setting) return;
-    const scale = this.live.levels_um;
+    const shown = shownLayer(this.live);
     const plates = answer.maps.length > 0 ? this.platesOf() : [];
     while (this.plates.length < plates.length) {
       const plate = new PlateView(this.stage.labels, `plate ${this.plates.length}`);
@@ -106,13 +118,14 @@ export class SceneView {
       const map = answer.maps[i];
       const plate = plates[i];
       const lines = this.live.lines[i];
-      if (!map || !plate || !lines || !scale) return view.hide();
+      if (!map || !plate || !lines) return view.hide();
       if (answer.maps.length > 1 && i !== this.live.section) return view.outline(map, plate);
-      view.draw(map, plate, scale, lines, { certainty: this.show.certainty, rectangle: this.show.rectangle });
+      view.draw(map, plate, shown, i, lines.tolerance_mm as Line[], { certainty: this.show.certainty, rectangle: this.show.rectangle });
     });
-    if (scene.points && scale && !scene.box) this.path.draw(scene.points, scale, answer.paths.length > 0, this.show.deviation ? this.show.magnified / 1000 : 0);
+    if (scene.points && !scene.box) this.path.draw(scene.points, shown, answer.paths.length > 0, this.show.deviation ? this.show.magnified / 1000 : 0);
     else this.path.clear();
-    this.volume.draw(scene, setting.tolerance_um);
+    this.volume.draw(scene, shown, setting.tolerance_um);
+    this.drawLost();
     this.part.draw(answer.paths.length + answer.holes.length > 0 ? scene.plate : null);
     this.stage.floor(0, this.reach());
     const key = `${this.live.analysis} ${scene.robot} ${answer.maps.length}`;
@@ -123,6 +136,17 @@ export class SceneView {
     }
     this.onScale();
     this.stage.draw();
+  }
+
+  /** Crosses over the holes that cannot be drilled. */
+  private drawLost(): void {
+    const { answer, scene } = this.live;
+    const lost = answer ? lostHoles(answer) : [];
+    const at = scene?.points?.xyz_mm ?? [];
+    const rows = new Map(answer?.holes[0]?.each.map((row) => [row.hole, row.normal_axis]));
+    const box = new THREE.Box3().setFromPoints(at.map((p) => new THREE.Vector3(...p)));
+    const size = Math.max(6, Math.min(40, 0.05 * (box.getSize(new THREE.Vector3()).length() || 100)));
+    this.crosses.draw(lost, at, lost.map(({ hole }) => rows.get(hole) ?? null), size);
   }
 
   /** One plate a map. */
@@ -138,6 +162,7 @@ export class SceneView {
     const { pose, posture, load_case, setting } = this.live;
     const drawing = pose?.drawings[posture];
     const answer = pose?.answer.postures[posture];
+    if (this.live.scene?.box) this.volume.through(this.pointOfRobot(), shownLayer(this.live));
     this.stage.labels.group("arm");
     this.arm.group.visible = this.show.arm;
     this.shapes.group.visible = false;
@@ -164,9 +189,11 @@ export class SceneView {
           this.stage.labels.add("arm", at, labelled ? `${name} ${Math.round(100 * shares[i]!)} %` : name, i === most && labelled ? "joint loud" : "joint");
         });
       const tip = drawing.tool_mm;
-      const size = Math.max(7, this.reach() * 0.008);
-      const force = setting.cases_n[load_case - 1];
+      // An arrow at a small part is not stouter than the part.
+      const size = Math.max(2, Math.min(Math.max(7, this.reach() * 0.008), 0.03 * (this.partSize() ?? Infinity)));
+      const force = pose?.in_plane[posture]?.[load_case - 1]?.force_n;
       if (this.show.forces && force) {
+        this.scaleForce(Math.hypot(...force));
         this.force.draw(tip, new THREE.Vector3(...force).multiplyScalar(this.show.mm_per_n), size, true);
         if (this.force.group.visible) this.stage.labels.add("arm", this.force.start, `force ${Math.hypot(...force).toFixed(1)} N`, "force");
       }
@@ -188,11 +215,26 @@ export class SceneView {
     this.stage.draw();
   }
 
+  /** A large force is drawn at a smaller scale, by a round number, so that its arrow stays in the picture. */
+  private scaleForce(force_n: number): void {
+    const longest = 0.25 * this.reach();
+    const scale = force_n * MM_PER_N <= longest ? MM_PER_N : 1 / niceStep(force_n / longest, 1);
+    if (scale === this.show.mm_per_n) return;
+    this.show.mm_per_n = scale;
+    this.onScale();
+  }
+
+  /** The point of the answer at which the robot is. */
+  private pointOfRobot(): Vec3 | null {
+    const { at, scene } = this.live;
+    return typeof at?.point === "number" ? ((scene?.points?.xyz_mm[at.point] as Vec3 | undefined) ?? null) : null;
+  }
+
   /** Draws deviations so large that they are seen, by a round number, until the user says how large. */
   private magnify(): void {
     const worst = this.live.worst;
     if (this.show.magnified_by_hand || !worst || !(worst.full_um > 0)) return;
-    this.show.magnified = Math.min(1e5, Math.max(100, niceStep((0.16 * this.reach()) / (worst.full_um / 1000), 1)));
+    this.show.magnified = Math.min(1e5, Math.max(100, niceStep(Math.min(0.16 * this.reach(), 0.7 * (this.partSize() ?? Infinity)) / (worst.full_um / 1000), 1)));
     this.onScale();
   }
 
@@ -205,6 +247,16 @@ export class SceneView {
   }
 
   // ---- Sizes and pointer ----
+
+  /** Diagonal of a path or of a set of holes; null of plates and volumes. */
+  private partSize(): number | null {
+    const { scene, answer } = this.live;
+    if (!scene?.points || !answer || answer.paths.length + answer.holes.length === 0) return null;
+    const box = new THREE.Box3();
+    const point = new THREE.Vector3();
+    for (const p of scene.points.xyz_mm) box.expandByPoint(point.set(...p));
+    return box.getSize(point).length() || null;
+  }
 
   private reach(): number {
     const size = this.subject().box.getSize(new THREE.Vector3());
@@ -249,9 +301,17 @@ export class SceneView {
   private under(event: PointerEvent): Under {
     const box = this.host.getBoundingClientRect();
     this.caster.setFromCamera(new THREE.Vector2(((event.clientX - box.left) / box.width) * 2 - 1, 1 - ((event.clientY - box.top) / box.height) * 2), this.stage.camera);
+    if (this.volume.group.visible) {
+      const hit = this.caster.intersectObjects(this.volume.sections)[0];
+      const index = hit ? this.volume.nearest(hit.point) : null;
+      return index === null ? null : { kind: "point", index };
+    }
     if (this.path.beads) {
       const hit = this.caster.intersectObject(this.path.beads)[0];
       if (hit?.instanceId !== undefined) return { kind: "point", index: hit.instanceId };
+    } else if (this.path.group.children.length > 0) {
+      const index = this.path.under(this.stage.camera, event.clientX - box.left, event.clientY - box.top, box.width, box.height);
+      if (index !== null) return { kind: "point", index };
     }
     for (const plate of this.plates) {
       if (!plate.group.visible || !plate.surface.visible) continue;

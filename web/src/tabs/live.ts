@@ -27,14 +27,14 @@ export function liveTab(live: Live): Tab & { view: SceneView } {
     if (live.moving) waits = setTimeout(() => right.classList.add("waits"), 250);
     else right.classList.remove("waits");
   });
+  const view = new SceneView(host, live);
   const root = h(
     "div",
     { class: "live" },
     h("aside", { class: "left", "aria-label": "Settings" }, controls(live)),
-    h("div", { class: "middle" }, verdict(live), host),
+    h("div", { class: "middle" }, verdict(live, () => view.fit()), host),
     right,
   );
-  const view = new SceneView(host, live);
   host.append(overlay(view, live));
   return { id: "live", title: "Live", root, view, shown: () => view.redraw() };
 }

@@ -49,7 +49,7 @@ export function picturesTab(live: Live): Tab {
         h("span", {}, picture.title),
         h("button", { type: "button", class: "quiet small", onclick: () => download(`${picture.name}.svg`, new Blob([picture.svg], { type: "image/svg+xml" })) }, "SVG"),
         h("button", { type: "button", class: "quiet small", onclick: () => void savePng(picture, image) }, "PNG"),
-        h("button", { type: "button", class: "quiet small", title: picture.measured ? "The curves of the budget, a row an angle" : "The points of the analysis in this picture", onclick: () => void saveTable(picture.name, picture.measured) }, "CSV"),
+        h("button", { type: "button", class: "quiet small", title: picture.measured ? "The curves of the budget, one row per angle" : "The points of the analysis in this picture", onclick: () => void saveTable(picture.name, picture.measured) }, "CSV"),
       ),
     );
   };

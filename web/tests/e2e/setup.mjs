@@ -1,8 +1,9 @@
 // A real Chromium against a real server: `armill serve` on a copy of the paper's study, in a folder of its own.
-// Env ARMILL_BIN: the armill binary, with the page in it. Env CHROMIUM: the browser, Debian's if left out.
+// Env ARMILL_BIN: the armill binary, with the page in it. Env CHROMIUM: the browser, Debian's if left out. Env ARMILL_PAGE: a
+// folder with a page that is shown in place of that in the binary, so that a change of the page needs no new binary.
 
 import { spawn } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { cpSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { createInterface } from "node:readline";
@@ -10,6 +11,8 @@ import { chromium } from "playwright-core";
 
 export const STUDY = new URL("../../../studies/mh12-groove/study.toml", import.meta.url).pathname;
 const FLAGS = ["--headless", "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync", "--enable-unsafe-swiftshader"];
+
+export const EXAMPLES = new URL("../../../studies/", import.meta.url).pathname;
 
 /** Starts `armill serve` on a folder. */
 async function started(folder) {
@@ -36,10 +39,11 @@ async function started(folder) {
   return { url, pid: child.pid, end };
 }
 
-/** `edit`: what the study is to be instead. */
-export async function serve(edit = (text) => text) {
+/** `edit`: what the study is to be instead; `example`: the study that is copied with its files. */
+export async function serve(edit = (text) => text, example = "mh12-groove") {
   const folder = mkdtempSync(join(tmpdir(), "armill-e2e-"));
-  writeFileSync(join(folder, "study.toml"), edit(readFileSync(STUDY, "utf8")));
+  cpSync(join(EXAMPLES, example), folder, { recursive: true });
+  writeFileSync(join(folder, "study.toml"), edit(readFileSync(join(EXAMPLES, example, "study.toml"), "utf8")));
   const server = { folder, ...(await started(folder)) };
   server.stop = async () => {
     const code = await server.end();
@@ -87,6 +91,8 @@ export async function open(browser, url, { width = 1280, height = 800, dark = fa
     const to = new URL(request.url());
     if (to.protocol.startsWith("http") && to.host !== new URL(url).host) page.complaints.push(`requested ${to.href}`);
   });
+  const own = process.env.ARMILL_PAGE;
+  if (own) await page.route((to) => !to.pathname.startsWith("/api/"), (route) => route.fulfill({ path: join(own, new URL(route.request().url()).pathname.replace(/\/$/, "/index.html")) }));
   await page.goto(url);
   if (answers) await settled(page);
   return page;

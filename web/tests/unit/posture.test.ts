@@ -9,6 +9,7 @@ const values = (...in_plane: number[]): CaseValues[] =>
     normal_um: 0,
     full_um: in_plane_um,
     deviation_um: [in_plane_um, 0, 0],
+    force_n: [0, 0, 1],
     share_um: [],
     permissible_along_load_n: null,
     permissible_any_direction_n: null,
@@ -17,6 +18,7 @@ const pose = (...rows: [string, boolean, number][]): Pose =>
   ({
     answer: { postures: rows.map(([branch, within_limits]) => ({ branch, within_limits })) },
     in_plane: rows.map(([, , um]) => values(um)),
+    answered: null,
   }) as unknown as Pose;
 
 test("the largest case decides, counted from 1", () => {
@@ -38,4 +40,8 @@ test("chosen by name, else specified by the study, else the best; inside limits 
   expect(choosePosture(here, "gone", "back")).toBe(2);
   expect(choosePosture(here, null, "best")).toBe(2);
   expect(choosePosture(pose(), null, "best")).toBe(0);
+  // The posture of the answer comes before what the study specifies, and after the choice of the user.
+  const answered = { ...here, answered: 2 };
+  expect(choosePosture(answered, null, "front elbow-up")).toBe(2);
+  expect(choosePosture(answered, "front elbow-up flip", null)).toBe(0);
 });

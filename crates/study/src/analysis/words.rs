@@ -31,6 +31,31 @@ pub fn unreached(lost: usize, of: usize) -> String {
     }
 }
 
+/// Counts of points relative to joint limits.
+#[derive(Clone, Copy, Debug)]
+pub struct LimitCounts {
+    /// Points with a posture outside the limits.
+    pub outside: usize,
+    /// All points.
+    pub of: usize,
+    /// Part of all points within the tolerance, inside the limits or not.
+    pub fraction_within: f64,
+}
+
+impl LimitCounts {
+    /// What to add to a statement about the points within the tolerance and inside joint limits; nothing if all are inside.
+    pub fn in_words(self) -> String {
+        let LimitCounts { outside, of, .. } = self;
+        match outside {
+            0 => String::new(),
+            _ => format!(
+                " and inside joint limits ({:.1} % if the {outside} of {of} points outside them are included)",
+                self.fraction_within * 100.0
+            ),
+        }
+    }
+}
+
 /// A share of a deviation: above 100 % others act against it; below zero it acts against the deviation itself.
 pub fn share_in_words(part: f64) -> String {
     let percent = format!("{:.0} %", part * 100.0);

@@ -296,7 +296,7 @@ fn warnings(study: &Study, answers: &AnalysisAnswers) -> Vec<String> {
         warnings.extend(lost_points(&map.name, &map.counts));
         if map.outside_joint_limits > 0 {
             warnings.push(format!(
-                "{}: {} of {} points are outside joint limits in the branch {}; the fraction includes them, the region does not.",
+                "{}: {} of {} points are outside joint limits in the branch {}; `fraction_within` includes them, headline and region do not.",
                 map.name, map.outside_joint_limits, map.grid.points, map.branch
             ));
         }

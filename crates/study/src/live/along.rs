@@ -9,11 +9,14 @@
 //!
 //! A path that was not evaluated yet is followed first.
 
-use armill_core::kernel::Answers;
+use std::f64::consts::{PI, TAU};
+
+use armill_core::kernel::{Answers, Question, evaluate};
 use armill_core::load::PathLoad;
 use armill_core::nalgebra::{Unit, UnitQuaternion, Vector3};
 use armill_core::optimize::hole_postures;
 use armill_core::path::{LoadedTrack, Track};
+use armill_core::robot::Robot;
 use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
 
@@ -23,6 +26,7 @@ use crate::analysis::runner::Runner;
 use crate::analysis::{AnalysisData, AnalysisResult};
 use crate::error::StudyError;
 use crate::file::resolve::Study;
+use crate::input::setting::Setting;
 use crate::pose::At;
 
 /// A target of the tool in the terms of the core.
@@ -58,6 +62,56 @@ const SAME_POSTURE: f64 = 1e-6;
 /// Whether these positions (rad, m) are the same posture.
 fn is_same(a: &[f64], b: &[f64]) -> bool {
     a.iter().zip(b).all(|(a, b)| (a - b).abs() < SAME_POSTURE)
+}
+
+/// Postures that differ by more than this are not the one of the answer, rad (m). Through a singularity of the wrist
+/// joint 4 keeps its position along a path, which no posture of the single pose has exactly.
+const NEAR_POSTURE: f64 = 1e-3;
+
+/// Which of these postures (rad, m) the analysis uses at its target: the one of the answer, or, where points have no
+/// influence on each other, the one that the study selects.
+///
+/// # Errors
+/// Cancelled by the watch.
+pub(super) fn answered_posture(
+    robot: &Robot,
+    setting: &Setting,
+    target: &ToolTarget,
+    postures: &[Vec<f64>],
+    watch: Watch<'_>,
+) -> Result<Option<usize>, StudyError> {
+    let own;
+    let joints = match (&target.pose, &target.at) {
+        (Some(pose), _) => pose.joints.as_deref(),
+        (None, At::Pose(base_from_tool)) if robot.compliance().is_some() && !target.cases.is_empty() => {
+            let runner = Runner::new(robot, watch)?;
+            let question = Question {
+                cases: &target.cases,
+                normal: target.normal,
+                ..runner.question(setting)
+            };
+            own = evaluate(&question, 1, |_| *base_from_tool, watch)?;
+            own.points[0].is_ok().then(|| own.joints_at(0))
+        }
+        _ => None,
+    };
+    let Some(joints) = joints else { return Ok(None) };
+    let apart = |q: &Vec<f64>| {
+        let of = |(i, (a, b)): (usize, (&f64, &f64))| match robot.slides(i) {
+            true => (a - b).abs(),
+            // Whole turns are the same posture.
+            false => ((a - b + PI).rem_euclid(TAU) - PI).abs(),
+        };
+        q.iter().zip(joints).enumerate().map(of).fold(0.0, f64::max)
+    };
+    let near = postures
+        .iter()
+        .map(apart)
+        .enumerate()
+        .min_by(|a, b| a.1.total_cmp(&b.1));
+    Ok(near
+        .filter(|(_, apart)| *apart < NEAR_POSTURE)
+        .map(|(index, _)| index))
 }
 
 /// Point `index` of a path of this study, which may have been evaluated; the point must exist.

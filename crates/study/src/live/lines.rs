@@ -57,6 +57,6 @@ impl LinesAnswer {
 }
 
 /// A point to a micrometre.
-fn short(at: [f64; 2]) -> [f64; 2] {
+pub(super) fn short(at: [f64; 2]) -> [f64; 2] {
     at.map(|mm| decimals(mm, 3))
 }

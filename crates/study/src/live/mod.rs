@@ -13,7 +13,9 @@
 //! | `posture` | the postures of the arm at one target, and the deviation under each load case |
 //! | `along` | the pose and the load at a point of a path, or at a hole |
 //! | `arm` | the worst and best points, and the arm there |
+//! | `reachable` | the nearest placement that the robot reaches |
 //! | `scene` | what can be drawn in space |
+//! | `layer` | the values of another quantity that colours show |
 //! | `scale` | the levels of the colour scale |
 //! | `lines` | the lines of equal deviation of a map |
 //! | `meshes` | the meshes of the robot, if its file names them |
@@ -35,10 +37,12 @@ mod along;
 mod answered;
 mod arm;
 mod file_kind;
+mod layer;
 mod lines;
 mod meshes;
 mod outline;
 mod posture;
+mod reachable;
 mod scale;
 mod scene;
 mod tables;
@@ -50,6 +54,7 @@ pub use answered::{
 };
 pub use arm::{ExtremesAnswer, Follow, PoseAtTarget, PoseRequest};
 pub use file_kind::{FileKind, kind_of};
+pub use layer::{LayerAnswer, LayerKey, LayerLine, LayerRequest};
 pub use lines::{LevelAnswer, LinesAnswer};
 pub use meshes::{DrawnMesh, mesh_bytes};
 pub use outline::{ChangedAnswer, ChangedValue, OutlineAnswer, OutlinedAnalysis, changed, outline};
@@ -57,6 +62,7 @@ pub use posture::{
     CaseAnswer, ChainPosition, DrawnJoint, DrawnPosture, JointLimits, PoseTarget, PostureQuestion,
     PosturesAnswer, postures,
 };
+pub use reachable::{ReachableAnswer, reachable};
 pub use scene::{BoxInScene, PlateInScene, PointsInScene, SceneAnswer, SectionInScene, scene};
 pub use tables::{TablesAnswer, ValueLocation, tables};
 pub use values::{ValuesAnswer, values};

@@ -26,7 +26,7 @@ use crate::error::StudyError;
 use crate::file::resolve::Study;
 use crate::input::setting::Setting;
 use crate::joint_unit::{JointUnit, joint_positions};
-use crate::live::along::{ToolTarget, at_hole, on_path};
+use crate::live::along::{ToolTarget, answered_posture, at_hole, on_path};
 use crate::live::meshes::{DrawnMesh, Shapes};
 use crate::live::{EditedAnalysis, StudyText};
 use crate::number::without_rounding;
@@ -81,6 +81,9 @@ pub struct PosturesAnswer {
     /// Deviation of each posture under each load case; `null` if the arm has no equilibrium, or no compliance is known.
     /// Along a path, backlash and geometry are included for the posture in which it is followed.
     pub in_plane: Vec<Vec<Option<CaseAnswer>>>,
+    /// Index of the posture of the analysis there: the one whose deviation is in its answer; `null` if it has none, and
+    /// at a target given by joints.
+    pub answered: Option<usize>,
 }
 
 /// The arm in one posture, base.
@@ -150,6 +153,8 @@ pub struct CaseAnswer {
     pub normal_um: f64,
     /// Its length.
     pub full_um: f64,
+    /// The force of the case there, base axes.
+    pub force_n: [f64; 3],
     /// The whole vector, of the TCP, base axes.
     pub deviation_um: [f64; 3],
     /// Share of each of `answer.contributors` in the in-plane deviation; their sum is the deviation.
@@ -235,6 +240,7 @@ pub(super) fn postures_of(
     };
     Ok(PosturesAnswer {
         in_plane: of_cases.collect(),
+        answered: answered_posture(robot, setting, &requested, &joints, watch)?,
         drawings: joints.iter().map(drawn).collect(),
         limits: limits(robot),
         chain: joints.iter().map(|q| as_chain(robot, q)).collect(),
@@ -373,6 +379,7 @@ fn deviations(
             in_plane_u_um: evaluation.in_plane_uncertainty.map(to_um),
             normal_um: to_um(evaluation.normal),
             full_um: to_um(evaluation.full),
+            force_n: wrench.force.map(without_rounding).into(),
             deviation_um: to_um(answers.deviations_at(0)[0]).into(),
             share_um: answers.shares_at(0).iter().map(to_um).collect(),
             permissible_along_load_n: along.filter(|n| n.is_finite()),

@@ -35,7 +35,7 @@ pub(super) fn levels_of(done: &AnalysisResult<'_>, tolerance_um: f64) -> Option<
     let [least, largest] = deviations
         .map(|um| [um, um])
         .reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])?;
-    Some(levels_about([least, largest], tolerance_um))
+    Some(levels_around([least, largest], Some(tolerance_um)))
 }
 
 /// The levels of a scale that is requested.
@@ -53,16 +53,18 @@ pub(super) fn checked(levels_um: &[f64]) -> Result<Vec<f64>, StudyError> {
     Ok(levels_um.to_vec())
 }
 
-/// The levels that contain these deviations, um.
-fn levels_about([least, largest]: [f64; 2], tolerance_um: f64) -> Vec<f64> {
+/// The levels that contain these values, extended to a tolerance that is near.
+pub(super) fn levels_around([least, largest]: [f64; 2], tolerance: Option<f64>) -> Vec<f64> {
     // Equal deviations have a scale too.
     let (mut low, mut high) = (least, largest.max(least + 1e-9 * least.abs().max(1.0)));
     let span = high - low;
-    if tolerance_um < low && low - tolerance_um < span {
-        low = tolerance_um;
-    }
-    if tolerance_um > high && tolerance_um - high < span {
-        high = tolerance_um;
+    if let Some(tolerance) = tolerance {
+        if tolerance < low && low - tolerance < span {
+            low = tolerance;
+        }
+        if tolerance > high && tolerance - high < span {
+            high = tolerance;
+        }
     }
     let step = round_step((high - low) / STEPS);
     // A limit that is a level within rounding is that level.
@@ -86,11 +88,11 @@ mod tests {
 
     #[test]
     fn a_scale_contains_all_deviations_with_round_limits() {
-        let levels = levels_about([109.2, 158.8], 50.0);
+        let levels = levels_around([109.2, 158.8], Some(50.0));
         assert_eq!(levels, [100.0, 110.0, 120.0, 130.0, 140.0, 150.0, 160.0]);
-        assert_eq!(levels_about([0.1, 0.52], 9.0)[..3], [0.1, 0.2, 0.3]);
+        assert_eq!(levels_around([0.1, 0.52], Some(9.0))[..3], [0.1, 0.2, 0.3]);
         assert_eq!(
-            levels_about([100.0, 180.0], 1.0).len(),
+            levels_around([100.0, 180.0], Some(1.0)).len(),
             9,
             "limits that are levels"
         );
@@ -98,15 +100,15 @@ mod tests {
 
     #[test]
     fn a_tolerance_that_is_near_is_on_the_scale_and_one_far_away_is_not() {
-        assert!(levels_about([60.0, 100.0], 50.0)[0] <= 50.0);
-        assert_eq!(levels_about([109.0, 159.0], 50.0)[0], 100.0);
-        assert!(levels_about([10.0, 40.0], 50.0).last() >= Some(&50.0));
+        assert!(levels_around([60.0, 100.0], Some(50.0))[0] <= 50.0);
+        assert_eq!(levels_around([109.0, 159.0], Some(50.0))[0], 100.0);
+        assert!(levels_around([10.0, 40.0], Some(50.0)).last() >= Some(&50.0));
     }
 
     #[test]
     fn equal_deviations_have_a_scale_too() {
         for value in [0.0, 1e-7, 20.0, 123_456.7] {
-            let levels = levels_about([value, value], value);
+            let levels = levels_around([value, value], Some(value));
             assert_eq!(checked(&levels).ok(), Some(levels), "{value}");
         }
     }

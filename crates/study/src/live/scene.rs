@@ -72,6 +72,8 @@ pub struct PointsInScene {
     pub xyz_mm: Vec<[f64; 3]>,
     /// Deviation under the worst case, base.
     pub deviation_um: Vec<Option<[f64; 3]>>,
+    /// Points with a posture outside joint limits, from 0.
+    pub outside_joint_limits: Vec<usize>,
     /// `state`, `branch`, `in_plane_um`, `normal_um`, `full_um`, of a path `along_um`, `cross_um`, `axial_um`, `line`,
     /// `distance_mm`: see the table of the analysis.
     pub columns: Map<String, Value>,
@@ -250,6 +252,11 @@ fn points(study: &Study, done: &AnalysisResult<'_>) -> Result<PointsInScene, Stu
     Ok(PointsInScene {
         xyz_mm: in_base.collect(),
         deviation_um: (0..answers.points.len()).map(deviation).collect(),
+        outside_joint_limits: answers
+            .evaluations()
+            .filter(|(_, evaluation)| !evaluation.within_limits())
+            .map(|(index, _)| index)
+            .collect(),
         columns: drawn
             .map(|column| (column.name.clone(), column_values(&column.data)))
             .collect(),

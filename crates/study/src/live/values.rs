@@ -29,8 +29,10 @@ pub struct ValuesAnswer {
     pub base: String,
     /// Available reference frames.
     pub bases: Vec<String>,
-    /// Centre of the plane.
+    /// Centre of the plane; of a volume with a centre of its own that of its box.
     pub centre_mm: [f64; 3],
+    /// The key that gives it: `plane.centre_mm` or `box.centre_mm`.
+    pub centre_key: &'static str,
     /// Its tilt; `null` if it is given by `rotation_deg`.
     pub tilt_deg: Option<f64>,
     /// Its rotation; `null` if it is given by its tilt.
@@ -88,6 +90,7 @@ pub(super) fn values_of(edited: &EditedAnalysis<'_>) -> Result<ValuesAnswer, Stu
     let tool = table.tool.as_ref().or(file.tool.as_ref());
     let load = table.load.as_ref().or(file.load.as_ref());
     let frames = robot.frames().iter().map(|frame| frame.name.clone());
+    let of_box = table.in_box.as_ref().and_then(|of| of.centre_mm);
     let upright = plane.rotation_deg.is_none();
     Ok(ValuesAnswer {
         kind: table.kind.name(),
@@ -96,7 +99,11 @@ pub(super) fn values_of(edited: &EditedAnalysis<'_>) -> Result<ValuesAnswer, Stu
         bases: std::iter::once(crate::BASE_LINK.to_owned())
             .chain(frames)
             .collect(),
-        centre_mm: plane.centre_mm,
+        centre_mm: of_box.unwrap_or(plane.centre_mm),
+        centre_key: match of_box {
+            Some(_) => "box.centre_mm",
+            None => "plane.centre_mm",
+        },
         tilt_deg: upright.then(|| plane.tilt_deg.unwrap_or(0.0)),
         rotation_deg: plane.rotation_deg,
         half_size_mm,

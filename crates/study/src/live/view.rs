@@ -8,6 +8,7 @@ use serde::Serialize;
 use crate::answer::{StudyAnswer, answer};
 use crate::error::StudyError;
 use crate::live::arm::{ExtremesAnswer, PoseAtTarget, PoseRequest, extremes_of, pose_at_target, target_of};
+use crate::live::layer::{LayerAnswer, LayerRequest, layer_of};
 use crate::live::outline::{analyses, changed_text};
 use crate::live::scale::{checked, levels_of};
 use crate::live::scene::scene_of;
@@ -28,6 +29,8 @@ pub struct ViewQuestion<'a> {
     pub levels_um: Option<&'a [f64]>,
     /// Whether maps have lines at these levels, in addition to those at the tolerance.
     pub lines: bool,
+    /// The quantity that colours show, if it is not the in-plane deviation.
+    pub layer: Option<&'a LayerRequest>,
 }
 
 /// Everything shown of one analysis.
@@ -49,6 +52,8 @@ pub struct ViewAnswer {
     pub levels_um: Option<Vec<f64>>,
     /// Lines of equal deviation, one entry a map.
     pub lines: Vec<LinesAnswer>,
+    /// The requested quantity at every point; `null` if none was requested.
+    pub layer: Option<LayerAnswer>,
     /// The arm at the requested point; `null` if none was requested, and if there is no such point.
     pub arm: Option<PoseAtTarget>,
 }
@@ -81,6 +86,11 @@ pub fn view(
         None => None,
     };
     let values = values_of(&edited)?;
+    let robot = &edited.study.robot.robot;
+    let layer = match (question.layer, done.first()) {
+        (Some(request), Some(done)) => Some(layer_of(robot, request, done, &answer, question.lines)?),
+        _ => None,
+    };
     let levels_um = fixed.or_else(|| levels_of(done.first()?, values.tolerance_um));
     let with_lines = levels_um.as_deref().filter(|_| question.lines);
     let lines_of = |map| LinesAnswer::of(map, with_lines.unwrap_or_default());
@@ -92,6 +102,7 @@ pub fn view(
         levels_um,
         answer,
         extremes,
+        layer,
         arm,
         text: new,
     })

@@ -161,7 +161,11 @@ fn a_hole_out_of_reach_is_reported_first_with_its_reason() {
         "{:?}",
         answer.warnings
     );
-    assert!(answer.answer.contains("1 cannot be drilled"), "{}", answer.answer);
+    assert!(
+        answer.answer.contains("hole 2 cannot be drilled"),
+        "{}",
+        answer.answer
+    );
 }
 
 #[test]

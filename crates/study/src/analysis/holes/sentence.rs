@@ -2,7 +2,7 @@
 
 use armill_core::robot::Robot;
 
-use crate::analysis::holes::answer::HolesAnswer;
+use crate::analysis::holes::answer::{HoleAnswer, HolesAnswer};
 use crate::analysis::words::{largest_contributor, micrometres};
 use crate::uncertainty_words::u_in_words;
 
@@ -14,16 +14,24 @@ pub fn sentence(robot: &Robot, holes: &HolesAnswer) -> String {
             holes.holes, holes.name, holes.branch
         );
     };
-    let lost = match holes.unreachable + holes.refused {
-        0 => String::new(),
-        n => format!("; {n} cannot be drilled"),
-    };
     let good = (holes.fraction_within * holes.holes as f64).round();
+    let (within, lost) = match holes.unreachable + holes.refused {
+        0 => (
+            format!("{good} of {} holes are within", holes.holes),
+            String::new(),
+        ),
+        n => (
+            format!(
+                "{} of {} holes can be drilled, {good} of them within",
+                holes.holes - n,
+                holes.holes
+            ),
+            format!("; {} cannot be drilled", lost_holes(holes)),
+        ),
+    };
     format!(
-        "{}: {} of {} holes are within {} µm; hole {} deviates by {} µm ({}) from its position; largest contribution: {}; holes are up to {} µm too deep or too shallow{lost}.",
+        "{}: {within} {} µm; hole {} deviates by {} µm ({}) from its position; largest contribution: {}; holes are up to {} µm too deep or too shallow{lost}.",
         holes.name,
-        good,
-        holes.holes,
         micrometres(holes.setting.tolerance_um),
         worst.hole,
         micrometres(worst.point.in_plane_um),
@@ -31,4 +39,23 @@ pub fn sentence(robot: &Robot, holes: &HolesAnswer) -> String {
         largest_contributor(robot, &worst.point, &holes.setting.contributors),
         micrometres(holes.max_depth_um.unwrap_or(0.0)),
     )
+}
+
+/// More holes than these are counted, not named.
+const NAMED: usize = 6;
+
+/// The holes without a usable posture.
+fn lost_holes(holes: &HolesAnswer) -> String {
+    let lost = |hole: &&HoleAnswer| hole.blocked_by.is_some() || hole.branch.is_none();
+    let mut numbers: Vec<usize> = holes.each.iter().filter(lost).map(|hole| hole.hole).collect();
+    numbers.sort_unstable();
+    let words = |numbers: &[usize]| {
+        let words: Vec<String> = numbers.iter().map(usize::to_string).collect();
+        words.join(", ")
+    };
+    match numbers.as_slice() {
+        [one] => format!("hole {one}"),
+        [first @ .., last] if numbers.len() <= NAMED => format!("holes {} and {last}", words(first)),
+        many => format!("{} holes", many.len()),
+    }
 }

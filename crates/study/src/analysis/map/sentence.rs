@@ -3,7 +3,7 @@
 use armill_core::robot::Robot;
 
 use crate::analysis::map::answer::MapAnswer;
-use crate::analysis::words::{largest_contributor, micrometres, unreached};
+use crate::analysis::words::{LimitCounts, largest_contributor, micrometres, unreached};
 use crate::uncertainty_words::u_in_words;
 
 /// Points that are not reached, fraction of a plane, least and largest deviation in it and along its normal, and how
@@ -15,7 +15,7 @@ pub fn sentence(robot: &Robot, map: &MapAnswer) -> String {
             map.name, map.branch
         );
     };
-    let evaluation = match map.fraction_within {
+    let evaluation = match map.fraction_within_and_inside_joint_limits {
         0.0 => format!(
             "no point on the plane is within {} µm",
             micrometres(map.setting.tolerance_um)
@@ -30,14 +30,12 @@ pub fn sentence(robot: &Robot, map: &MapAnswer) -> String {
             micrometres(map.setting.tolerance_um)
         ),
     };
-    let limits = match map.outside_joint_limits {
-        0 => String::new(),
-        n => format!(
-            " ({:.1} % inside joint limits: {n} of {} points are outside)",
-            map.fraction_within_and_inside_joint_limits * 100.0,
-            map.grid.points
-        ),
+    let limits = LimitCounts {
+        outside: map.outside_joint_limits,
+        of: map.grid.points,
+        fraction_within: map.fraction_within,
     };
+    let limits = limits.in_words();
     let along_normal = map.max_normal_um.map_or(String::new(), |um| {
         format!("; along the normal (depth) it is up to {} µm", micrometres(um))
     });

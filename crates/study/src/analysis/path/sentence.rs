@@ -3,7 +3,7 @@
 use armill_core::robot::Robot;
 
 use crate::analysis::path::answer::{CutAnswer, PathAnswer};
-use crate::analysis::words::{largest_contributor, micrometres, unreached};
+use crate::analysis::words::{LimitCounts, largest_contributor, micrometres, unreached};
 use crate::uncertainty_words::u_in_words;
 
 /// Largest deviation along a path with its line, roundness of a circle, and the fraction within the tolerance.
@@ -25,16 +25,22 @@ pub fn sentence(robot: &Robot, path: &PathAnswer) -> String {
     let roundness = path.roundness_um.map_or(String::new(), |r| {
         format!("; the roundness deviation of {circle} is {} µm", micrometres(r))
     });
+    let limits = LimitCounts {
+        outside: path.outside_joint_limits,
+        of: path.points,
+        fraction_within: path.fraction_within,
+    };
+    let limits = limits.in_words();
     let process = path.cut.as_ref().map_or(String::new(), process);
     format!(
-        "{}, branch {}: {}the tool deviates by up to {} µm ({}) {where_to}{line}{roundness}; largest contribution: {}; {:.1} % of the path is within {} µm.{process}",
+        "{}, branch {}: {}the tool deviates by up to {} µm ({}) {where_to}{line}{roundness}; largest contribution: {}; {:.1} % of the path is within {} µm{limits}.{process}",
         path.name,
         path.followed_branch.as_ref().unwrap_or(&path.branch),
         unreached(path.unreachable, path.points),
         micrometres(worst.in_plane_um),
         u_in_words(worst.in_plane_u_um),
         largest_contributor(robot, worst, &path.setting.contributors),
-        path.fraction_within * 100.0,
+        path.fraction_within_and_inside_joint_limits * 100.0,
         micrometres(path.setting.tolerance_um),
     )
 }

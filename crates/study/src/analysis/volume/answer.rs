@@ -24,6 +24,8 @@ pub struct VolumeAnswer {
     pub fraction_within: f64,
     /// The same, of points inside the joint limits only.
     pub fraction_within_and_inside_joint_limits: f64,
+    /// Points with a posture outside joint limits.
+    pub outside_joint_limits: usize,
     /// Volume of the points within, each representing one cell.
     pub volume_within_mm3: f64,
     /// Points by reason; their sum is the total.
@@ -59,6 +61,7 @@ pub fn answer(robot: &Robot, name: &str, setting: &Setting, volume: &VolumeMap) 
         branch: setting.branch(),
         fraction_within: counts.fraction_within(),
         fraction_within_and_inside_joint_limits: counts.fraction_within_and_inside_joint_limits(),
+        outside_joint_limits: counts.outside_joint_limits,
         volume_within_mm3: volume.volume_within(setting.tolerance) * 1e9,
         counts: CountsAnswer::of(&counts),
         point_counts: volume.grid.counts,

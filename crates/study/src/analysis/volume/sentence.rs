@@ -3,7 +3,7 @@
 use armill_core::robot::Robot;
 
 use crate::analysis::volume::answer::VolumeAnswer;
-use crate::analysis::words::{largest_contributor, micrometres, unreached};
+use crate::analysis::words::{LimitCounts, largest_contributor, micrometres, unreached};
 use crate::uncertainty_words::u_in_words;
 
 /// Points that are not reached, fraction of a box, and where in it the deviation is largest.
@@ -14,12 +14,18 @@ pub fn sentence(robot: &Robot, volume: &VolumeAnswer) -> String {
             volume.name, volume.branch
         );
     };
+    let limits = LimitCounts {
+        outside: volume.outside_joint_limits,
+        of: volume.counts.total(),
+        fraction_within: volume.fraction_within,
+    };
+    let limits = limits.in_words();
     format!(
-        "{}, branch {}: {}{:.1} % of the box is within {} µm; the in-plane deviation is at most {} µm ({}), at ({:.0}, {:.0}, {:.0}) mm; largest contribution: {}.",
+        "{}, branch {}: {}{:.1} % of the box is within {} µm{limits}; the in-plane deviation is at most {} µm ({}), at ({:.0}, {:.0}, {:.0}) mm; largest contribution: {}.",
         volume.name,
         volume.branch,
         unreached(volume.counts.unreached(), volume.counts.total()),
-        volume.fraction_within * 100.0,
+        volume.fraction_within_and_inside_joint_limits * 100.0,
         micrometres(volume.setting.tolerance_um),
         micrometres(worst.in_plane_um),
         u_in_words(worst.in_plane_u_um),

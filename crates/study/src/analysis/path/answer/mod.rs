@@ -74,6 +74,8 @@ pub struct PathAnswer {
     pub max_axial_um: Option<f64>,
     /// Points within the tolerance over all points.
     pub fraction_within: f64,
+    /// The same, of points inside the joint limits only.
+    pub fraction_within_and_inside_joint_limits: f64,
     /// Of circles reached everywhere, the path itself or its features: the largest roundness of all cases (peak to
     /// valley about the least-squares circle).
     pub roundness_um: Option<f64>,
@@ -127,9 +129,8 @@ pub fn answer(robot: &Robot, name: &str, analysis: &PathAnalysis, found: &PathRe
     let (setting, answers) = (&analysis.setting, &found.along.answers);
     let evaluation = || answers.evaluations().map(|(_, evaluation)| evaluation);
     let points = answers.points.len();
-    let within = evaluation()
-        .filter(|evaluation| evaluation.in_plane <= setting.tolerance)
-        .count();
+    let within = || evaluation().filter(|evaluation| evaluation.in_plane <= setting.tolerance);
+    let part = |count: usize| count as f64 / points.max(1) as f64;
     let features = feature::features(analysis, found);
     let of_features = features.iter().filter_map(|feature| feature.roundness_um);
     let of_cases = found
@@ -156,7 +157,10 @@ pub fn answer(robot: &Robot, name: &str, analysis: &PathAnalysis, found: &PathRe
         max_along_um: along,
         max_cross_um: cross,
         max_axial_um: axial,
-        fraction_within: within as f64 / points.max(1) as f64,
+        fraction_within: part(within().count()),
+        fraction_within_and_inside_joint_limits: part(
+            within().filter(|evaluation| evaluation.within_limits()).count(),
+        ),
         roundness_um: of_cases.chain(of_features).max_by(f64::total_cmp),
         circle_cases: circle_cases(found),
         worst: worst_points.first().map(|worst| worst.point.clone()),
