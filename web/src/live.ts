@@ -237,6 +237,12 @@ export class Live {
     this.refresh();
   }
 
+  /** Changes of several keys that are one step; `whole`: keys of the study, not of the analysis. */
+  changeTogether(values: Record<string, unknown>, whole = false): void {
+    for (const [key, value] of Object.entries(values)) this.pending.set(whole ? `\n${key}` : key, value);
+    this.refresh();
+  }
+
   refresh(): void {
     this.input_at = performance.now();
     if (this.text !== "") this.answers.submit({ analysis: this.analysis, since: this.input_at });

@@ -9,11 +9,10 @@ export const robotWithout = (message: string): string | null => /^no joint compl
 
 /** Sets the robot, and the class of compliances that this robot requires or no longer requires. */
 export function chooseRobot(live: Live, name: string, row: RobotRow | undefined): void {
-  live.change("robot", name, true);
-  if (!live.answer?.robot.compliance_assumed || !row) return;
+  const assumed = live.answer?.robot.compliance_assumed && row;
   // Compliances of a class belong to the robot before: known ones replace them, other robots have their own class.
-  if (row.compliance) live.change("compliance", null, true);
-  else if (row.compliance_class) live.change("compliance.class", row.compliance_class, true);
+  const compliance = assumed && row.compliance ? { compliance: null } : assumed && row.compliance_class ? { "compliance.class": row.compliance_class } : {};
+  live.changeTogether({ robot: name, ...compliance }, true);
 }
 
 /** A button that assumes the compliances of the class of this robot; null if the problem is another one. */
@@ -21,9 +20,6 @@ export function offerClass(message: string, live: Live, rows: RobotRow[]): HTMLE
   const name = robotWithout(message);
   const found = rows.find((row) => row.name === name)?.compliance_class;
   if (name === null || !found) return null;
-  const assume = () => {
-    live.change("robot", name, true);
-    live.change("compliance.class", found, true);
-  };
+  const assume = () => live.changeTogether({ robot: name, "compliance.class": found }, true);
   return h("span", { class: "offer" }, h("button", { type: "button", class: "quiet small", "data-key": "assume", onclick: assume }, `Assume class ${found}`), " Every result is then marked: compliances assumed, not measured.");
 }

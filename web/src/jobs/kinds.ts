@@ -102,9 +102,11 @@ export function application(job: Job, live: Live): { text: string; about: string
     if (!centre) return null;
     const apply = () => {
       if (live.analysis !== analysis && live.analyses.some((a) => a.name === analysis)) live.choose(analysis);
-      live.change("plane.centre_mm", centre);
-      if (typeof place.tilt_deg === "number") live.change("plane.tilt_deg", place.tilt_deg);
-      if (home_deg) live.change("posture.home_deg", home_deg);
+      live.changeTogether({
+        "plane.centre_mm": centre,
+        ...(typeof place.tilt_deg === "number" ? { "plane.tilt_deg": place.tilt_deg } : {}),
+        ...(home_deg ? { "posture.home_deg": home_deg } : {}),
+      });
     };
     return { text: "Apply this placement", about: "Changes the plane in the study and shows it; not saved yet, and can be undone.", apply };
   }
