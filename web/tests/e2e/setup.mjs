@@ -92,7 +92,7 @@ export async function open(browser, url, { width = 1280, height = 800, dark = fa
     if (to.protocol.startsWith("http") && to.host !== new URL(url).host) page.complaints.push(`requested ${to.href}`);
   });
   const own = process.env.ARMILL_PAGE;
-  if (own) await page.route((to) => !to.pathname.startsWith("/api/"), (route) => route.fulfill({ path: join(own, new URL(route.request().url()).pathname.replace(/\/$/, "/index.html")) }));
+  if (own) await page.route((to) => !/^\/(api|open)\//.test(to.pathname), (route) => route.fulfill({ path: join(own, new URL(route.request().url()).pathname.replace(/\/$/, "/index.html")) }));
   await page.goto(url);
   if (answers) await settled(page);
   return page;
