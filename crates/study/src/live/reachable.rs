@@ -38,7 +38,7 @@ const BETWEEN: usize = 10;
 const GRID: i32 = 12;
 /// Reach of an arm whose reach is not known, m.
 const REACH: f64 = 2.0;
-/// Halvings of the way back: a hundredth of the pitch of the grid.
+/// Halvings of the way back: a thousandth of the pitch of the grid.
 const HALVINGS: usize = 10;
 
 /// The placement of this analysis, or of the first, that is nearest to the present one and reached.

@@ -144,6 +144,31 @@ fn moves_below_the_clearance_are_reported() {
 }
 
 #[test]
+fn retracts_in_steps_and_a_small_shift_above_the_cut_are_no_faults() {
+    let up = "LIN {X 40,Y 0,Z 50,A 0,B 0,C 180}\n";
+    let way = |shift: &str| {
+        format!("LIN {{X 40,Y 0,Z 20,A 0,B 0,C 180}}\nLIN {{X {shift},Y 0,Z 20,A 0,B 0,C 180}}\n")
+    };
+    let after = |shift: &str, end: &str| GOOD.replace(up, &(way(shift) + end));
+    let end = |x: &str| format!("LIN {{X {x},Y 0,Z 50,A 0,B 0,C 180}}\n");
+    assert_eq!(
+        complaint(&GOOD.replace(up, &format!("LIN {{X 40,Y 0,Z 20,A 0,B 0,C 180}}\n{up}"))),
+        None
+    );
+    // Across by more than corrections differ, and away from the tool axis.
+    let far = complaint(&after("40.7", &end("40.7"))).unwrap();
+    assert!(far.starts_with("groove.src:14: a line to [40.700"), "{far}");
+    let slanting = complaint(&after("40.5", &end("41"))).unwrap();
+    assert!(slanting.contains("below the clearance"), "{slanting}");
+    // After the shift the tool goes down to a cut, not up.
+    let nowhere = complaint(&after("40.5", &end("40.5"))).unwrap();
+    assert!(
+        nowhere.starts_with("groove.src:15: a line from [40.500"),
+        "{nowhere}"
+    );
+}
+
+#[test]
 fn axes_beyond_their_limits_are_reported() {
     complains(
         "A1 0,",
