@@ -236,38 +236,28 @@ fn follow<R: Real, const EXCHANGES: bool>(
             flange_from_tool
         };
         translate::<R>(before, &by.translation, &mut after.origin);
-        match &by.rotation {
-            Some(rotation) => rotate::<R, EXCHANGES>(&before.axes, rotation, &mut after.axes),
-            None => after.axes.clone_from(&before.axes),
-        }
+        rotate::<R, EXCHANGES>(&before.axes, by.rotation.as_ref(), &mut after.axes);
         return;
     };
     translate::<R>(before, &link.before.translation, &mut after.origin);
-    let mut rotated;
-    let axes = match &link.before.rotation {
-        Some(rotation) => {
-            rotated = [planes(), planes(), planes()];
-            rotate::<R, EXCHANGES>(&before.axes, rotation, &mut rotated);
-            &rotated
-        }
-        None => &before.axes,
-    };
     let theta = theta::<R>(link, joints, rank - 1);
-    if link.slides {
-        after.axes.clone_from(axes);
-        let axis = &axes[link.axis];
-        for i in 0..BLOCK {
-            R::step();
-            let origin = vector::<R>(&after.origin, i);
-            let moved = vector::<R>(axis, i).mul_add(R::load(theta[i]), origin);
-            put(&mut after.origin, i, moved);
+    let rotation = link.before.rotation.as_ref();
+    let (from, to) = (&before.axes, &mut after.axes);
+    if !link.slides {
+        match link.axis {
+            0 => turn::<R, EXCHANGES, 0, 1, 2>(from, rotation, &theta, to),
+            1 => turn::<R, EXCHANGES, 1, 2, 0>(from, rotation, &theta, to),
+            _ => turn::<R, EXCHANGES, 2, 0, 1>(from, rotation, &theta, to),
         }
         return;
     }
-    match link.axis {
-        0 => turn::<R, 0, 1, 2>(axes, &theta, &mut after.axes),
-        1 => turn::<R, 1, 2, 0>(axes, &theta, &mut after.axes),
-        _ => turn::<R, 2, 0, 1>(axes, &theta, &mut after.axes),
+    rotate::<R, EXCHANGES>(from, rotation, to);
+    let axis = &after.axes[link.axis];
+    for i in 0..BLOCK {
+        R::step();
+        let origin = vector::<R>(&after.origin, i);
+        let moved = vector::<R>(axis, i).mul_add(R::load(theta[i]), origin);
+        put(&mut after.origin, i, moved);
     }
 }
 
@@ -302,9 +292,14 @@ fn translate<R: Real>(before: &FramePlanes<R::Float>, by: &Vector3<f64>, origin:
 /// Entries of a rotation below this are rounding: cosines of quarter turns.
 const ROUNDING: f64 = 1e-15;
 
-/// For each column of a rotation by quarter turns the row that is not zero, and its sign; none for other rotations.
-fn exchanged(rotation: &Matrix3<f64>) -> Option<[(usize, f64); 3]> {
-    let mut rows = [(0, 1.0); 3];
+/// For each column of a rotation by quarter turns the row that is not zero, and its sign.
+type Exchange = [(usize, f64); 3];
+
+const UNEXCHANGED: Exchange = [(0, 1.0), (1, 1.0), (2, 1.0)];
+
+/// None for rotations that are not by quarter turns.
+fn exchanged(rotation: &Matrix3<f64>) -> Option<Exchange> {
+    let mut rows = UNEXCHANGED;
     for (k, row) in rows.iter_mut().enumerate() {
         let column = rotation.column(k);
         let largest = column.iamax();
@@ -316,13 +311,17 @@ fn exchanged(rotation: &Matrix3<f64>) -> Option<[(usize, f64); 3]> {
     Some(rows)
 }
 
-/// The axes after a constant rotation.
+/// The axes after a constant rotation, if any.
 #[inline(always)]
 fn rotate<R: Real, const EXCHANGES: bool>(
     from: &[Planes<R::Float, 3>; 3],
-    rotation: &Matrix3<f64>,
+    rotation: Option<&Matrix3<f64>>,
     to: &mut [Planes<R::Float, 3>; 3],
 ) {
+    let Some(rotation) = rotation else {
+        to.clone_from(from);
+        return;
+    };
     if EXCHANGES && let Some(rows) = exchanged(rotation) {
         let mut k = 0;
         while k < 3 {
@@ -336,45 +335,89 @@ fn rotate<R: Real, const EXCHANGES: bool>(
         }
         return;
     }
-    let columns = [
-        Vector::<R>::of(&rotation.column(0).into_owned()),
-        Vector::<R>::of(&rotation.column(1).into_owned()),
-        Vector::<R>::of(&rotation.column(2).into_owned()),
-    ];
+    let columns = columns::<R>(rotation);
     for i in 0..BLOCK {
         R::step();
-        let x = vector::<R>(&from[0], i);
-        let y = vector::<R>(&from[1], i);
-        let z = vector::<R>(&from[2], i);
+        let axes = axes::<R>(from, i);
         let mut k = 0;
         while k < 3 {
-            let column = columns[k];
-            put(
-                &mut to[k],
-                i,
-                x.mul_add(column.x, y.mul_add(column.y, z.scaled(column.z))),
-            );
+            put(&mut to[k], i, combined(&axes, &columns[k]));
             k += 1;
         }
     }
 }
 
-/// The axes after a turn about axis `K` by `theta`, rad; `A` and `B` are the two after it in turn.
+/// The axes after a constant rotation, if any, and a turn about axis `K` by `theta`, rad; `A` and `B` are the two after
+/// it in turn.
 #[inline(always)]
-fn turn<R: Real, const K: usize, const A: usize, const B: usize>(
+fn turn<R: Real, const EXCHANGES: bool, const K: usize, const A: usize, const B: usize>(
     from: &[Planes<R::Float, 3>; 3],
+    rotation: Option<&Matrix3<f64>>,
     theta: &Plane<R::Float>,
     to: &mut [Planes<R::Float, 3>; 3],
 ) {
+    let Some(rotation) = rotation else {
+        return turn_exchanged::<R, K, A, B>(from, UNEXCHANGED, theta, to);
+    };
+    if EXCHANGES && let Some(rows) = exchanged(rotation) {
+        return turn_exchanged::<R, K, A, B>(from, rows, theta, to);
+    }
+    let columns = columns::<R>(rotation);
     for i in 0..BLOCK {
         R::step();
         let (sin, cos) = sin_cos(R::load(theta[i]));
-        let first = vector::<R>(&from[A], i);
-        let second = vector::<R>(&from[B], i);
+        let axes = axes::<R>(from, i);
+        let first = combined(&axes, &columns[A]);
+        let second = combined(&axes, &columns[B]);
         put(&mut to[A], i, second.mul_add(sin, first.scaled(cos)));
         put(&mut to[B], i, first.mul_add(-sin, second.scaled(cos)));
+        put(&mut to[K], i, combined(&axes, &columns[K]));
     }
-    to[K].clone_from(&from[K]);
+}
+
+/// The same where the rotation exchanges axes.
+#[inline(always)]
+fn turn_exchanged<R: Real, const K: usize, const A: usize, const B: usize>(
+    from: &[Planes<R::Float, 3>; 3],
+    rows: Exchange,
+    theta: &Plane<R::Float>,
+    to: &mut [Planes<R::Float, 3>; 3],
+) {
+    let (along, first, second) = (&from[rows[K].0], &from[rows[A].0], &from[rows[B].0]);
+    let sign = |row: usize| R::of(rows[row].1);
+    let (sign_k, sign_a, sign_b) = (sign(K), sign(A), sign(B));
+    for i in 0..BLOCK {
+        R::step();
+        let (sin, cos) = sin_cos(R::load(theta[i]));
+        let (first, second) = (vector::<R>(first, i), vector::<R>(second, i));
+        put(
+            &mut to[A],
+            i,
+            second.mul_add(sin * sign_b, first.scaled(cos * sign_a)),
+        );
+        put(
+            &mut to[B],
+            i,
+            first.mul_add(-sin * sign_a, second.scaled(cos * sign_b)),
+        );
+        put(&mut to[K], i, vector::<R>(along, i).scaled(sign_k));
+    }
+}
+
+#[inline(always)]
+fn columns<R: Real>(rotation: &Matrix3<f64>) -> [Vector<R>; 3] {
+    std::array::from_fn(|k| Vector::of(&rotation.column(k).into_owned()))
+}
+
+#[inline(always)]
+fn axes<R: Real>(from: &[Planes<R::Float, 3>; 3], i: usize) -> [Vector<R>; 3] {
+    [vector(&from[0], i), vector(&from[1], i), vector(&from[2], i)]
+}
+
+/// The sum of the axes, each times its component.
+#[inline(always)]
+fn combined<R: Real>([x, y, z]: &[Vector<R>; 3], by: &Vector<R>) -> Vector<R> {
+    x.mul_add(by.x, y.mul_add(by.y, z.scaled(by.z)))
 }
 
 #[inline(always)]
