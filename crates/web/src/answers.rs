@@ -19,8 +19,7 @@ use std::sync::{Arc, OnceLock};
 use armill_core::watch::Watch;
 use armill_study::live::{
     ChangedValue, LayerRequest, PoseRequest, PoseTarget, PostureQuestion, StudyText, ViewQuestion,
-    answer_json, measured_csv, mesh_bytes, picture_svg, pictures, reachable, scene, table_csv,
-    values, view,
+    answer_json, measured_csv, mesh_bytes, picture_svg, pictures, reachable, scene, table_csv, values, view,
 };
 use armill_study::robot_answers::library_rows;
 use armill_study::{StudyError, output};

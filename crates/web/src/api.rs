@@ -17,7 +17,8 @@ use axum::response::Response;
 use serde_json::Value;
 
 use crate::answers::{
-    AnalysisRequest, MeshRequest, PathColumnsRequest, PictureRequest, PosturesRequest, TableRequest, ViewRequest,
+    AnalysisRequest, MeshRequest, PathColumnsRequest, PictureRequest, PosturesRequest, TableRequest,
+    ViewRequest,
 };
 use crate::files::{Files, TicketAnswer, TicketRequest, UploadedFile};
 use crate::job::JobAnswer;

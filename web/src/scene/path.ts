@@ -6,6 +6,7 @@ import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js
 import type { Rgb } from "./colour";
 import { colourOf, type ShownLayer } from "./layers";
 import { fat } from "./lines";
+import { measured } from "../measured";
 import { PathTree, Screen } from "./path-tree";
 import { known, type Points } from "./points";
 import { Segments } from "./segments";
@@ -16,8 +17,12 @@ const NEAR_PX = 9;
 /** More deviation vectors in the picture would be a sheet. */
 const MOST_WHISKERS = 96;
 /** Parts of a long path that are smaller than this are one point; coarser if there are more pieces than MOST_PIECES. */
-const FINE_PX = 1.6;
-const MOST_PIECES = 24_000;
+const FINE_PX = 2;
+const MOST_PIECES = 6000;
+/** With more pieces in the picture the ends of the deviations would be a sheet. */
+const MOST_RIM = 1500;
+/** Width of the line, of a long path and of others. */
+const [THIN_PX, WIDE_PX] = [4, 7];
 /** Where another load case begins to decide, the end of the deviation leaps by more than this part of it. */
 const LEAP = 0.4;
 
@@ -32,7 +37,7 @@ interface Drawn {
 export class PathView {
   readonly group = new THREE.Group();
   beads: THREE.InstancedMesh | null = null;
-  private readonly line = new Segments({ width: 7, colour: 0xffffff, opacity: 1 }, true);
+  private readonly line = new Segments({ width: WIDE_PX, colour: 0xffffff, opacity: 1 }, true);
   private readonly whiskers = new Segments({ width: 1.3, colour: 0xcc3fa0, opacity: 0.55 });
   private readonly rim = new Segments({ width: 2.2, colour: 0xcc3fa0, opacity: 1 });
   private readonly kept = new THREE.Group();
@@ -65,6 +70,7 @@ export class PathView {
       this.beads.computeBoundingSphere();
       this.kept.add(this.beads);
     }
+    this.line.object.material.linewidth = n > MOST_BEADS ? THIN_PX : WIDE_PX;
     if (joined) this.outside(points);
   }
 
@@ -80,7 +86,7 @@ export class PathView {
     const order = this.order(this.drawn, screen);
     if (this.drawn.joined) this.drawLine(this.drawn, order);
     this.drawWhiskers(this.drawn, screen);
-    performance.measure("armill:path", { start: begun });
+    measured("path", begun);
     return true;
   }
 
@@ -113,6 +119,7 @@ export class PathView {
     const colour = new THREE.Color();
     const of = (i: number): Rgb => colour.setRGB(...colourOf(shown, known(values, i)), THREE.SRGBColorSpace).toArray() as Rgb;
     const end = (i: number) => [0, 1, 2].map((k) => xyz[3 * i + k]! + magnified * deviation[3 * i + k]!);
+    const rim = magnified > 0 && (points.count <= MOST_BEADS || order.length <= MOST_RIM);
     this.line.begin();
     this.rim.begin();
     let [before, colour_before, end_before] = [-1, [0, 0, 0] as Rgb, [NaN, NaN, NaN]];
@@ -122,7 +129,7 @@ export class PathView {
         if (before >= 0) {
           this.line.add(xyz, 3 * before, xyz, 3 * i);
           this.line.colour(colour_before, own);
-          if (magnified > 0 && !leaps(deviation, before, i)) this.rim.add(end_before, 0, own_end, 0);
+          if (rim && !leaps(deviation, before, i)) this.rim.add(end_before, 0, own_end, 0);
         }
         [colour_before, end_before] = [own, own_end];
       }

@@ -5,6 +5,7 @@ import { niceStep } from "../format";
 import { lostHoles } from "../headline";
 import { api } from "../server";
 import type { Live } from "../live";
+import { measured } from "../measured";
 import { sharesOf } from "../shares";
 import type { At, Line, Plate, Vec3 } from "../types";
 import { Arm } from "./arm";
@@ -297,7 +298,7 @@ export class SceneView {
     canvas.addEventListener("pointermove", (e) => {
       const begun = performance.now();
       this.onHover(e.buttons ? null : this.under(e), e.clientX, e.clientY);
-      performance.measure("armill:hover", { start: begun });
+      measured("hover", begun);
     });
     canvas.addEventListener("pointerleave", () => this.onHover(null, 0, 0));
     canvas.addEventListener("pointerup", (e) => {

@@ -53,7 +53,7 @@ export class BandRow {
     this.root.hidden = bands.length === 0;
     this.buttons = bands.map(({ first, end, text, about }, i) => {
       const [left, right] = [axis.place(first), i + 1 < bands.length ? axis.place(bands[i + 1]!.first) : axis.place(end - 1)];
-      return h("button", { type: "button", tabindex: -1, title: about, "aria-label": about, style: `left:${100 * left}%;width:${100 * Math.max(0, right - left)}%`, onclick: () => this.go(first) }, text);
+      return h("button", { type: "button", tabindex: -1, title: about, style: `left:${100 * left}%;width:${100 * Math.max(0, right - left)}%`, onclick: () => this.go(first) }, text);
     });
     fill(this.host, ...this.buttons);
   }

@@ -4,6 +4,7 @@
 import { h } from "../dom";
 import { fixed, mm, newton, um } from "../format";
 import type { Live } from "../live";
+import { measured } from "../measured";
 import type { PathColumn } from "../types";
 import { Axis } from "./axis";
 import { BandRow, operationBands, toolBands } from "./bands";
@@ -164,7 +165,7 @@ export class Timeline {
       strip.show(this.pyramids.get(key) ?? null);
       strip.draw(this.starts);
     }
-    performance.measure("armill:strips", { start: begun });
+    measured("strips", begun);
   }
 
   /** Cursor and values at the point of the robot, or at the one under the pointer. */
@@ -231,7 +232,7 @@ export class Timeline {
       const point = this.wanted!;
       this.wanted = null;
       if (point !== this.index || this.live.follow !== "place") this.live.goTo({ point });
-      performance.measure("armill:scrub", { start: begun });
+      measured("scrub", begun);
     });
   }
 
@@ -241,7 +242,7 @@ export class Timeline {
     this.pointer.hidden = index === null;
     if (index !== null) this.pointer.style.setProperty("--place", String(this.axis.place(index)));
     this.mark();
-    performance.measure("armill:strip-hover", { start: begun });
+    measured("strip-hover", begun);
   }
 
   private key(event: KeyboardEvent): void {

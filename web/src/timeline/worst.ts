@@ -21,8 +21,8 @@ export class WorstList {
       ...found.slice(0, indices.length).map(({ line, cause, point }, i) => {
         const index = indices[i]!;
         const operation = operations[lastFrom(operations, index)];
-        const about = [`Point ${index + 1}`, operation?.name, `line ${line}`, cause].filter((part) => part).join(", ");
-        return h("li", {}, h("button", { type: "button", class: point.in_plane_um > tolerance ? "over" : "", title: about, "data-key": `worst-${i}`, onclick: () => this.go(index) }, h("b", {}, `${um(point.in_plane_um)} µm`), ` point ${index + 1}`, h("small", {}, ` line ${line}`)));
+        const about = [`${um(point.in_plane_um)} µm, point ${index + 1}`, operation?.name, `line ${line}`, cause].filter((part) => part).join(", ");
+        return h("li", {}, h("button", { type: "button", class: point.in_plane_um > tolerance ? "over" : "", title: about, "data-key": `worst-${i}`, onclick: () => this.go(index) }, h("b", {}, `${um(point.in_plane_um)} µm`), h("small", {}, ` line ${line}`)));
       }),
     );
   }

@@ -3,7 +3,7 @@
 //! | column | content |
 //! |---|---|
 //! | `xyz_mm`, `deviation_um` | the point, and its deviation under the worst case: x, y, z, base |
-//! | `force_n` | size of the force on the tool of the worst case |
+//! | `force_n` | size of the force on the tool of the worst case; of a cut as in the table |
 //! | `time_s` | time of cutting before the point, without rapids; only if every cut has a feed |
 //! | `outside_joint_limits` | 1 for a posture outside joint limits, else 0 |
 //! | `in_plane_um`, `limit_margin_deg`, `joint_NAME_deg`, ... | as in the table of the analysis, where it has them |
@@ -151,9 +151,6 @@ fn columns<'a>(
             let worst = evaluation(index)?.worst_case;
             Some(answers.deviations_at(index)[worst].map(to_um))
         }),
-        PathColumn::new("force_n", Some("N"), move |index| {
-            or_nan(evaluation(index).map(|evaluation| force(path, found, index, evaluation.worst_case)))
-        }),
         PathColumn::new("outside_joint_limits", None, move |index| {
             let outside = evaluation(index).is_some_and(|evaluation| !evaluation.within_limits());
             f64::from(u8::from(outside))
@@ -164,16 +161,22 @@ fn columns<'a>(
             }))
         }),
     ];
+    if found.process.is_none() {
+        columns.push(PathColumn::new("force_n", Some("N"), move |index| {
+            or_nan(evaluation(index).map(|evaluation| force(path, found, index, evaluation.worst_case)))
+        }));
+    }
     let without_rapids = Speeds {
         feed: None,
         rapid: Some(f64::INFINITY),
     };
-    columns.extend(Clock::of(&path.track.path, without_rapids).ok().map(|clock| {
-        PathColumn::new("time_s", Some("s"), move |index| clock.time()[index])
-    }));
-    let of_table = numbers_of(robot, data, rows).into_iter().filter(|numbers| {
-        ![&quantity::SHARE, &quantity::OF_CASE, &quantity::FORCE].contains(&numbers.quantity)
-    });
+    columns.extend(
+        Clock::of(&path.track.path, without_rapids)
+            .ok()
+            .map(|clock| PathColumn::new("time_s", Some("s"), move |index| clock.time()[index])),
+    );
+    let all = numbers_of(robot, data, rows).into_iter();
+    let of_table = all.filter(|numbers| ![&quantity::SHARE, &quantity::OF_CASE].contains(&numbers.quantity));
     let mut joint = 0;
     for numbers in of_table {
         let (key, unit) = (numbers.name.clone(), numbers.quantity.unit);

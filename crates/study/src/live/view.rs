@@ -17,7 +17,8 @@ use crate::live::scale::{checked, levels_of};
 use crate::live::scene::scene_of;
 use crate::live::values::values_of;
 use crate::live::{
-    ChangedValue, EditedAnalysis, LinesAnswer, OutlinedAnalysis, PathCache, SceneAnswer, StudyText, ValuesAnswer,
+    ChangedValue, EditedAnalysis, LinesAnswer, OutlinedAnalysis, PathCache, SceneAnswer, StudyText,
+    ValuesAnswer,
 };
 use crate::run::run;
 
