@@ -3,7 +3,7 @@
 // becomes 244 804 points; its first argument is a step in mm (0.25: about a million points), its second a number of changes
 // after which the memory is compared.
 //
-// | row | work of the main thread of the page, sum of all tasks between two frames |
+// | row | processor time of the main thread of the page, sum of all tasks between two frames |
 // |---|---|
 // | hover | the pointer moves over the path in the scene |
 // | charts | the pointer moves over the charts |
@@ -35,7 +35,7 @@ program = { file = "boss.apt"${step > 0 ? `, step_mm = ${step}` : ""} }
 const at = (list, share) => [...list].sort((a, b) => a - b)[Math.min(list.length - 1, Math.floor(share * list.length))];
 const row = (name, list) => console.log(`${name.padEnd(30)} ${at(list, 0.5).toFixed(1).padStart(7)} ${at(list, 0.95).toFixed(1).padStart(7)} ${Math.max(...list).toFixed(1).padStart(7)} ms, ${list.length} frames`);
 
-/** Work of the page's main thread between frames while `act` runs, ms. */
+/** Work of the page's main thread between frames while `act` runs: its processor time, without waiting for WebGL, ms. */
 async function frames(browser, page, act) {
   await browser.startTracing(page, { categories: ["toplevel", "disabled-by-default-devtools.timeline.frame"] });
   await act();
@@ -46,7 +46,7 @@ async function frames(browser, page, act) {
   const [thread] = [...count].sort((a, b) => b[1] - a[1])[0];
   const starts = begins.filter((e) => `${e.pid} ${e.tid}` === thread).map((e) => e.ts).sort((a, b) => a - b);
   const tasks = traceEvents.filter((e) => `${e.pid} ${e.tid}` === thread && e.ph === "X" && /RunTask$/.test(e.name));
-  return starts.slice(0, -1).map((start, i) => tasks.filter((e) => e.ts >= start && e.ts < starts[i + 1]).reduce((sum, e) => sum + e.dur, 0) / 1e3);
+  return starts.slice(0, -1).map((start, i) => tasks.filter((e) => e.ts >= start && e.ts < starts[i + 1]).reduce((sum, e) => sum + (e.tdur ?? e.dur), 0) / 1e3);
 }
 const next = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(done)));
 const measures = (page, name) => page.evaluate((name) => performance.getEntriesByName(name).map((e) => e.duration), `armill:${name}`);

@@ -3,7 +3,7 @@
 import * as THREE from "three";
 import type { Vec3 } from "../types";
 
-const SIZE_PX = 15;
+const SIZE_PX = 12;
 
 export class Marker {
   readonly group = new THREE.Group();

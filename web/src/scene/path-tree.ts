@@ -81,15 +81,17 @@ export class PathTree {
 
   /**
    * Points for a line whose parts smaller than `pixels` are one point each: that with the largest of `values`, so that no peak is lost.
-   * `take` is called in the order of the path; `joined` is false after a part that is not in the picture.
+   * `take` is called in the order of the path; `joined` is false after a part that is not in the picture. It ends, and is false, where there
+   * would be more than `most` points.
    */
-  visible(screen: Screen, pixels: number, values: Values, take: (index: number, joined: boolean) => void): void {
+  visible(screen: Screen, pixels: number, values: Values, most: number, take: (index: number, joined: boolean) => void): boolean {
     this.findPeaks(values);
     const { points, out } = this;
     let joined = false;
+    let count = 0;
     const look = (level: number, i: number) => {
       const spheres = this.levels[level]!;
-      if (4 * i >= spheres.length) return;
+      if (4 * i >= spheres.length || count > most) return;
       screen.project(spheres[4 * i]!, spheres[4 * i + 1]!, spheres[4 * i + 2]!, out);
       const [x, y, radius] = [out[0]!, out[1]!, this.radius(screen, spheres, i)];
       if (radius < Infinity && (x + radius < 0 || y + radius < 0 || x - radius > screen.width || y - radius > screen.height)) {
@@ -99,6 +101,7 @@ export class PathTree {
       if (2 * radius < pixels) {
         take(this.peaks[level]![i]!, joined);
         joined = true;
+        count++;
       } else if (level > 0) {
         look(level - 1, 2 * i);
         look(level - 1, 2 * i + 1);
@@ -111,10 +114,12 @@ export class PathTree {
           [x0, y0] = [px, py];
           take(p, joined);
           joined = true;
+          count++;
         }
       }
     };
     if (points.count > 0) look(this.levels.length - 1, 0);
+    return count <= most;
   }
 
   /** Ranges of points that may be in the picture. */

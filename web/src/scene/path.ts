@@ -19,6 +19,7 @@ const MOST_WHISKERS = 96;
 /** Parts of a long path that are smaller than this are one point; coarser if there are more pieces than MOST_PIECES. */
 const FINE_PX = 2;
 const MOST_PIECES = 6000;
+const [COARSER, COARSEST_PX] = [1.4, 60];
 /** With more pieces in the picture the ends of the deviations would be a sheet. */
 const MOST_RIM = 1500;
 /** Width of the line, of a long path and of others. */
@@ -42,6 +43,8 @@ export class PathView {
   private readonly rim = new Segments({ width: 2.2, colour: 0xcc3fa0, opacity: 1 });
   private readonly kept = new THREE.Group();
   private drawn: Drawn | null = null;
+  /** Parts smaller than this were one point in the last picture, px. */
+  private fine = FINE_PX;
   /** The camera and the size of the picture that the line was drawn for. */
   private seen = "";
 
@@ -103,13 +106,17 @@ export class PathView {
       return isClosed(points) ? [...all, 0] : all;
     }
     const values = shown.layer.named ? (points.column("in_plane_um") ?? []) : shown.values(0);
-    for (let pixels = FINE_PX; ; pixels *= 1.6) {
+    // From the last picture on: coarser until there are few enough pieces, or finer as long as there are.
+    for (let best: number[] | null = null; ; ) {
       const found: number[] = [];
-      tree.visible(screen, pixels, values, (index, follows) => {
+      const few = tree.visible(screen, this.fine, values, MOST_PIECES, (index, follows) => {
         if (!follows || points.begins(index)) found.push(-1);
         found.push(index);
       });
-      if (found.length <= MOST_PIECES || pixels > 40) return found;
+      if (!few && (best || this.fine > COARSEST_PX)) return best ?? found;
+      if (few && (this.fine <= FINE_PX || found.length > MOST_PIECES / 2)) return found;
+      if (few) best = found;
+      this.fine = few ? Math.max(FINE_PX, this.fine / COARSER) : this.fine * COARSER;
     }
   }
 

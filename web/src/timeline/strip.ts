@@ -90,7 +90,8 @@ export class Strip {
       context.setLineDash([]);
       if (text === "") continue;
       const wide = context.measureText(text).width;
-      const beneath = y(at) < 14;
+      // Values above a tolerance are the ones that matter: its name is beneath it.
+      const beneath = y(at) < height - 15;
       context.fillStyle = css("--surface");
       context.globalAlpha = 0.8;
       context.fillRect(width - wide - 6, beneath ? y(at) + 1 : y(at) - 13, wide + 6, 13);

@@ -2,7 +2,7 @@
 // them. It is one slider: pointer, arrow keys, Page Up and Down, Home, End; Space plays.
 
 import { h } from "../dom";
-import { fixed, mm, newton, um } from "../format";
+import { fixed, mm, newton, trimmed, um } from "../format";
 import type { Live } from "../live";
 import { measured } from "../measured";
 import type { PathColumn } from "../types";
@@ -127,7 +127,7 @@ export class Timeline {
       height: 66,
       text: um,
       span: ([, high]) => [0, 1.12 * Math.max(high > 0 ? high : 0, tolerance())],
-      marks: () => [{ at: tolerance(), text: `tolerance ${um(tolerance())}` }],
+      marks: () => [{ at: tolerance(), text: `tolerance ${trimmed(tolerance(), 1)}` }],
       above: tolerance,
     });
     const force = new Strip({ title: "Force", unit: "N", height: 40, text: newton, span: fromZero, marks: () => [] });

@@ -12,7 +12,8 @@ export class WorstList {
   constructor(private readonly live: Live, private readonly go: (index: number) => void) {}
 
   show(operations: OperationInView[]): void {
-    const found = this.live.answer?.paths[0]?.worst_points ?? [];
+    const path = this.live.answer?.paths[0];
+    const found = path?.worst_points ?? [];
     const indices = this.live.path?.about.worst ?? [];
     const tolerance = this.live.setting?.tolerance_um ?? Infinity;
     this.root.hidden = indices.length === 0;
@@ -22,7 +23,7 @@ export class WorstList {
         const index = indices[i]!;
         const operation = operations[lastFrom(operations, index)];
         const about = [`${um(point.in_plane_um)} µm, point ${index + 1}`, operation?.name, `line ${line}`, cause].filter((part) => part).join(", ");
-        return h("li", {}, h("button", { type: "button", class: point.in_plane_um > tolerance ? "over" : "", title: about, "data-key": `worst-${i}`, onclick: () => this.go(index) }, h("b", {}, `${um(point.in_plane_um)} µm`), h("small", {}, ` line ${line}`)));
+        return h("li", {}, h("button", { type: "button", class: point.in_plane_um > tolerance ? "over" : "", title: about, "data-key": `worst-${i}`, onclick: () => this.go(index) }, h("b", {}, `${um(point.in_plane_um)} µm`), h("small", {}, path?.program ? ` line ${line}` : ` point ${index + 1}`)));
       }),
     );
   }

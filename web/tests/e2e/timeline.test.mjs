@@ -98,9 +98,11 @@ test("hovering reads values, a click and a drag send the robot, the marker is th
   assert.equal(await page.inputValue("#target-point"), String(over + 1));
   assert.match(await page.locator(".label.force").textContent(), /^force [\d.]+ N$/);
   // A drag: the reading follows the pointer before the robot is answered.
+  let release;
+  const held = new Promise((done) => (release = done));
   await page.route("**/api/pose", async (route) => {
-    await new Promise((done) => setTimeout(done, 300));
-    await route.continue();
+    await held;
+    await route.continue().catch(() => undefined);
   });
   await page.mouse.move(box.x + 0.3 * box.width, box.y + 20);
   await page.mouse.down();
@@ -110,6 +112,7 @@ test("hovering reads values, a click and a drag send the robot, the marker is th
   assert.ok(Math.abs(distance_mm[there] / distance_mm.at(-1) - 0.8) < 0.01);
   assert.notEqual(await page.inputValue("#target-point"), String(there + 1), "the robot is still on its way");
   await page.mouse.up();
+  release();
   await settled(page);
   await page.waitForFunction((value) => document.querySelector("#target-point").value === value, String(there + 1));
   assert.deepEqual(page.complaints, []);

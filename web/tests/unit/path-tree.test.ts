@@ -69,16 +69,22 @@ describe("the tree of a path", () => {
 
   it("draws parts smaller than a pixel as one point, and no peak is lost", () => {
     const shown: number[] = [];
-    tree.visible(far, 4, points.column("in_plane_um")!, (index) => shown.push(index));
+    tree.visible(far, 4, points.column("in_plane_um")!, Infinity, (index) => shown.push(index));
     expect(shown.length).toBeLessThan(points.count / 3);
     expect(shown).toContain(54_321);
     expect(shown.every((index, i) => i === 0 || index > shown[i - 1]!)).toBe(true);
   });
 
+  it("ends where there would be too many points", () => {
+    let count = 0;
+    expect(tree.visible(far, 0, points.column("in_plane_um")!, 500, () => count++)).toBe(false);
+    expect(count).toBeLessThan(520);
+  });
+
   it("has every point that is in the picture, in the drawing and in its ranges", () => {
     for (const view of [far, near, within]) {
       const shown: number[] = [];
-      tree.visible(view, 0, points.column("in_plane_um")!, (index) => shown.push(index));
+      tree.visible(view, 0, points.column("in_plane_um")!, Infinity, (index) => shown.push(index));
       const there = new Set(shown);
       const ranges = tree.ranges(view);
       const out = new Float64Array(3);
