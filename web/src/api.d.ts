@@ -903,6 +903,51 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/materials": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The material library */
+        get: {
+            parameters: {
+                query?: never;
+                header?: never;
+                path?: never;
+                cookie?: never;
+            };
+            requestBody?: never;
+            responses: {
+                /** @description success */
+                200: {
+                    headers: {
+                        [name: string]: unknown;
+                    };
+                    content: {
+                        "application/json": components["schemas"]["MaterialRow"][];
+                    };
+                };
+                /** @description error */
+                default: {
+                    headers: {
+                        [name: string]: unknown;
+                    };
+                    content: {
+                        "application/json": components["schemas"]["ErrorBody"];
+                    };
+                };
+            };
+        };
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/jobs": {
         parameters: {
             query?: never;
@@ -1366,8 +1411,11 @@ export interface components {
             text: string;
             /** @description Name of its analysis, whose values are changed; the first if left out. */
             analysis?: string | null;
-            /** @description The changes; none if left out. */
-            changes?: components["schemas"]["ChangedValue"][];
+            /**
+             * @description The changes; none if left out.
+             * @default []
+             */
+            changes: components["schemas"]["ChangedValue"][];
             /** @description The requested pose of the arm; none if left out. */
             arm?: components["schemas"]["PoseRequest"] | null;
             /** @description The levels of a fixed colour scale, rising; chosen for the deviations if left out. */
@@ -1532,6 +1580,20 @@ export interface components {
             options?: components["schemas"]["PlaceOptions"];
         } | {
             /** @constant */
+            kind: "advise";
+            /** @description The text of the study. */
+            text: string;
+            /** @description Options of its search for a place. */
+            options?: components["schemas"]["PlaceOptions"];
+        } | {
+            /** @constant */
+            kind: "compensate";
+            /** @description The text of the study. */
+            text: string;
+            /** @description Options of the compensation. */
+            options?: components["schemas"]["CompensateOptions"];
+        } | {
+            /** @constant */
             kind: "identify";
             /** @description The text of the study, whose robot was loaded. */
             text: string;
@@ -1692,6 +1754,28 @@ export interface components {
         };
         /** @description Criterion that placements are compared by. */
         RankByName: "nominal" | "plus-two-sigma" | "within-tolerance";
+        /** @description Options of a compensation. */
+        CompensateOptions: {
+            /** @description Only this path, or set of holes. */
+            analysis?: string | null;
+            /**
+             * @description The nominal path is commanded, not the compensated one.
+             * @default false
+             */
+            nominal: boolean;
+            /**
+             * @description Whether a robot program is also written.
+             * @default false
+             */
+            program: boolean;
+            /** @description The language of the program, by the extension of its files; that of the robot's controllers if left out. */
+            extension?: string | null;
+            /**
+             * Format: double
+             * @description Feed of the program, if the path does not specify one.
+             */
+            feed_mm_per_min?: number | null;
+        };
         /** @description Options of an identification. */
         IdentifyOptions: {
             /** @description The table of tests, a file of the folder. */
@@ -1926,6 +2010,8 @@ export interface components {
                 number,
                 number
             ][];
+            /** @description The cut or drill that the load comes from; `null` of another load. */
+            process: components["schemas"]["ProcessValues"] | null;
             /**
              * Format: double
              * @description The tolerance.
@@ -1976,6 +2062,67 @@ export interface components {
                 ][]
             ];
         };
+        /** @description A cut or a drill: every value is `null` where the study does not give it. */
+        ProcessValues: {
+            /** @description Its table: `cut`, `program.drill` or `holes.drill`. */
+            key: string;
+            /** @description Whether the table is one of the study, not of the analysis. */
+            whole: boolean;
+            /** @description Name of the material. */
+            material: string;
+            /**
+             * Format: double
+             * @description Axial depth of cut.
+             */
+            axial_depth_mm: number | null;
+            /**
+             * Format: double
+             * @description Radial depth of cut.
+             */
+            radial_depth_mm: number | null;
+            /** @description Side of the feed on which the part is. */
+            side: string | null;
+            /**
+             * Format: double
+             * @description Feed.
+             */
+            feed_mm_per_min: number | null;
+            /**
+             * Format: double
+             * @description Spindle speed.
+             */
+            spindle_rpm: number | null;
+            /**
+             * Format: double
+             * @description Diameter of the cutter or drill.
+             */
+            diameter_mm: number;
+            /**
+             * Format: uint32
+             * @description Number of flutes; of a cutter.
+             */
+            flutes: number | null;
+            /**
+             * Format: double
+             * @description Radius of the corner of a cutter.
+             */
+            corner_radius_mm: number | null;
+            /** @description Key of the table that gives the cutter: `cutter.` or nothing. */
+            cutter_key: string;
+            /** @description Values that are not used, because the program or the stock gives them at every point that cuts. */
+            given_elsewhere: components["schemas"]["GivenElsewhere"];
+        };
+        /** @description What gives a value in place of the table; `null` where the table does. */
+        GivenElsewhere: {
+            /** @description The feed. */
+            feed: string | null;
+            /** @description The spindle speed. */
+            spindle: string | null;
+            /** @description Both depths. */
+            depths: string | null;
+            /** @description The diameter of the cutter. */
+            diameter: string | null;
+        };
         /** @description The parts of one analysis that can be drawn, base. */
         SceneAnswer: {
             /** @description Name of the robot. */
@@ -1985,6 +2132,24 @@ export interface components {
                 number,
                 number,
                 number
+            ];
+            /** @description Its axes x, y, z, base. */
+            base_axes: [
+                [
+                    number,
+                    number,
+                    number
+                ][],
+                [
+                    number,
+                    number,
+                    number
+                ][],
+                [
+                    number,
+                    number,
+                    number
+                ][]
             ];
             /** @description The plane; of sections the first. */
             plate: components["schemas"]["PlateInScene"];
@@ -4300,6 +4465,24 @@ export interface components {
                 number,
                 number
             ];
+            /** @description Axes x, y, z of the flange. */
+            flange_axes: [
+                [
+                    number,
+                    number,
+                    number
+                ][],
+                [
+                    number,
+                    number,
+                    number
+                ][],
+                [
+                    number,
+                    number,
+                    number
+                ][]
+            ];
             /** @description Tool centre point. */
             tool_mm: [
                 number,
@@ -4513,6 +4696,23 @@ export interface components {
             /** @description Class of compliances that can be assumed for its payload; none if they are known, or if no class fits its joints. */
             compliance_class: string | null;
         };
+        /** @description A row of the list of materials. */
+        MaterialRow: {
+            /** @description Its name in the library. */
+            name: string;
+            /** @description For people. */
+            title: string;
+            /**
+             * Format: uint
+             * @description Whole sets of mechanistic coefficients: those that forces are computed from.
+             */
+            mechanistic_sets: number;
+            /**
+             * Format: uint
+             * @description Sets of Kienzle values.
+             */
+            kienzle_sets: number;
+        };
         /** @description Name of a new job. */
         JobBegun: {
             /** @description The last part of its path below `/api/jobs/`. */
@@ -4527,8 +4727,10 @@ export interface components {
         JobAnswer: {
             /** @description Its name. */
             id: string;
-            /** @description `run`, `posture`, `place` or `identify`. */
+            /** @description `run`, `posture`, `place`, `advise`, `compensate` or `identify`. */
             kind: string;
+            /** @description The analysis that it was requested for; `null` if for no particular one. */
+            analysis: string | null;
             /** @description Title of the study. */
             title: string;
             /** @description Its state. */
@@ -4557,8 +4759,12 @@ export interface components {
             seconds: number;
             /** @description Why it failed. */
             error: components["schemas"]["ErrorDetail"] | null;
+            /** @description The text of its study; only where one job is requested. */
+            text: string | null;
             /** @description Its answer, as the command's JSON; only where one job is requested. */
             answer: unknown;
+            /** @description What it recommends to change, each by itself; empty where all jobs are requested. */
+            measures: components["schemas"]["Measure"][];
             /** @description Files that it wrote, in the folder. */
             files: string[];
         };
@@ -4577,6 +4783,17 @@ export interface components {
             hint: string | null;
             /** @description Problems of the study, each with its place. */
             problems: components["schemas"]["Problem"][];
+        };
+        /** @description What a result recommends: in words, and as values of the study. */
+        Measure: {
+            /** @description `placement`, `spin`, `axial_depth`, `radial_depth`, `feed`, `compensation` or `robot`. */
+            measure: string;
+            /** @description A sentence with its gain. */
+            sentence: string;
+            /** @description The analysis that values not of the whole study belong to; `null` if all are of the study. */
+            analysis: string | null;
+            /** @description The changed values; none of a compensation, which is a program. */
+            changes: components["schemas"]["ChangedValue"][];
         };
         /** @description The content of the folder. */
         Files: {

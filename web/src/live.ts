@@ -249,6 +249,12 @@ export class Live {
     this.refresh();
   }
 
+  /** Changes of several keys, of the analysis or of the study, that are one step. */
+  changeAll(changes: Change[]): void {
+    for (const { key, value, whole } of changes) this.pending.set(whole ? `\n${key}` : key, value);
+    this.refresh();
+  }
+
   refresh(): void {
     this.input_at = performance.now();
     if (this.text !== "") this.answers.submit({ analysis: this.analysis, since: this.input_at });

@@ -16,6 +16,7 @@ import { offerClass } from "./controls/assume";
 import { api, Refused, robotRows, takeToken, takeTokenOf, tokenNow } from "./server";
 import { fill, h, s } from "./dom";
 import { fixed } from "./format";
+import { JobStore } from "./jobs/store";
 import { Live } from "./live";
 import { problemSentence } from "./problem-words";
 import { filesTab } from "./tabs/files";
@@ -55,7 +56,8 @@ async function start(): Promise<void> {
     go("study");
     study_tab.reveal(name);
   };
-  tabs.push(liveTab(live), picturesTab(live), jobsTab(live, { go, table }), study_tab, filesTab(live));
+  const jobs = new JobStore((error) => notices.show("jobs", error instanceof Error ? error.message : String(error), [], true));
+  tabs.push(liveTab(live, jobs), picturesTab(live), jobsTab(live, jobs, { go, table }), study_tab, filesTab(live));
   let current: Tab | null = null;
   const buttons = tabs.map((tab) => h("button", { type: "button", role: "tab", id: `tab-${tab.id}`, "aria-controls": `view-${tab.id}`, onclick: () => show(tab) }, tab.title));
   const nav = h("nav", { role: "tablist", "aria-label": "Views" }, buttons);
@@ -165,6 +167,7 @@ async function start(): Promise<void> {
   );
   go(location.hash.slice(1).split("&")[0] || "live");
   const study = await opening;
+  jobs.rememberOf(study.identity);
   await kept.open(study);
   const state = await linked;
   if (state && (state.text !== live.text || state.analysis !== live.analysis)) {

@@ -19,6 +19,12 @@ const LABELS: Record<string, string> = {
   half_size_mm: "half-width",
   step_mm: "grid step",
   spin_deg: "tool spin",
+  axial_depth_mm: "depth of cut",
+  radial_depth_mm: "width of cut",
+  feed_mm_per_min: "feed",
+  spindle_rpm: "spindle speed",
+  diameter_mm: "diameter",
+  corner_radius_mm: "corner radius",
 };
 /** Lists of three coordinates: each has its own field in the live view. */
 const AXES: Record<string, string[]> = { centre_mm: ["distance x", "sideways y", "height z"] };

@@ -2,7 +2,7 @@
 
 import { Events } from "./events";
 import type { Schema } from "./tables/schema";
-import type { At, Change, Changed, Checked, Job, Picture, Pose, Problem, Reachable, RobotRow, Shown, StoredFile, Study, StudyVersion, Tables, TakenIn, View, Wrong } from "./types";
+import type { At, Change, Changed, Checked, Job, MaterialRow, Picture, Pose, Problem, Reachable, RobotRow, Shown, StoredFile, Study, StudyVersion, Tables, TakenIn, View, Wrong } from "./types";
 
 export class Refused extends Error {
   constructor(
@@ -102,6 +102,7 @@ export const api = {
   table: async (text: string, analysis: string | null, measured = false) => (await raw("POST", "/api/table", { text, analysis, format: "csv", measured })).blob(),
   png: async (text: string, analysis: string | null, name: string) => (await raw("POST", "/api/picture.png", { text, analysis, name })).blob(),
   robots: () => json<RobotRow[]>("GET", "/api/robots"),
+  materials: () => json<MaterialRow[]>("GET", "/api/materials"),
   jobs: () => json<{ jobs: Job[] }>("GET", "/api/jobs"),
   job: (id: string) => json<Job>("GET", `/api/jobs/${id}`),
   start: (kind: string, text: string, options?: unknown) => json<{ id: string }>("POST", "/api/jobs", { kind, text, ...(options === undefined ? {} : { options }) }),

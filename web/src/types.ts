@@ -48,13 +48,15 @@ export type PoseRequest = Schemas["PoseRequest"];
 /** What the robot follows: the worst or best point shown, or a point chosen by the user. */
 export type Follow = Schemas["Follow"];
 export type Extremes = Schemas["ExtremesAnswer"];
-export type ArmDrawing = Schemas["DrawnPosture"];
+export type Axes = [Vec3, Vec3, Vec3];
+export type ArmDrawing = Omit<Schemas["DrawnPosture"], "flange_axes"> & { flange_axes: Axes };
 export type DrawnMesh = Schemas["DrawnMesh"];
 export type CaseValues = Schemas["CaseAnswer"] & {
   permissible_along_load_n?: number | null;
   permissible_any_direction_n?: number | null;
 };
-export type Pose = Omit<Schemas["PosturesAnswer"], "in_plane" | "answer"> & {
+export type Pose = Omit<Schemas["PosturesAnswer"], "in_plane" | "answer" | "drawings"> & {
+  drawings: ArmDrawing[];
   answer: Omit<Schemas["PoseAnswer"], "postures"> & { postures: Posture[] };
   /** Per posture and load case; null if the arm has no stable equilibrium. */
   in_plane: (CaseValues | null)[][];
@@ -70,7 +72,8 @@ export type ScenePoints = Omit<Schemas["PointsInScene"], "columns"> & {
     cross_um?: (number | null)[];
   };
 };
-type SceneAs<P> = Omit<Schemas["SceneAnswer"], "points" | "plate" | "sections" | "box"> & {
+type SceneAs<P> = Omit<Schemas["SceneAnswer"], "points" | "plate" | "sections" | "box" | "base_axes"> & {
+  base_axes: Axes;
   plate: Plate;
   sections: { label: string; plate: Plate }[];
   points: P | null;
@@ -106,6 +109,9 @@ export interface View {
   arm: { at: At; case: number; pose: Pose } | null;
 }
 
+export type MaterialRow = Schemas["MaterialRow"];
+export type Process = Schemas["ProcessValues"];
+export type Measure = Schemas["Measure"];
 export type RobotRow = Schemas["RobotRow"];
 export type Picture = Schemas["PictureAnswer"];
 export type Job = Schemas["JobAnswer"];

@@ -8,4 +8,7 @@ pub mod compare;
 pub mod compensate;
 pub mod place;
 
+mod measure;
 mod study_text;
+
+pub use measure::Measure;

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use armill_study::error::StudyError;
 use armill_study::studies::FoundStudy;
+use serde_json::Value as Json;
 use toml_edit::visit_mut::{VisitMut, visit_value_mut};
 use toml_edit::{Array, DocumentMut, InlineTable, Item, TableLike, Value};
 
@@ -138,9 +139,14 @@ impl StudyText {
     }
 }
 
-/// An array of numbers.
-pub(crate) fn numbers(values: &[f64]) -> Value {
-    values.iter().copied().collect::<Array>().into()
+/// A number, a word or a list of them as TOML; none of `null`.
+pub(crate) fn toml_of(value: &Json) -> Option<Value> {
+    match value {
+        Json::Number(number) => Some(number.as_f64()?.into()),
+        Json::String(word) => Some(word.as_str().into()),
+        Json::Array(all) => Some(all.iter().filter_map(toml_of).collect::<Array>().into()),
+        Json::Null | Json::Bool(_) | Json::Object(_) => None,
+    }
 }
 
 /// Changes relative names of files.
@@ -191,9 +197,17 @@ mod tests {
         let found = study(TEXT, Path::new("."));
         let mut text = StudyText::of(&found).unwrap();
         text.set(0, &["program", "spin_deg"], Some(5.0.into()));
-        text.set(0, &["plane", "centre_mm"], Some(numbers(&[1.0, 2.0, 3.0])));
+        text.set(
+            0,
+            &["plane", "centre_mm"],
+            toml_of(&serde_json::json!([1.0, 2.0, 3.0])),
+        );
         text.set(1, &["plane", "tilt_deg"], None);
-        text.set(1, &["plane", "rotation_deg"], Some(numbers(&[0.0; 3])));
+        text.set(
+            1,
+            &["plane", "rotation_deg"],
+            toml_of(&serde_json::json!([0.0, 0.0, 0.0])),
+        );
         assert_eq!(text.number(0, &["program", "spin_deg"]), Some(5.0));
         assert!(text.has(1, &["plane", "rotation_deg"]) && !text.has(1, &["plane", "tilt_deg"]));
         let written = text.text();

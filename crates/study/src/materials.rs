@@ -2,8 +2,11 @@
 
 use armill_formats::material::{KienzleSet, Material, MechanisticSet};
 use armill_formats::sources::Source;
+use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::error::StudyError;
+use crate::library;
 use crate::number::without_rounding;
 
 /// Size of the units of the six mechanistic coefficients in SI: N/mm2 of the chip, N/mm of the edge.
@@ -12,7 +15,7 @@ const MECHANISTIC: [f64; 6] = [1e6, 1e6, 1e6, 1e3, 1e3, 1e3];
 const KIENZLE: [f64; 2] = [1e6, 1.0];
 
 /// A row of the list of materials.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct MaterialRow {
     /// Its name in the library.
     pub name: String,
@@ -28,6 +31,15 @@ pub struct MaterialRow {
 }
 
 impl MaterialRow {
+    /// The rows of the library.
+    ///
+    /// # Errors
+    /// A file of the library that cannot be read.
+    pub fn all() -> Result<Vec<MaterialRow>, StudyError> {
+        let row = |name| Ok(MaterialRow::of(name, &library::find_material(name)?));
+        library::MATERIALS.iter().map(|entry| row(entry.name)).collect()
+    }
+
     /// The row of a material that the library calls `name`.
     pub fn of(name: &str, found: &Material) -> MaterialRow {
         MaterialRow {

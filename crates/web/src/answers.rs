@@ -13,6 +13,7 @@
 //! | `POST /api/table` | the table of an analysis |
 //! | `POST /api/pictures`, `POST /api/picture.png` | its pictures, and one in pixels |
 //! | `GET /api/robots` | as `armill robots --json` |
+//! | `GET /api/materials` | as `armill materials --json` |
 
 use std::sync::{Arc, OnceLock};
 
@@ -21,6 +22,7 @@ use armill_study::live::{
     ChangedValue, LayerRequest, PoseRequest, PoseTarget, PostureQuestion, StudyText, ViewQuestion,
     answer_json, measured_csv, mesh_bytes, picture_svg, pictures, reachable, scene, table_csv, values, view,
 };
+use armill_study::materials::MaterialRow;
 use armill_study::robot_answers::library_rows;
 use armill_study::{StudyError, output};
 use axum::body::Bytes;
@@ -314,15 +316,28 @@ pub(crate) async fn picture_png(
     .await
 }
 
-/// The library is built in: its list is made once.
-static LIBRARY: OnceLock<Bytes> = OnceLock::new();
+/// The libraries are built in: their lists are made once.
+static ROBOTS: OnceLock<Bytes> = OnceLock::new();
+static MATERIALS: OnceLock<Bytes> = OnceLock::new();
 
 pub(crate) async fn robots(Shared(state): Shared<Arc<State>>) -> Result<Response, ApiError> {
-    let bytes = match LIBRARY.get() {
+    made_once(&ROBOTS, &state, || as_json(&library_rows()?)).await
+}
+
+pub(crate) async fn materials(Shared(state): Shared<Arc<State>>) -> Result<Response, ApiError> {
+    made_once(&MATERIALS, &state, || as_json(&MaterialRow::all()?)).await
+}
+
+async fn made_once(
+    kept: &OnceLock<Bytes>,
+    state: &State,
+    make: fn() -> Result<Vec<u8>, StudyError>,
+) -> Result<Response, ApiError> {
+    let bytes = match kept.get() {
         Some(bytes) => bytes.clone(),
         None => {
-            let made = state.work.done(|_| as_json(&library_rows()?)).await?;
-            LIBRARY.get_or_init(|| made.into()).clone()
+            let made = state.work.done(move |_| make()).await?;
+            kept.get_or_init(|| made.into()).clone()
         }
     };
     Ok(typed(JSON, bytes))

@@ -9,6 +9,7 @@ use armill_study::live::{
     ChangedAnswer, OutlineAnswer, PicturesAnswer, PosturesAnswer, ReachableAnswer, SceneAnswer, TablesAnswer,
     ValuesAnswer, ViewAnswer,
 };
+use armill_study::materials::MaterialRow;
 use armill_study::robot_answers::RobotRow;
 use axum::Router;
 use axum::body::Bytes;
@@ -113,6 +114,8 @@ fn operations() -> Vec<Operation> {
             .takes::<PictureRequest>()
             .sends("image/png"),
         Operation::new(GET, "/robots", "The robot library", answers::robots).answers::<Vec<RobotRow>>(),
+        Operation::new(GET, "/materials", "The material library", answers::materials)
+            .answers::<Vec<MaterialRow>>(),
         Operation::new(POST, "/jobs", "Begins a job", jobs::begin)
             .takes::<Task>()
             .answers::<JobBegun>()

@@ -5,6 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 use armill_core::watch::Watch;
+use armill_plan::Measure;
 use armill_study::{ErrorKind, StudyError};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -41,8 +42,10 @@ impl JobState {
 pub(crate) struct JobAnswer {
     /// Its name.
     pub id: String,
-    /// `run`, `posture`, `place` or `identify`.
+    /// `run`, `posture`, `place`, `advise`, `compensate` or `identify`.
     pub kind: &'static str,
+    /// The analysis that it was requested for; `null` if for no particular one.
+    pub analysis: Option<String>,
     /// Title of the study.
     pub title: String,
     /// Its state.
@@ -59,11 +62,25 @@ pub(crate) struct JobAnswer {
     pub seconds: f64,
     /// Why it failed.
     pub error: Option<ErrorDetail>,
+    /// The text of its study; only where one job is requested.
+    pub text: Option<String>,
     /// Its answer, as the command's JSON; only where one job is requested.
     #[schemars(with = "Option<serde_json::Value>")]
     pub answer: Option<Box<serde_json::value::RawValue>>,
+    /// What it recommends to change, each by itself; empty where all jobs are requested.
+    pub measures: Vec<Measure>,
     /// Files that it wrote, in the folder.
     pub files: Vec<String>,
+}
+
+/// What a job has done.
+pub(crate) struct Done<F> {
+    /// Its answer as JSON.
+    pub answer: String,
+    /// What it recommends to change.
+    pub measures: Vec<Measure>,
+    /// The files that it wrote.
+    pub files: Vec<F>,
 }
 
 /// A job.
@@ -88,6 +105,7 @@ struct Inner {
     ended: Option<Instant>,
     error: Option<ErrorDetail>,
     answer: Option<Box<serde_json::value::RawValue>>,
+    measures: Vec<Measure>,
     files: Vec<String>,
 }
 
@@ -110,6 +128,7 @@ impl Job {
                 ended: None,
                 error: None,
                 answer: None,
+                measures: Vec::new(),
                 files: Vec::new(),
             }),
         }
@@ -146,11 +165,13 @@ impl Job {
 
     /// The job as an answer.
     pub(crate) fn reported(&self, with_answer: bool) -> JobAnswer {
+        let text = with_answer.then(|| self.task.text().to_owned());
         self.change(|inner| {
             let end = inner.ended.unwrap_or_else(Instant::now);
             JobAnswer {
                 id: self.id.clone(),
                 kind: self.task.kind(),
+                analysis: self.task.analysis().map(str::to_owned),
                 title: self.title.clone(),
                 state: inner.state,
                 done: self.finished.load(Ordering::Relaxed),
@@ -159,7 +180,13 @@ impl Job {
                 started_s_ago: self.requested.elapsed().as_secs_f64(),
                 seconds: inner.begun.map_or(0.0, |begun| (end - begun).as_secs_f64()),
                 error: inner.error.clone(),
+                text,
                 answer: inner.answer.clone().filter(|_| with_answer),
+                measures: if with_answer {
+                    inner.measures.clone()
+                } else {
+                    Vec::new()
+                },
                 files: inner.files.clone(),
             }
         })
@@ -176,8 +203,8 @@ impl Job {
         })
     }
 
-    /// Keeps its outcome: the answer as JSON and the names of its files in the folder, or why there is none.
-    pub(crate) fn end(&self, outcome: Result<(String, Vec<String>), StudyError>) {
+    /// Keeps its outcome, with the names of its files in the folder, or why there is none.
+    pub(crate) fn end(&self, outcome: Result<Done<String>, StudyError>) {
         self.change(|inner| {
             inner.ended = Some(Instant::now());
             inner.best = inner
@@ -185,9 +212,10 @@ impl Job {
                 .take()
                 .filter(|_| matches!(self.task, Task::Place { .. }));
             match outcome {
-                Ok((answer, files)) => {
-                    inner.files = files;
-                    inner.answer = serde_json::value::RawValue::from_string(answer).ok();
+                Ok(done) => {
+                    inner.files = done.files;
+                    inner.measures = done.measures;
+                    inner.answer = serde_json::value::RawValue::from_string(done.answer).ok();
                     inner.state = JobState::Done;
                 }
                 Err(error) if error.kind() == ErrorKind::Cancelled => inner.state = JobState::Cancelled,

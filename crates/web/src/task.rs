@@ -5,6 +5,8 @@
 //! | `run` | `armill run` | `out` |
 //! | `posture` | `armill posture` | `posture` |
 //! | `place` | `armill place`; continues where it was stopped | `place` |
+//! | `advise` | `armill advise`; continues where it was stopped | `advice` and `advised` |
+//! | `compensate` | `armill compensate` | `compensated`, its program in `programs` |
 //! | `identify` | `armill identify` | `identify` |
 
 use armill_study::file::placement::PlaceTable;
@@ -39,6 +41,22 @@ pub(crate) enum Task {
         #[serde(default)]
         options: Box<PlaceOptions>,
     },
+    /// Measures that bring a path within its tolerance.
+    Advise {
+        /// The text of the study.
+        text: String,
+        /// Options of its search for a place.
+        #[serde(default)]
+        options: Box<PlaceOptions>,
+    },
+    /// The paths to command, and a robot program along one.
+    Compensate {
+        /// The text of the study.
+        text: String,
+        /// Options of the compensation.
+        #[serde(default)]
+        options: CompensateOptions,
+    },
     /// Identification of compliances from load tests.
     Identify {
         /// The text of the study, whose robot was loaded.
@@ -68,6 +86,24 @@ pub(crate) struct PlaceOptions {
     pub place: PlaceTable,
     /// Seed of the search; 1 if left out.
     pub seed: Option<u32>,
+}
+
+/// Options of a compensation.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct CompensateOptions {
+    /// Only this path, or set of holes.
+    pub analysis: Option<String>,
+    /// The nominal path is commanded, not the compensated one.
+    #[serde(default)]
+    pub nominal: bool,
+    /// Whether a robot program is also written.
+    #[serde(default)]
+    pub program: bool,
+    /// The language of the program, by the extension of its files; that of the robot's controllers if left out.
+    pub extension: Option<String>,
+    /// Feed of the program, if the path does not specify one.
+    pub feed_mm_per_min: Option<f64>,
 }
 
 /// Options of an identification.
@@ -107,7 +143,19 @@ impl Task {
             Task::Run { .. } => "run",
             Task::Posture { .. } => "posture",
             Task::Place { .. } => "place",
+            Task::Advise { .. } => "advise",
+            Task::Compensate { .. } => "compensate",
             Task::Identify { .. } => "identify",
+        }
+    }
+
+    /// The analysis that it was requested for, if it was for one.
+    pub(crate) fn analysis(&self) -> Option<&str> {
+        match self {
+            Task::Run { options, .. } => options.analysis.as_deref(),
+            Task::Place { options, .. } | Task::Advise { options, .. } => options.place.analysis.as_deref(),
+            Task::Compensate { options, .. } => options.analysis.as_deref(),
+            Task::Posture { .. } | Task::Identify { .. } => None,
         }
     }
 
@@ -117,6 +165,8 @@ impl Task {
             Task::Run { text, .. }
             | Task::Posture { text, .. }
             | Task::Place { text, .. }
+            | Task::Advise { text, .. }
+            | Task::Compensate { text, .. }
             | Task::Identify { text, .. } => text,
         }
     }

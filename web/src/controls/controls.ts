@@ -9,6 +9,7 @@ import { chooseRobot, offerClass } from "./assume";
 import { Choice } from "./choice";
 import { NumberField } from "./field";
 import { Forces } from "./forces";
+import { ProcessControls } from "./process";
 
 interface Control {
   readonly id: string;
@@ -64,7 +65,8 @@ export function controls(live: Live): HTMLElement {
     last = robot;
     chooseRobot(live, v, robots.find((r) => r.name === v));
   });
-  const all: Control[] = [analysis, section, x, y, z, tilt, tool, forces, limit, half, step, branch, spin, robot];
+  const process = new ProcessControls(live, (control) => (last = control));
+  const all: Control[] = [...process.all, analysis, section, x, y, z, tilt, tool, forces, limit, half, step, branch, spin, robot];
 
   const group = (title: string, ...children: Node[]) => h("fieldset", {}, h("legend", {}, title), children);
   const root = h(
@@ -73,6 +75,7 @@ export function controls(live: Live): HTMLElement {
     group("Analysis", analysis.root, section.root),
     group("Part position", x.root, y.root, z.root, tilt.root),
     group("Tool and load", tool.root, forces.root),
+    process.root,
     group("Tolerance and grid", limit.root, half.root, step.root),
     group("Robot posture", branch.root, spin.root, robot.root),
   );
@@ -95,6 +98,7 @@ export function controls(live: Live): HTMLElement {
     step.set(plane && v.kind !== "path" ? v.step_mm : null);
     branch.set(v.branch, ["nominal", "best", ...v.branches].map((b) => ({ value: b, text: b === "nominal" && v.branch === "nominal" ? `nominal: ${v.branch_meant}` : b })));
     spin.set(v.kind === "path" ? v.spin_deg : null);
+    process.fill(v.process);
     robot.set(v.robot, robots.map((r) => ({ value: r.name, text: `${r.title}${r.compliance ? "" : " – no compliance known"}` })));
   };
   live.listen(["answer", "study"], fill);
@@ -124,6 +128,15 @@ const KEYS: Record<string, string[]> = {
   "field-branch": ["branch"],
   "field-spin": ["spin_deg"],
   "field-robot": ["robot", "compliance"],
+  "field-material": ["material"],
+  "field-diameter": ["diameter_mm", "cutter"],
+  "field-flutes": ["flutes"],
+  "field-corner": ["corner_radius_mm"],
+  "field-axial": ["axial_depth_mm", "axial depth"],
+  "field-radial": ["radial_depth_mm", "radial depth"],
+  "field-side": ["side"],
+  "field-feed": ["feed_mm_per_min", "feed"],
+  "field-spindle": ["spindle_rpm", "spindle"],
 };
 
 /** Each problem at the control whose key it names; at the one touched last where it names none. */

@@ -6,7 +6,8 @@ import type { Live } from "../live";
 import { fileLink, openFile } from "../files/open-file";
 import { problemSentence } from "../problem-words";
 import type { Job } from "../types";
-import { application, isOver, kindName, resultLines, resultSentence, roughly, timeLeft } from "./kinds";
+import { isOver, kindName, resultLines, resultSentence, roughly, timeLeft } from "./kinds";
+import { APPLIES, applyMeasure, buttonOf } from "./measures";
 
 /** Lines of a result shown without unfolding. */
 const LINES = 6;
@@ -70,22 +71,14 @@ function result(job: Job, { live, show, fail }: CardActions): Child {
   const sentence = resultSentence(job);
   const lines = resultLines(job).map(({ name, what }) => h("li", {}, h("b", {}, name), ` ${what}`));
   const rest = lines.slice(LINES);
-  const applied = application(job, live);
-  const apply = applied
-    ? h(
-        "button",
-        {
-          type: "button",
-          class: "primary small",
-          title: applied.about,
-          onclick: () => {
-            applied.apply();
-            show();
-          },
-        },
-        applied.text,
-      )
-    : null;
+  const applicable = job.measures.filter((measure) => measure.changes.length > 0);
+  const apply = applicable.map((measure) => {
+    const use = () => {
+      applyMeasure(measure, live);
+      show();
+    };
+    return h("button", { type: "button", class: "primary small", title: APPLIES, onclick: use }, buttonOf(measure));
+  });
   return [
     sentence ? h("p", {}, sentence) : null,
     lines.length > (job.kind === "run" ? 1 : 0) ? [h("ul", { class: "job-lines" }, lines.slice(0, LINES)), rest.length > 0 ? h("details", {}, h("summary", {}, `${rest.length} more`), h("ul", { class: "job-lines" }, rest)) : null] : null,

@@ -1,8 +1,7 @@
-// The kinds of jobs: how the page names them, what their results say, and how they are applied to the study.
+// The kinds of jobs: how the page names them, and what their results say.
 
 import { percent, um } from "../format";
-import type { Live } from "../live";
-import type { Answer, Job, Vec3 } from "../types";
+import type { Answer, Job } from "../types";
 
 export interface JobKind {
   id: string;
@@ -19,6 +18,8 @@ export const KINDS: JobKind[] = [
   { id: "run", name: "Run", start: "Run the study", about: "All analyses, with tables, pictures and report in the folder of the study.", bounds: null },
   { id: "place", name: "Placement", start: "Find the best placement", about: "The placement of the part with the smallest deviation of a path.", bounds: "place" },
   { id: "posture", name: "Posture", start: "Find the best posture", about: "The best spin of the tool and branch along the paths; requires a path.", bounds: "posture" },
+  { id: "advise", name: "Advice", start: "Advise", about: "Placement, spin, cut and compensation that bring a path within the tolerance, each with its gain.", bounds: "place" },
+  { id: "compensate", name: "Compensation", start: "Compensate", about: "The path to command so that the tool follows the nominal path, as a table and in the program it comes from.", bounds: null },
   { id: "identify", name: "Compliance identification", start: "Identify compliances", about: "Joint compliances from load tests: a table in the folder of the study.", bounds: null },
 ];
 
@@ -39,11 +40,6 @@ export function roughly(seconds: number): string {
   return `${(seconds / 3600).toFixed(1)} h`;
 }
 
-interface PlaceResult {
-  analysis: string;
-  place: { centre_mm?: Vec3; tilt_deg?: number | null };
-  home_deg?: number[] | null;
-}
 interface SpringResult {
   name: string;
   stiffness_n_m_per_rad: number | null;
@@ -58,6 +54,9 @@ interface IdentifyResult {
   notes: string[];
 }
 
+/** Kinds of measures in the result of an advice. */
+const MEASURES: Record<string, string> = { placement: "Placement", spin: "Spin", axial_depth: "Depth", radial_depth: "Width", feed: "Feed", compensation: "Compensation" };
+
 /** The result of each analysis or spring, a line each. */
 export function resultLines(job: Job): { name: string; what: string }[] {
   if (job.kind === "identify") {
@@ -65,7 +64,8 @@ export function resultLines(job: Job): { name: string; what: string }[] {
     const stiffness = (s: SpringResult) => (s.stiffness_n_m_per_rad !== null ? `${s.stiffness_n_m_per_rad.toPrecision(3)} N m/rad` : s.stiffness_n_per_um !== null ? `${s.stiffness_n_per_um.toPrecision(3)} N/µm` : "rigid");
     return springs.map((s) => ({ name: s.name, what: `${stiffness(s)}, ${percent(s.fraction_known_from_tests)} known from the tests` }));
   }
-  if (job.kind === "place") return [];
+  if (job.kind === "place" || job.kind === "compensate") return [];
+  if (job.kind === "advise") return job.measures.map(({ measure, sentence }) => ({ name: MEASURES[measure] ?? measure, what: sentence }));
   const answer = job.answer as Answer;
   const worst = (point: { in_plane_um: number } | null) => (point ? `, worst ${um(point.in_plane_um)} µm` : "");
   const within = (share: number) => `${percent(share)} within tolerance`;
@@ -85,42 +85,12 @@ function gain(search: { applied: boolean; gain_um: number } | null | undefined):
 /** One sentence above the lines; null if the lines say all. */
 export function resultSentence(job: Job): string | null {
   if (job.kind === "place") return job.best ?? null;
+  if (job.kind === "advise") return (job.answer as { advice: string[] }).advice[0] ?? null;
+  if (job.kind === "compensate") return (job.answer as { sentences: string[] }).sentences.join(" ");
   if (job.kind === "identify") {
     const { tests, readings, springs } = job.answer as IdentifyResult;
     return `${springs.length} springs from ${tests} load tests with ${readings} readings.`;
   }
   const { answer } = job.answer as Answer;
   return resultLines(job).length > 1 ? null : answer;
-}
-
-/** How the result is applied to the study; null if there is nothing to apply. */
-export function application(job: Job, live: Live): { text: string; about: string; apply: () => void } | null {
-  if (!job.answer) return null;
-  if (job.kind === "place") {
-    const { analysis, place, home_deg } = job.answer as PlaceResult;
-    const centre = place.centre_mm;
-    if (!centre) return null;
-    const apply = () => {
-      if (live.analysis !== analysis && live.analyses.some((a) => a.name === analysis)) live.choose(analysis);
-      live.changeTogether({
-        "plane.centre_mm": centre,
-        ...(typeof place.tilt_deg === "number" ? { "plane.tilt_deg": place.tilt_deg } : {}),
-        ...(home_deg ? { "posture.home_deg": home_deg } : {}),
-      });
-    };
-    return { text: "Apply this placement", about: "Changes the plane in the study and shows it; not saved yet, and can be undone.", apply };
-  }
-  if (job.kind === "posture") {
-    const { paths } = job.answer as Answer;
-    const first = paths.find((p) => p.search?.applied);
-    if (!first) return null;
-    const apply = () => {
-      if (live.analyses.some((a) => a.name === first.name)) live.choose(first.name);
-      if (!/^\s*(\[posture\.search\]|search\s*=|posture\.search\s*=)|[{,]\s*search\s*=/m.test(live.text)) live.change("posture.search", {}, true);
-    };
-    return { text: "Apply this search", about: "The study then searches the posture on every run; not saved yet, and can be undone.", apply };
-  }
-  const robot = job.files.find((name) => name.endsWith("robot.toml"));
-  if (job.kind !== "identify" || !robot) return null;
-  return { text: "Apply these compliances", about: `The study then uses ${robot}; not saved yet, and can be undone.`, apply: () => live.change("robot", robot, true) };
 }

@@ -1,6 +1,7 @@
 // The arm, drawn from its joints: links as tapered limbs with round knuckles, joints as housings along their axes with
 // a ring whose colour shows the joint's share of the deviation, then flange and tool. An arm that moves keeps its parts:
-// only a part whose dimensions change is rebuilt.
+// only a part whose dimensions change is rebuilt. Of the tool the cutter has the diameter of the study; holder and spindle are
+// only indicated.
 
 import * as THREE from "three";
 import type { ArmDrawing, Vec3 } from "../types";
@@ -17,6 +18,12 @@ const UP = new THREE.Vector3(0, 1, 0);
 interface Shape {
   measures: string;
   make: () => THREE.BufferGeometry;
+}
+
+/** A cutter or drill, mm. */
+export interface CutterShape {
+  diameter: number;
+  corner: number;
 }
 
 export class Arm {
@@ -42,7 +49,7 @@ export class Arm {
   }
 
   /** `shares`: of each joint, 0 to 1; `accent`: the colour of a joint that does it all. */
-  draw(drawing: ArmDrawing, shares: number[], quiet: THREE.Color, accent: THREE.Color): void {
+  draw(drawing: ArmDrawing, shares: number[], quiet: THREE.Color, accent: THREE.Color, cutter: CutterShape | null = null): void {
     this.drawn = 0;
     // The line ends at the tip; the arm itself ends at the flange.
     const tip = vector(drawing.tool_mm);
@@ -79,7 +86,7 @@ export class Arm {
       for (const side of on_link ? [0] : [-1, 1]) this.add(ring(wide * (on_link ? 1 : 0.8), wide * 0.11), at.clone().addScaledVector(axis, side * long * 0.97), axis, colour);
       return { name: joint.name, at: at.clone() };
     });
-    this.tool(vector(drawing.flange_mm), vector(drawing.tool_mm), vector(drawing.tool_axis).normalize(), radius(total));
+    this.tool(vector(drawing.flange_mm), vector(drawing.tool_mm), vector(drawing.tool_axis).normalize(), radius(total), cutter);
     for (const { mesh } of this.parts.splice(this.drawn)) {
       mesh.removeFromParent();
       mesh.geometry.dispose();
@@ -146,18 +153,31 @@ export class Arm {
     this.limbs.push({ from: base, to: base.clone().setZ(base.z + 1.2 * thick), radius: 1.5 * thick });
   }
 
-  private tool(flange: THREE.Vector3, tip: THREE.Vector3, axis: THREE.Vector3, thick: number): void {
+  /** Cutter, holder and spindle along the axis of the tool; where that is not the way to the flange, on a bracket. */
+  private tool(flange: THREE.Vector3, tip: THREE.Vector3, axis: THREE.Vector3, thick: number, cutter: CutterShape | null): void {
     this.add(drum(thick * 1.05, thick * 0.28), flange.clone().addScaledVector(axis, -thick * 0.25), axis, STEEL, this.tooling);
     const length = tip.distanceTo(flange);
     this.limbs.push({ from: flange, to: tip, radius: thick * 0.7 });
     if (length > 2) {
-      const way = tip.clone().sub(flange).normalize();
-      const neck = Math.min(length * 0.75, Math.max(0, length - thick * 1.2));
-      const shoulder = flange.clone().addScaledVector(way, neck);
-      this.add(limb(neck, thick * 0.72, thick * 0.62), flange, way, STEEL, this.tooling);
-      this.add(limb(length - neck, thick * 0.3, thick * 0.14), shoulder, way, TIP, this.tooling);
+      const back = axis.clone().negate();
+      const straight = flange.clone().sub(tip).dot(back) > 0.98 * length;
+      const radius = cutter ? cutter.diameter / 2 : thick * 0.14;
+      const cuts = Math.min(0.4 * length, cutter ? Math.max(4 * cutter.diameter, 20) : thick);
+      const holder = Math.min(0.3 * length, Math.max(3 * radius, 0.9 * thick));
+      const spindle = straight ? length - cuts - holder : Math.max(0.45 * length, 2.2 * thick);
+      const at = (along: number) => tip.clone().addScaledVector(back, along);
+      const round = cutter !== null && cutter.corner > 0.98 * radius;
+      this.add(limb(cuts - (round ? radius : 0), radius, radius), at(round ? radius : 0), back, TIP, this.tooling);
+      if (round) this.add(ball(radius), at(radius), UP, TIP, this.tooling);
+      this.add(limb(holder, Math.max(1.6 * radius, 0.34 * thick), 0.62 * thick), at(cuts), back, HOUSING, this.tooling);
+      this.add(limb(spindle, 0.72 * thick, 0.72 * thick), at(cuts + holder), back, STEEL, this.tooling);
+      if (!straight) {
+        const held = at(cuts + holder + 0.6 * spindle);
+        this.add(limb(held.distanceTo(flange), 0.8 * thick, 0.5 * thick), flange, held.clone().sub(flange).normalize(), STEEL, this.tooling);
+      }
     }
-    this.add(ball(Math.max(6, thick * 0.24)), tip, UP, TIP, this.tooling);
+    // The tip is seen also where the cutter is thin.
+    if (!cutter) this.add(ball(Math.max(6, thick * 0.24)), tip, UP, TIP, this.tooling);
   }
 }
 

@@ -7,6 +7,7 @@ import type { Live } from "../live";
 import type { LayerKey } from "../types";
 import { along, css, ends, viridis, type Scale } from "./colour";
 import { FIRST, LAYERS, levelText, namedColour, shownLayer, textOf, type ShownLayer } from "./layers";
+import { handleBar } from "./handle-bar";
 import { outsideLimits } from "./plate";
 import { SHOWN } from "./points";
 import type { View } from "./stage";
@@ -84,7 +85,7 @@ export function overlay(view: SceneView, live: Live): HTMLElement {
     slider.value = String(Math.log10(view.show.magnified));
   };
   view.onHover = (under, x, y) => hover(tip, live, under, x, y, view.stage.host);
-  const cards = [views, shown, scales, colours];
+  const cards = [views, handleBar(view, live), shown, scales, colours];
   const keepOut = new ResizeObserver(() => {
     const host = view.stage.host.getBoundingClientRect();
     view.stage.labels.keep_out = cards.map((card) => {
@@ -94,7 +95,7 @@ export function overlay(view: SceneView, live: Live): HTMLElement {
     view.stage.draw();
   });
   for (const element of [view.stage.host, ...cards]) keepOut.observe(element);
-  return h("div", { class: "overlay" }, views, shown, scales, colours, tip);
+  return h("div", { class: "overlay" }, cards, tip);
 }
 
 const forceScale = (mm_per_n: number): string => `force, ${trimmed(mm_per_n, 3)} mm per N`;

@@ -12,6 +12,7 @@ import { Arm } from "./arm";
 import { Arrow } from "./arrows";
 import { shade } from "./colour";
 import { isCovered } from "./covered";
+import { Handles } from "./handles";
 import { Crosses } from "./crosses";
 import { Ellipsoid } from "./ellipsoid";
 import { shownLayer } from "./layers";
@@ -52,6 +53,9 @@ export const ELLIPSOID = 8;
 /** A robot's own shape is so much stouter than the drawn arm. */
 const STOUT = 1.7;
 
+/** So near to its tip the pointer takes the tool. */
+const TIP_PX = 12;
+
 export class SceneView {
   readonly stage: Stage;
   readonly show: Show = { arm: true, shape: true, forces: true, deviation: true, parts: false, ellipsoid: false, certainty: true, rectangle: false, magnified: 1000, magnified_by_hand: false, mm_per_n: MM_PER_N };
@@ -68,6 +72,7 @@ export class SceneView {
   private readonly marker = new Marker();
   private readonly volume = new VolumeView();
   private readonly part = new Part();
+  readonly handles: Handles;
   private readonly crosses: Crosses;
   private readonly plates: PlateView[] = [];
   private readonly caster = new THREE.Raycaster();
@@ -88,6 +93,7 @@ export class SceneView {
     this.stage.before = () => {
       if (this.path.update(this.stage.camera, this.stage.size)) host.dataset.vectors = String(this.path.vectors);
     };
+    this.handles = new Handles(this.stage, live);
     this.point();
   }
 
@@ -185,7 +191,9 @@ export class SceneView {
     }
     if (drawing && answer && setting) {
       const shares = this.shares();
-      this.arm.draw(drawing, shares, shade("--joint-quiet"), shade("--joint-loud"));
+      const process = this.live.values?.process;
+      const cutter = process ? { diameter: process.diameter_mm, corner: process.corner_radius_mm ?? 0 } : null;
+      this.arm.draw(drawing, shares, shade("--joint-quiet"), shade("--joint-loud"), cutter);
       const own = this.show.arm && this.show.shape && this.shapes.draw(pose!.answer.robot, drawing.meshes);
       this.arm.bare(own);
       this.arm.ghost(this.ghost);
@@ -294,19 +302,44 @@ export class SceneView {
   private point(): void {
     const canvas = this.stage.renderer.domElement;
     let down: [number, number] | null = null;
-    canvas.addEventListener("pointerdown", (e) => (down = [e.clientX, e.clientY]));
+    let tool = false;
+    canvas.addEventListener("pointerdown", (e) => {
+      down = [e.clientX, e.clientY];
+      tool = !this.handles.busy && this.onTool(e);
+      if (tool) this.stage.controls.enabled = false;
+    });
     canvas.addEventListener("pointermove", (e) => {
+      if (tool) return this.dragTool(e);
       const begun = performance.now();
-      this.onHover(e.buttons ? null : this.under(e), e.clientX, e.clientY);
+      this.onHover(e.buttons || this.handles.busy ? null : this.under(e), e.clientX, e.clientY);
+      canvas.style.cursor = this.onTool(e) ? "grab" : "";
       measured("hover", begun);
     });
     canvas.addEventListener("pointerleave", () => this.onHover(null, 0, 0));
     canvas.addEventListener("pointerup", (e) => {
+      if (tool) this.stage.controls.enabled = true;
+      if (tool || this.handles.busy) return void (tool = false);
       if (!down || Math.hypot(e.clientX - down[0], e.clientY - down[1]) > 4) return;
       const under = this.under(e);
       const at = under && this.placeOf(under);
       if (at) this.live.goTo(at);
     });
+  }
+
+  /** Whether the pointer is on the tip of the tool. */
+  private onTool(event: PointerEvent): boolean {
+    const tip = this.live.pose?.drawings[this.live.posture]?.tool_mm;
+    if (!tip || !this.show.arm) return false;
+    const box = this.host.getBoundingClientRect();
+    const at = new THREE.Vector3(...tip).project(this.stage.camera);
+    return Math.hypot(((at.x + 1) / 2) * box.width - (event.clientX - box.left), ((1 - at.y) / 2) * box.height - (event.clientY - box.top)) < TIP_PX;
+  }
+
+  /** The robot follows the pointer over the part. */
+  private dragTool(event: PointerEvent): void {
+    const under = this.under(event);
+    const at = under && this.placeOf(under);
+    if (at && JSON.stringify(at) !== JSON.stringify(this.live.at)) this.live.goTo(at);
   }
 
   private placeOf(under: NonNullable<Under>): At | null {

@@ -2,7 +2,9 @@
 
 import { controls } from "../controls/controls";
 import { h } from "../dom";
+import type { JobStore } from "../jobs/store";
 import type { Live } from "../live";
+import { advice } from "../panels/advice";
 import { branches } from "../panels/branches";
 import { cases } from "../panels/cases";
 import { joints } from "../panels/joints";
@@ -17,7 +19,7 @@ import { SceneView } from "../scene/view";
 import { Timeline } from "../timeline/timeline";
 import type { Tab } from "./tab";
 
-export function liveTab(live: Live): Tab & { view: SceneView } {
+export function liveTab(live: Live, jobs: JobStore): Tab & { view: SceneView } {
   const host = h("div", { class: "stage", tabindex: "0", role: "group", "aria-label": "The robot, the plate with its deviations, and the tool. Keys 1 to 5: views. All numbers are in the panels." });
   const right = h("aside", { class: "right", "aria-label": "At the tool" }, point(live), target(live), shares(live), branches(live), cases(live), joints(live), matrix(live), notes(live));
   let waits: ReturnType<typeof setTimeout> | undefined;
@@ -33,7 +35,7 @@ export function liveTab(live: Live): Tab & { view: SceneView } {
     "div",
     { class: "live" },
     h("aside", { class: "left", "aria-label": "Settings" }, controls(live)),
-    h("div", { class: "middle" }, verdict(live, () => view.fit()), host, new Timeline(live).root),
+    h("div", { class: "middle" }, verdict(live, () => view.fit()), advice(live, jobs), host, new Timeline(live).root),
     right,
   );
   host.append(overlay(view, live));

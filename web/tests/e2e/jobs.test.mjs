@@ -5,7 +5,7 @@ import { execFileSync } from "node:child_process";
 import { existsSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { launch, open, serve, settled, um } from "./setup.mjs";
+import { launch, open, restart, serve, settled, um } from "./setup.mjs";
 
 let browser;
 before(async () => {
@@ -175,4 +175,21 @@ test("a run with several analyses says each", () =>
     const lines = await page.locator(".job.done .job-lines li").allInnerTexts();
     assert.equal(lines.length, 2);
     assert.ok(lines.some((line) => /^plate .*within tolerance, worst .* µm/.test(line)) && lines.some((line) => /^groove /.test(line)), lines.join());
+  }));
+
+test("a finished job is in the list after a restart of the server, with its files", () =>
+  at(SMALL, async (page, folder, server) => {
+    await page.click("[data-kind=run]");
+    await page.waitForSelector(".job.done", { timeout: 240_000 });
+    await server.end();
+    await page.goto(await restart(server));
+    await page.click("#tab-jobs");
+    await page.waitForSelector(".job.done");
+    assert.equal(await page.locator(".job").count(), 1);
+    const [report] = await Promise.all([page.context().waitForEvent("page"), page.getByRole("button", { name: "Show the report" }).click()]);
+    await report.waitForSelector("h1");
+    // A new one is another one, though the server begins to count anew.
+    await page.click("[data-kind=run]");
+    await page.waitForSelector(".job.done + .job.done", { timeout: 240_000 });
+    assert.equal(await page.locator(".job").count(), 2);
   }));

@@ -44,7 +44,7 @@ pub fn run() -> ExitCode {
 /// The rows in the output of the test, as a Markdown table.
 fn table(output: &str) -> String {
     let mut table = String::from(
-        "| arm | model | poses | largest difference | handed over | of these near a singularity |\n|---|---|--:|--:|--:|--:|\n",
+        "| arm | model | poses | largest difference | near a singularity | handed over | of these near a singularity |\n|---|---|--:|--:|--:|--:|--:|\n",
     );
     for line in output.lines() {
         // The first row may follow the name of the test.

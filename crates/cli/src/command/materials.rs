@@ -24,10 +24,7 @@ pub(crate) fn run(arguments: &MaterialsArguments) -> Result<Outcome, StudyError>
             }
         }
         None => {
-            let rows = library::MATERIALS
-                .iter()
-                .map(|entry| Ok(MaterialRow::of(entry.name, &library::find_material(entry.name)?)));
-            let rows: Vec<MaterialRow> = rows.collect::<Result<_, StudyError>>()?;
+            let rows = MaterialRow::all()?;
             if arguments.json {
                 serde_json::to_string(&rows)?
             } else {

@@ -198,10 +198,22 @@ impl StepAnswer {
             "spin" => "Spin of the tool",
             _ => return None,
         };
-        let gain = self.gain_um?;
-        if gain == 0.0 && !self.is_advised {
+        if self.gain_um? == 0.0 && !self.is_advised {
             return Some(format!("{what}: keep it; none of those searched is better."));
         }
+        let gain = self.gain_in_words()?;
+        Some(match self.is_advised {
+            true => format!("{what}: {gain}; it costs {}.", self.costs),
+            false => format!(
+                "{what}: keep it; the best that was found gives {gain}, which is no significant gain, and costs {}.",
+                self.costs
+            ),
+        })
+    }
+
+    /// "27 µm less ± 12.8 µm (k = 2)"; none of a step without a gain.
+    pub(super) fn gain_in_words(&self) -> Option<String> {
+        let gain = self.gain_um?;
         let by = match gain < 0.0 {
             true => format!("{} µm more", micrometres(-gain)),
             false => format!("{} µm less", micrometres(gain)),
@@ -210,13 +222,7 @@ impl StepAnswer {
             Some(u) => format!("± {} µm (k = 2)", micrometres(2.0 * u)),
             None => "of unknown uncertainty".to_owned(),
         };
-        Some(match self.is_advised {
-            true => format!("{what}: {by} {certain}; it costs {}.", self.costs),
-            false => format!(
-                "{what}: keep it; the best that was found gives {by} {certain}, which is no significant gain, and costs {}.",
-                self.costs
-            ),
-        })
+        Some(format!("{by} {certain}"))
     }
 }
 

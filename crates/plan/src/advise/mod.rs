@@ -7,13 +7,15 @@
 //! A step is used only if it improves the path by more than its uncertainty. The resulting study is run and written as
 //! any other; its file, the path to command and the numbers of the steps are left for use ([`AdvisedFiles`]).
 //!
-//! `answer`: values and sentences; `advised`: the files.
+//! `answer`: values and sentences; `measures`: those that can be applied one by one; `advised`: the files.
 
 mod advised;
 mod answer;
+mod measures;
 
 pub use advised::AdvisedFiles;
 pub use answer::{AdviceAnswer, StepAnswer, StretchAnswer};
+pub use measures::search_of_postures;
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -27,17 +29,21 @@ use armill_study::analysis::{AnalysisData, AnalysisResult};
 use armill_study::answer::{PathAnswer, SearchAnswer, StatisticsAnswer};
 use armill_study::error::StudyError;
 use armill_study::file::resolve::Study;
+use armill_study::live::{StudyText, process_values};
 use armill_study::output::Picture;
 use armill_study::run::run;
 use armill_study::studies::FoundStudy;
 
 use crate::compensate::{ErrorAnswer, compensate};
+use crate::measure::Measure;
 use crate::place::{Journal, PlacementAnswer, PlacementSearch};
 
 /// The recommendation, and the resulting study.
 pub struct Advice {
     /// As numbers and text.
     pub answer: AdviceAnswer,
+    /// What can be applied by itself.
+    pub measures: Vec<Measure>,
     /// Pictures of the search for a place.
     pub pictures: Vec<Picture>,
     /// The study with this path only, as recommended.
@@ -168,13 +174,23 @@ pub fn advise(
         compliance_assumed: study.compliance_is_assumed(),
     };
     answer.advice = answer.sentences();
+    let process = process_values(text_of(found), Some(name))?;
     let files = AdvisedFiles::of(&file, &placed, turns, &answer.steps, commanded)?;
     Ok(Advice {
+        measures: measures::measures(&answer, placed.changes(found)?, process.as_ref()),
         answer,
         pictures: placed.pictures,
         study: advised.clone(),
         files,
     })
+}
+
+fn text_of(found: &FoundStudy) -> StudyText<'_> {
+    StudyText {
+        shown: &found.shown,
+        folder: &found.folder,
+        bytes: &found.bytes,
+    }
 }
 
 /// The steps with their results.

@@ -6,9 +6,12 @@ use armill_core::nalgebra::UnitQuaternion;
 use armill_core::path::{Pace, Track};
 use armill_core::units::{to_deg, to_mm};
 use armill_formats::table::{Column, ColumnData, Table};
+use armill_programs::Written;
 use armill_study::analysis::holes::HolesAnalysis;
 use armill_study::error::StudyError;
+use armill_study::file::resolve::Study;
 use armill_study::input::setting::Setting;
+use armill_study::program_out::{HolesToWrite, PathToWrite, ProgramSettings, hole_program, program};
 use serde::Serialize;
 
 use super::error_answer::ErrorAnswer;
@@ -68,6 +71,74 @@ pub struct Commanded<'a> {
     pub refused: Vec<usize>,
     /// Files of the program that the path came from, with its targets moved.
     pub program: Vec<(String, Vec<u8>)>,
+}
+
+impl Commanded<'_> {
+    /// Its files: the table, the picture, and the program that the path came from, each by its name.
+    pub fn files(&self) -> Vec<(String, &[u8])> {
+        let mut files = vec![(self.given.file.clone(), &self.csv[..])];
+        if let Some(svg) = self.picture.as_ref().filter(|_| self.given.rounds > 0) {
+            let picture = self.given.file.replace(".commanded.csv", "-compensated.svg");
+            files.push((picture, svg.as_bytes()));
+        }
+        files.extend(
+            self.program
+                .iter()
+                .map(|(name, bytes)| (name.clone(), &bytes[..])),
+        );
+        files
+    }
+
+    /// The robot program along it; `study`: the one that it was computed of.
+    ///
+    /// # Errors
+    /// As of [`program`] and [`hole_program`].
+    pub fn robot_program(&self, study: &Study, requested: &ProgramSettings) -> Result<Written, StudyError> {
+        let (track, answers) = (&self.path.0, &self.path.1);
+        match self.holes {
+            Some(holes) => {
+                let refused = &self.refused;
+                let holes = HolesToWrite {
+                    holes,
+                    track,
+                    answers,
+                    refused,
+                };
+                hole_program(study, holes, requested)
+            }
+            None => {
+                let path = PathToWrite {
+                    setting: self.setting,
+                    track,
+                    answers,
+                    top: self.top,
+                    spindle: self.spindle,
+                };
+                program(study, path, requested)
+            }
+        }
+    }
+
+    /// The robot program along the only one of these.
+    ///
+    /// # Errors
+    /// Several, or none; as of [`Commanded::robot_program`].
+    pub fn only_program(
+        all: &[Commanded<'_>],
+        study: &Study,
+        requested: &ProgramSettings,
+    ) -> Result<Written, StudyError> {
+        match all {
+            [one] => one.robot_program(study, requested),
+            _ => Err(StudyError::value(
+                format!(
+                    "the study has {} paths and sets of holes, a program contains one",
+                    all.len()
+                ),
+                "select one: --analysis NAME",
+            )),
+        }
+    }
 }
 
 /// Corrections above this are questioned, um.

@@ -11,18 +11,20 @@
 //!
 //! For a path from a robot program, that program is returned too, with changed targets ([`in_place`]).
 //!
-//! `commanded`: a commanded path or set of holes; `error_answer`: the distances from the path; `holes`: holes instead of a
+//! `answer`: the result of all paths, in numbers and sentences; `commanded`: a commanded path or set of holes; `error_answer`: the distances from the path; `holes`: holes instead of a
 //! path; `in_place`: the program that a path is from, rewritten.
 //!
 //! The correction is the elastic deviation (and that of gravity, backlash and the calibrated robot, if known)
 //! under the mean of the load cases, of a cut under its nominal force; the difference of the cases is reported as
 //! residual.
 
+mod answer;
 mod commanded;
 pub mod error_answer;
 mod holes;
 pub mod in_place;
 
+pub use answer::CompensationAnswer;
 pub use commanded::{Commanded, CompensatedPath};
 pub use error_answer::ErrorAnswer;
 
@@ -39,24 +41,10 @@ use armill_study::analysis::path::run::passes;
 use armill_study::analysis::runner::Runner;
 use armill_study::error::StudyError;
 use armill_study::file::resolve::Study;
-use serde::Serialize;
 
 use self::commanded::{caution, table};
 use self::holes::of_holes;
 use self::in_place::{RewrittenProgram, in_place};
-
-/// Result of the compensation of the paths of a study.
-#[derive(Clone, Debug, Serialize)]
-pub struct CompensationAnswer {
-    /// Every path that was compensated.
-    pub paths: Vec<CompensatedPath>,
-    /// Whether the joint compliances are assumed, not measured: so are the corrections then.
-    pub compliance_assumed: bool,
-    /// Whether the robot file gives the backlash of its joints: the correction then includes it.
-    pub backlash: bool,
-    /// Whether the study names the calibrated robot: its geometry is then part of the correction.
-    pub geometry: bool,
-}
 
 /// Compensates every path and set of holes of the study, or the one called `name`. A circle is closed: its first point is commanded
 /// again at its end.

@@ -4,12 +4,13 @@ use armill_core::nalgebra::UnitQuaternion;
 use armill_study::analysis::Subject;
 use armill_study::error::StudyError;
 use armill_study::file::resolve::Study;
+use armill_study::live::ChangedValue;
 use armill_study::output::{Opening, Picture};
 use armill_study::studies::FoundStudy;
-use toml_edit::Value;
+use serde_json::Value as Json;
 
 use super::answer::PlacementAnswer;
-use crate::study_text::{StudyText, numbers};
+use crate::study_text::{StudyText, toml_of};
 
 /// Result of a search.
 pub struct PlacementResult {
@@ -50,7 +51,10 @@ impl PlacementResult {
     pub fn placed(&self, found: &FoundStudy) -> Result<FoundStudy, StudyError> {
         let mut text = StudyText::of(found)?;
         if self.answer.is_improvement {
-            self.place_path(&mut text);
+            for change in self.changes_of(&mut text) {
+                let keys: Vec<&str> = change.key.split('.').collect();
+                text.set(self.analysis, &keys, toml_of(&change.value));
+            }
         }
         Ok(text.in_place_of(found))
     }
@@ -92,27 +96,40 @@ impl PlacementResult {
         self.with_part.is_some()
     }
 
-    /// Changes the placement of the path in the study file.
-    fn place_path(&self, text: &mut StudyText) {
+    /// The placement as changes of the path in the study file.
+    ///
+    /// # Errors
+    /// A file that is not TOML.
+    pub fn changes(&self, found: &FoundStudy) -> Result<Vec<ChangedValue>, StudyError> {
+        Ok(self.changes_of(&mut StudyText::of(found)?))
+    }
+
+    fn changes_of(&self, text: &mut StudyText) -> Vec<ChangedValue> {
         let (place, index) = (&self.answer.place, self.analysis);
-        text.set(index, &["plane", "centre_mm"], Some(numbers(&place.centre_mm)));
-        text.set(index, &["plane", "tilt_deg"], place.tilt_deg.map(Value::from));
-        let rotation = place.rotation_deg.map(|rotation| numbers(&rotation));
-        text.set(index, &["plane", "rotation_deg"], rotation);
-        if let Some(branch) = &self.answer.recommended.branch {
-            text.set(index, &["posture", "branch"], Some(branch.as_str().into()));
-        }
-        if let Some(home) = &self.answer.home_deg {
-            text.set(index, &["posture", "home_deg"], Some(numbers(home)));
-        }
+        let change = |key: &str, value: Json| ChangedValue {
+            key: key.to_owned(),
+            value,
+            whole: false,
+        };
+        let mut all = vec![
+            change("plane.centre_mm", place.centre_mm.to_vec().into()),
+            change("plane.tilt_deg", place.tilt_deg.into()),
+            change("plane.rotation_deg", place.rotation_deg.map(Vec::from).into()),
+        ];
+        let branch = self.answer.recommended.branch.as_ref();
+        all.extend(branch.map(|branch| change("posture.branch", branch.as_str().into())));
+        let home = self.answer.home_deg.as_ref();
+        all.extend(home.map(|home| change("posture.home_deg", home.clone().into())));
         let keys: &[&str] = match () {
-            () if self.is_of_holes => return,
+            () if self.is_of_holes => return all,
             () if text.has(index, &["program"]) => &["program", "spin_deg"],
             () => &["spin_deg"],
         };
         let sum = text.number(index, keys).unwrap_or(0.0) + place.spin_deg;
         if sum != 0.0 || text.has(index, keys) {
-            text.set(index, keys, Some((sum - 360.0 * (sum / 360.0).round()).into()));
+            let turn = sum - 360.0 * (sum / 360.0).round();
+            all.push(change(&keys.join("."), turn.into()));
         }
+        all
     }
 }

@@ -7,6 +7,7 @@
 //! |---|---|
 //! | `outline` | the contents and the problems of a text |
 //! | `values` | the settings that an analysis resolves to |
+//! | `process` | the cut or drill of an analysis, and what the program gives in its place |
 //! | `view` | everything shown of an analysis after a value has changed |
 //! | `tables` | the values of the text, to fill fields with |
 //! | `answered` | the results of `armill run`: answer, table, pictures |
@@ -46,6 +47,7 @@ mod outline;
 mod path_cache;
 mod path_columns;
 mod posture;
+mod process;
 mod reachable;
 mod scale;
 mod scene;
@@ -68,6 +70,7 @@ pub use posture::{
     CaseAnswer, ChainPosition, DrawnJoint, DrawnPosture, JointLimits, PoseTarget, PostureQuestion,
     PosturesAnswer, postures,
 };
+pub use process::{GivenElsewhere, ProcessValues, process_values};
 pub use reachable::{ReachableAnswer, reachable};
 pub use scene::{BoxInScene, PlateInScene, PointsInScene, SceneAnswer, SectionInScene, scene};
 pub use tables::{TablesAnswer, ValueLocation, tables};

@@ -45,7 +45,7 @@ pub struct ChangedAnswer {
 }
 
 /// A new value of a key.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ChangedValue {
     /// The key: `plane.centre_mm`, `program.feature[1]`.

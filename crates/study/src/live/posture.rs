@@ -9,7 +9,7 @@
 use armill_core::compliance::{by_force, permissible_force, permissible_force_in_worst_direction};
 use armill_core::frame::{Isometry, tool_orientation};
 use armill_core::kernel::{BranchChoice, Question, evaluate_posture};
-use armill_core::nalgebra::{Point2, Point3, Unit, Vector3};
+use armill_core::nalgebra::{Point2, Point3, Rotation3, Unit, Vector3};
 use armill_core::robot::Robot;
 use armill_core::robot::forward::{forward, joint_axis};
 use armill_core::robot::inverse::tool_on;
@@ -93,6 +93,8 @@ pub struct DrawnPosture {
     pub joints: Vec<DrawnJoint>,
     /// Centre of the flange.
     pub flange_mm: [f64; 3],
+    /// Axes x, y, z of the flange.
+    pub flange_axes: [[f64; 3]; 3],
     /// Tool centre point.
     pub tool_mm: [f64; 3],
     /// Axis of the tool, from the spindle towards the part.
@@ -389,6 +391,11 @@ fn deviations(
     cases.iter().map(of).collect()
 }
 
+/// The axes x, y, z of a frame.
+pub(super) fn axes(rotation: &Rotation3<f64>) -> [[f64; 3]; 3] {
+    std::array::from_fn(|i| rotation.matrix().column(i).map(without_rounding).into())
+}
+
 /// The arm at these joint positions (rad, m).
 fn drawn(robot: &Robot, q: &[f64], flange_from_tool: &Isometry) -> DrawnPosture {
     let arm = arm_posture(robot, q, flange_from_tool);
@@ -407,6 +414,7 @@ fn drawn(robot: &Robot, q: &[f64], flange_from_tool: &Isometry) -> DrawnPosture 
     DrawnPosture {
         joints: (0..robot.joints().len()).map(joint).collect(),
         flange_mm: arm.flange_mm,
+        flange_axes: axes(&frames.base_from_flange.rotation),
         tool_mm: arm.tool_mm,
         tool_axis: clean(tool_on(&frames, flange_from_tool) * Vector3::z()),
         links_mm: links.collect(),

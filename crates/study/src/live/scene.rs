@@ -18,6 +18,7 @@ use crate::error::StudyError;
 use crate::file::resolve::Study;
 use crate::input::setting::Setting;
 use crate::input::tables::{HalfSize, PlaneTable};
+use crate::live::posture::axes;
 use crate::live::{EditedAnalysis, StudyText};
 use crate::number::{decimals, without_rounding};
 use crate::output;
@@ -30,6 +31,8 @@ pub struct SceneAnswer {
     pub robot: String,
     /// The reference frame of coordinates.
     pub base_mm: [f64; 3],
+    /// Its axes x, y, z, base.
+    pub base_axes: [[f64; 3]; 3],
     /// The plane; of sections the first.
     pub plate: PlateInScene,
     /// Sections: each with its plane.
@@ -161,6 +164,7 @@ pub(super) fn scene_of(
     Ok(SceneAnswer {
         robot: study.robot.robot.name().to_owned(),
         base_mm: mm(&setting.base_from_reference.translation.vector),
+        base_axes: axes(&setting.base_from_reference.rotation.to_rotation_matrix()),
         plate,
         sections,
         points,

@@ -12,6 +12,7 @@ use crate::analysis::table::AnalysisTable;
 use crate::error::StudyError;
 use crate::file::format::StudyFile;
 use crate::input::tables::HalfSize;
+use crate::live::process::ProcessValues;
 use crate::live::scene::{PlateInScene, half_of};
 use crate::live::{EditedAnalysis, StudyText};
 use crate::number::without_rounding;
@@ -49,6 +50,8 @@ pub struct ValuesAnswer {
     pub load_frame: Option<&'static str>,
     /// Forces on the tool, one a case.
     pub cases_n: Vec<[f64; 3]>,
+    /// The cut or drill that the load comes from; `null` of another load.
+    pub process: Option<ProcessValues>,
     /// The tolerance.
     pub tolerance_um: f64,
     /// Requested posture as in the file: words of a branch, `nominal` or `best`.
@@ -112,6 +115,7 @@ pub(super) fn values_of(edited: &EditedAnalysis<'_>) -> Result<ValuesAnswer, Stu
         tool_length_mm: without_rounding(to_mm(setting.flange_from_tool.translation.vector.norm())),
         load_frame: load.map(|load| load.frame.map_or("base", |frame| frame.word())),
         cases_n: load.map_or_else(Vec::new, |load| load.cases_n.clone()),
+        process: ProcessValues::of(file, table, &edited.study),
         tolerance_um: table.tolerance_um.unwrap_or(file.tolerance_um),
         branch: branch_words(file, table),
         branch_meant: setting.branch(),

@@ -16,15 +16,21 @@ const MAKERS: [(&str, Language); 9] = [
     ("st\u{e4}ubli", Language::Val3),
 ];
 
-/// A warning if the robot is of a maker whose controllers have another language.
-pub(super) fn question(robot: &RobotDescription, language: Language) -> Option<String> {
+/// The language of the robot's controllers; none of a maker that is not known.
+pub fn own_language(robot: &RobotDescription) -> Option<Language> {
     let names = format!("{} {}", robot.title, robot.robot.name()).to_lowercase();
     let words: Vec<&str> = names
         .split(|c: char| !c.is_alphabetic())
         .filter(|word| !word.is_empty())
         .collect();
     let (_, own) = MAKERS.iter().find(|(word, _)| words.contains(word))?;
-    (*own != language).then(|| {
+    Some(*own)
+}
+
+/// A warning if the robot is of a maker whose controllers have another language.
+pub(super) fn question(robot: &RobotDescription, language: Language) -> Option<String> {
+    let own = own_language(robot)?;
+    (own != language).then(|| {
         format!(
             "the program is written in {}, but controllers of {} read {}: check the file name extension",
             language.title(),

@@ -25,6 +25,7 @@ mod tooling;
 mod way;
 
 pub use holes::{HolesToWrite, hole_program};
+pub use maker::own_language;
 pub use settings::ProgramSettings;
 
 use armill_core::kernel::Answers;

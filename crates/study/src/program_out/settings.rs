@@ -1,6 +1,6 @@
 //! How a program is to be: from the command and the table `controller`.
 
-use armill_core::units::from_mm;
+use armill_core::units::{from_mm, from_um};
 use armill_formats::controller::{ControllerTable, FrameDataName};
 use armill_programs::{Controller, FrameData, Language};
 
@@ -25,6 +25,30 @@ pub struct ProgramSettings {
     pub blend: f64,
     /// Feed if the path does not specify it, m/s.
     pub feed: Option<f64>,
+}
+
+impl ProgramSettings {
+    /// Default distance of linear moves and rounded corners from the path, um.
+    pub const USUAL_WITHIN_UM: f64 = 5.0;
+    /// Default height of retraction where the path has no rapids, mm.
+    pub const USUAL_RETRACT_MM: f64 = 50.0;
+    /// Default distance at which approximate positioning begins, mm.
+    pub const USUAL_BLEND_MM: f64 = 5.0;
+
+    /// The defaults in this language, for a program of this name.
+    pub fn usual(language: Language, name: &str) -> ProgramSettings {
+        ProgramSettings {
+            language,
+            name: name.to_owned(),
+            frame_number: None,
+            tool_number: None,
+            within: from_um(ProgramSettings::USUAL_WITHIN_UM),
+            rounding: from_um(ProgramSettings::USUAL_WITHIN_UM),
+            retract: from_mm(ProgramSettings::USUAL_RETRACT_MM),
+            blend: from_mm(ProgramSettings::USUAL_BLEND_MM),
+            feed: None,
+        }
+    }
 }
 
 /// Speed of linear moves that do not cut, mm/s.

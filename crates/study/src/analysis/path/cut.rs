@@ -101,6 +101,18 @@ pub enum SideName {
     Slot,
 }
 
+impl SideName {
+    /// As the study has it.
+    pub fn word(self) -> &'static str {
+        match self {
+            SideName::Up => "up",
+            SideName::Down => "down",
+            SideName::Centred => "centred",
+            SideName::Slot => "slot",
+        }
+    }
+}
+
 /// An end mill.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
