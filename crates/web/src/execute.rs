@@ -306,7 +306,8 @@ impl Job {
         }
         let answer = CompensationAnswer::of(&study, &commanded);
         let mut json = serde_json::to_value(&answer)?;
-        json["sentences"] = answer.sentences().into_iter().chain(notes).collect();
+        json["sentences"] = answer.sentences().into();
+        json["program_notes"] = notes.into();
         Ok(Done {
             answer: json.to_string(),
             measures: Vec::new(),

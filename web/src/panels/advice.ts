@@ -28,6 +28,7 @@ class Advice {
   private readonly applied = new Map<string, { measures: Set<string>; text: string | null }>();
   private problem: string | null = null;
   private language = "";
+  private notes_open = false;
 
   constructor(private readonly live: Live, private readonly store: JobStore, private readonly root: HTMLElement) {}
 
@@ -98,7 +99,7 @@ class Advice {
 
   private action(measure: Measure, job: Job): Child {
     const { changes, measure: kind } = measure;
-    if (kind === "compensation") return null;
+    if (kind === "compensation") return h("button", { type: "button", class: "quiet small", "data-key": "compensation", onclick: () => void this.compensate() }, "Compensate");
     if (changes.length === 0) return null;
     const apply = () => {
       const known = this.applied.get(job.id) ?? { measures: new Set<string>(), text: null };
@@ -120,16 +121,17 @@ class Advice {
   }
 
   private files(job: Job): Child {
-    const { sentences } = job.answer as unknown as { sentences: string[] };
+    const { sentences, program_notes: notes } = job.answer as unknown as { sentences: string[]; program_notes: string[] };
     const fail = (error: unknown) => this.fail(error);
     const programs = job.files.filter((file) => file.startsWith("programs/"));
     const others = job.files.filter((file) => !file.startsWith("programs/"));
     return h(
       "div",
       { class: "advice-files" },
-      sentences.map((sentence) => h("p", {}, sentence)),
+      h("p", {}, sentences.join(" ")),
       job.text === this.live.text ? null : h("p", { class: "note" }, "For an earlier state of the study."),
       h("p", { class: "files" }, programs.length > 0 ? [h("b", {}, "Robot program: "), programs.map((file) => [fileLink(file, fail, file.slice("programs/".length)), " "])] : null, others.map((file) => [fileLink(file, fail), " "])),
+      notes.length > 0 ? h("details", { open: this.notes_open }, h("summary", { onclick: () => void (this.notes_open = !this.notes_open) }, `${notes.length} ${notes.length === 1 ? "note" : "notes"} on the program: read before it is loaded`), h("ul", {}, notes.map((note) => h("li", {}, `${note.charAt(0).toUpperCase()}${note.slice(1)}.`)))) : null,
     );
   }
 

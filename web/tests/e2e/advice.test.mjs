@@ -79,8 +79,8 @@ test("compensation: what remains, the path and a robot program as files, in the 
     await page.click("[data-key=compensate]");
     await page.locator(".advice-files").waitFor({ timeout: 300_000 });
     assert.match(await page.locator(".advice-files").innerText(), /compensated [\d.]+ µm/);
-    const [download] = await Promise.all([page.waitForEvent("download"), page.locator('.advice-files [data-file="programs/pocket.ls"]').click()]);
-    assert.deepEqual(readFileSync(await download.path()), readFileSync(join(folder, "programs/pocket.ls")));
+    const [download] = await Promise.all([page.waitForEvent("download"), page.locator('.advice-files [data-file="programs/pocket.LS"]').click()]);
+    assert.deepEqual(readFileSync(await download.path()), readFileSync(join(folder, "programs/pocket.LS")));
     assert.ok(existsSync(join(folder, "compensated/pocket.commanded.csv")));
     await page.selectOption(".advice-language", "src");
     await page.click("[data-key=compensate]");
