@@ -61,7 +61,7 @@ fn points_of_a_path_come_as_columns_and_the_pose_at_one_is_the_same_with_the_pat
     assert_eq!(given.header("content-type").unwrap(), "application/octet-stream");
     assert_eq!(given.body.len(), 360 * 4 * 4);
     let refused = columns(json!(["weight_kg"]));
-    assert_eq!((refused.status, refused.kind().as_str()), (422, "invalid-input"));
+    assert_eq!((refused.status, refused.kind().as_str()), (400, "invalid-input"));
 }
 
 #[test]
