@@ -564,6 +564,55 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/path-columns": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Columns of a path as numbers of 4 bytes, little-endian */
+        post: {
+            parameters: {
+                query?: never;
+                header?: never;
+                path?: never;
+                cookie?: never;
+            };
+            requestBody: {
+                content: {
+                    "application/json": components["schemas"]["PathColumnsRequest"];
+                };
+            };
+            responses: {
+                /** @description success */
+                200: {
+                    headers: {
+                        [name: string]: unknown;
+                    };
+                    content: {
+                        "application/octet-stream": string;
+                    };
+                };
+                /** @description error */
+                default: {
+                    headers: {
+                        [name: string]: unknown;
+                    };
+                    content: {
+                        "application/json": components["schemas"]["ErrorBody"];
+                    };
+                };
+            };
+        };
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/reachable": {
         parameters: {
             query?: never;
@@ -1378,6 +1427,11 @@ export interface components {
             lines: boolean;
             /** @description The quantity that colours show; the in-plane deviation, which is in the answer, if left out. */
             layer?: components["schemas"]["LayerRequest"] | null;
+            /**
+             * @description Whether the points of a path are left out, to be requested as columns.
+             * @default false
+             */
+            columns: boolean;
         };
         /** @description The pose of the arm to show. */
         PoseRequest: {
@@ -1467,6 +1521,15 @@ export interface components {
              * @default 1
              */
             case: number;
+        };
+        /** @description Columns of a path. */
+        PathColumnsRequest: {
+            /** @description The text of the study. */
+            text: string;
+            /** @description Name of its analysis; the first if left out. */
+            analysis?: string | null;
+            /** @description The keys of the columns. */
+            keys: string[];
         };
         /** @description The table of an analysis. */
         TableRequest: {
@@ -1866,6 +1929,11 @@ export interface components {
             values: components["schemas"]["ValuesAnswer"];
             /** @description What can be drawn in space. */
             scene: components["schemas"]["SceneAnswer"];
+            /**
+             * @description The columns of a path, its operations and worst points; `null` of another analysis, and if its points are in the
+             *     scene.
+             */
+            path: components["schemas"]["PathInView"] | null;
             /** @description Its answer, as in `armill run --json`. */
             answer: components["schemas"]["StudyAnswer"];
             /** @description Its worst and best points: of sections those of each, else of one. */
@@ -2205,6 +2273,69 @@ export interface components {
                 number,
                 number
             ];
+        };
+        /** @description A path whose points are requested as columns. */
+        PathInView: {
+            /**
+             * Format: uint
+             * @description Number of points.
+             */
+            points: number;
+            /** @description Its columns. */
+            columns: components["schemas"]["PathColumnInView"][];
+            /** @description Its operations, in their order; those without a point are left out. */
+            operations: components["schemas"]["OperationInView"][];
+            /** @description The worst points of the answer, in its order. */
+            worst: number[];
+        };
+        /** @description A column. */
+        PathColumnInView: {
+            /** @description Its key. */
+            key: string;
+            /** @description The unit of its values; `null` without one. */
+            unit: string | null;
+            /**
+             * Format: uint
+             * @description Values of each point: 1, or 3 of a vector.
+             */
+            components: number;
+            /** @description The joint whose position it is; `null` of other columns. */
+            joint: string | null;
+            /**
+             * Format: double
+             * @description Lower limit of the joint; `null` if it has none.
+             */
+            lower: number | null;
+            /**
+             * Format: double
+             * @description Upper limit of the joint; `null` if it has none.
+             */
+            upper: number | null;
+        };
+        /** @description An operation of the program. */
+        OperationInView: {
+            /**
+             * Format: uint
+             * @description Its first point.
+             */
+            first: number;
+            /**
+             * Format: uint
+             * @description Number of its points.
+             */
+            points: number;
+            /** @description Name of the operation or its tool. */
+            name: string | null;
+            /**
+             * Format: uint32
+             * @description Number of the tool.
+             */
+            tool: number | null;
+            /**
+             * Format: uint32
+             * @description Line of the program where it begins.
+             */
+            line: number;
         };
         /** @description The whole answer. */
         StudyAnswer: {

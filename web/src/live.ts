@@ -7,12 +7,14 @@
 import type { Draft } from "./changes/drafts";
 import { History, type Step } from "./changes/history";
 import { FIRST } from "./scene/layers";
+import { DRAWN, Points } from "./scene/points";
 import { api, Refused } from "./server";
 import { Newest } from "./newest";
 import { choosePosture, worstCase } from "./posture";
+import { PathColumns } from "./timeline/columns";
 import type { Answer, Analysis, At, Change, Extremes, Follow, LayerAnswer, LayerKey, MapAnswer, MapLines, Point, Pose, Scene, Setting, Study, Values, View } from "./types";
 
-export type Topic = "study" | "text" | "answer" | "pose" | "moving" | "busy" | "error" | "view";
+export type Topic = "study" | "text" | "answer" | "pose" | "at" | "moving" | "busy" | "error" | "view";
 
 interface Job {
   analysis: string | null;
@@ -25,6 +27,8 @@ interface Result {
   /** Number of the target that the arm of the view belongs to. */
   wish: number;
   view: View;
+  scene: Scene;
+  path: PathColumns | null;
 }
 
 export class Live {
@@ -35,6 +39,8 @@ export class Live {
   answer: Answer | null = null;
   values: Values | null = null;
   scene: Scene | null = null;
+  /** The points of a path; null of another analysis. */
+  path: PathColumns | null = null;
   /** The worst and best points; for sections those of each. */
   extremes: Extremes[] = [];
   /** Levels of the colour scale, µm: the last ones if no point has a deviation. */
@@ -340,10 +346,14 @@ export class Live {
     const levels = fix_scale && this.layer_answer?.key === this.layer ? this.layer_answer.levels : null;
     const layer = this.layer === FIRST ? null : { key: this.layer, levels };
     const shown = { arm: request, lines, levels_um: fix_scale ? this.levels_um : null, layer };
-    return { sent, base, wish, view: await api.view(base, job.analysis, changesOf(sent), shown, signal) };
+    const view = await api.view(base, job.analysis, changesOf(sent), shown, signal);
+    const path = view.path && new PathColumns(view.path, (keys) => api.pathColumns(view.text, job.analysis, keys));
+    await path?.load(layer ? [...DRAWN, layer.key] : DRAWN);
+    const points = path ? Points.ofPath(path) : view.scene.points && Points.ofAnswer(view.scene.points);
+    return { sent, base, wish, view, scene: { ...view.scene, points }, path };
   }
 
-  private take({ sent, base, wish, view }: Result, job: Job): void {
+  private take({ sent, base, wish, view, scene, path }: Result, job: Job): void {
     if (job.analysis !== this.analysis) return;
     if (base !== this.text) {
       // The text was edited meanwhile: the changes are made in the newer one.
@@ -356,7 +366,8 @@ export class Live {
     this.analyses = view.analyses;
     this.answer = view.answer;
     if (this.settled) this.values = view.values;
-    this.scene = view.scene;
+    this.scene = scene;
+    this.path = path;
     this.extremes = view.extremes;
     this.levels_um = view.levels_um ?? this.levels_um;
     this.lines = view.lines;
@@ -428,6 +439,7 @@ export class Live {
       this.notify("pose");
       return;
     }
+    this.notify("at");
     this.poses.submit({ at: this.at, load_case: this.fixed_case ?? this.followed?.worst_case ?? this.load_case });
   }
 

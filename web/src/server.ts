@@ -85,7 +85,7 @@ export const api = {
   change: (text: string, analysis: string | null, changes: Change[], signal?: AbortSignal) => json<Changed>("POST", "/api/change", { text, analysis, changes }, signal),
   view: async (text: string, analysis: string | null, changes: Change[], shown: Shown, signal?: AbortSignal) => {
     const sent = performance.now();
-    const response = await raw("POST", "/api/view", { text, analysis, changes, ...shown }, signal);
+    const response = await raw("POST", "/api/view", { text, analysis, changes, columns: true, ...shown }, signal);
     const body = await response.text();
     const got = performance.now();
     const view = JSON.parse(body) as View;
@@ -93,6 +93,8 @@ export const api = {
     performance.measure("armill:parse", { start: got });
     return view;
   },
+  /** Columns of a path, one after the other. */
+  pathColumns: async (text: string, analysis: string | null, keys: string[], signal?: AbortSignal) => (await raw("POST", "/api/path-columns", { text, analysis, keys }, signal)).arrayBuffer(),
   mesh: async (text: string, file: string) => (await raw("POST", "/api/mesh", { text, file })).arrayBuffer(),
   pose: (text: string, analysis: string | null, at: At, load_case: number, signal?: AbortSignal) => json<Pose>("POST", "/api/pose", { text, analysis, at, case: load_case }, signal),
   reachable: (text: string, analysis: string | null, signal?: AbortSignal) => json<Reachable>("POST", "/api/reachable", { text, analysis }, signal),

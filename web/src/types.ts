@@ -2,6 +2,7 @@
 // description of the server (`npm run types`). This file only refines them.
 
 import type { components } from "./api";
+import type { Points } from "./scene/points";
 
 type Schemas = components["schemas"];
 
@@ -71,13 +72,19 @@ export type ScenePoints = Omit<Schemas["PointsInScene"], "columns"> & {
     cross_um?: (number | null)[];
   };
 };
-export type Scene = Omit<Schemas["SceneAnswer"], "points" | "plate" | "sections" | "box" | "base_axes"> & {
+type SceneAs<P> = Omit<Schemas["SceneAnswer"], "points" | "plate" | "sections" | "box" | "base_axes"> & {
   base_axes: Axes;
   plate: Plate;
   sections: { label: string; plate: Plate }[];
-  points: ScenePoints | null;
+  points: P | null;
   box: Box | null;
 };
+export type Scene = SceneAs<Points>;
+
+/** A path whose points are requested as columns. */
+export type PathInView = Schemas["PathInView"];
+export type PathColumn = Schemas["PathColumnInView"];
+export type OperationInView = Schemas["OperationInView"];
 
 /** What is to be shown in addition to the answer. */
 export type Shown = Pick<Schemas["ViewRequest"], "arm" | "levels_um" | "lines" | "layer">;
@@ -87,7 +94,9 @@ export interface View {
   text: string;
   analyses: Analysis[];
   values: Values;
-  scene: Scene;
+  scene: SceneAs<ScenePoints>;
+  /** Null of another analysis. */
+  path: PathInView | null;
   answer: Answer;
   extremes: Extremes[];
   /** Levels of the colour scale; null if no point has a deviation. */

@@ -12,12 +12,13 @@
 //! files are opened under the same rules and not remembered.
 
 use std::cell::RefCell;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{File, Metadata, OpenOptions};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::SystemTime;
 
 /// A file that is read as a whole may have this many bytes: studies, robots, programs of robots, tables that were typed
 /// have some kB, the largest some MB.
@@ -54,11 +55,30 @@ impl Identity {
     }
 }
 
+/// A file as it was when it was opened.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct FileState {
+    identity: Option<Identity>,
+    length: u64,
+    modified: Option<SystemTime>,
+}
+
+impl FileState {
+    fn of(path: &Path, metadata: &Metadata) -> FileState {
+        FileState {
+            identity: Identity::with(path, metadata),
+            length: metadata.len(),
+            modified: metadata.modified().ok(),
+        }
+    }
+}
+
 /// The inputs of one command: the files that its command line names, and all that it has opened.
 #[derive(Clone, Debug, Default)]
 pub struct Inputs {
     named: Arc<BTreeSet<Identity>>,
     opened: Arc<Mutex<BTreeSet<Identity>>>,
+    states: Arc<Mutex<BTreeMap<PathBuf, FileState>>>,
     cancel: Arc<AtomicBool>,
 }
 
@@ -103,6 +123,15 @@ impl Inputs {
     /// Those of this thread; none where nothing was set.
     pub fn current() -> Inputs {
         CURRENT.with_borrow(Clone::clone).unwrap_or_default()
+    }
+
+    /// Whether every file that was opened is as it was then.
+    pub fn are_unchanged(&self) -> bool {
+        let states = self.states.lock().unwrap_or_else(PoisonError::into_inner);
+        states.iter().all(|(path, state)| {
+            path.metadata()
+                .is_ok_and(|metadata| FileState::of(path, &metadata) == *state)
+        })
     }
 
     /// Whether this file was opened.
@@ -164,6 +193,11 @@ pub fn open(path: &Path) -> io::Result<InputFile> {
     }
     let mut opened = inputs.opened.lock().unwrap_or_else(PoisonError::into_inner);
     opened.extend(Identity::with(path, &metadata));
+    let mut states = inputs.states.lock().unwrap_or_else(PoisonError::into_inner);
+    // Of a file that changes between two readings the first state is kept: it is not unchanged.
+    states
+        .entry(path.to_owned())
+        .or_insert_with(|| FileState::of(path, &metadata));
     let endless = !metadata.is_file();
     let limit = if endless {
         MOST_STREAM_BYTES
@@ -313,6 +347,23 @@ mod tests {
             (&line, error.to_string()),
             (b"one\n", "reading was cancelled".to_owned())
         );
+    }
+
+    #[test]
+    fn a_file_that_was_written_again_or_removed_is_not_unchanged() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("path.csv");
+        let inputs = Inputs::default();
+        std::fs::write(&path, "1").unwrap();
+        inputs.during(|| read(&path)).unwrap();
+        assert!(inputs.are_unchanged());
+        std::fs::write(&path, "12").unwrap();
+        assert!(!inputs.are_unchanged());
+        let inputs = Inputs::default();
+        inputs.during(|| read(&path)).unwrap();
+        assert!(inputs.are_unchanged());
+        std::fs::remove_file(&path).unwrap();
+        assert!(!inputs.are_unchanged());
     }
 
     #[test]

@@ -6,6 +6,7 @@
 //! | `POST /api/view` | answer, values, scene, colours and lines of an analysis and the arm in it at once, after values are changed |
 //! | `POST /api/values` | the settings that an analysis resolves to |
 //! | `POST /api/pose` | the arm at one place of an analysis |
+//! | `POST /api/path-columns` | columns of the points of a path, as numbers of 4 bytes |
 //! | `POST /api/scene` | the geometry of an analysis for drawing |
 //! | `POST /api/reachable` | the nearest placement that the robot reaches |
 //! | `POST /api/mesh` | the shape of a link, where the robot's file names one |
@@ -19,8 +20,7 @@ use std::sync::{Arc, OnceLock};
 use armill_core::watch::Watch;
 use armill_study::live::{
     ChangedValue, LayerRequest, PoseRequest, PoseTarget, PostureQuestion, StudyText, ViewQuestion,
-    answer_json, measured_csv, mesh_bytes, picture_svg, pictures, postures, reachable, scene, table_csv,
-    values, view,
+    answer_json, measured_csv, mesh_bytes, picture_svg, pictures, reachable, scene, table_csv, values, view,
 };
 use armill_study::materials::MaterialRow;
 use armill_study::robot_answers::library_rows;
@@ -67,6 +67,21 @@ pub(crate) struct ViewRequest {
     pub lines: bool,
     /// The quantity that colours show; the in-plane deviation, which is in the answer, if left out.
     pub layer: Option<LayerRequest>,
+    /// Whether the points of a path are left out, to be requested as columns.
+    #[serde(default)]
+    pub columns: bool,
+}
+
+/// Columns of a path.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PathColumnsRequest {
+    /// The text of the study.
+    pub text: String,
+    /// Name of its analysis; the first if left out.
+    pub analysis: Option<String>,
+    /// The keys of the columns.
+    pub keys: Vec<String>,
 }
 
 /// A shape of the robot.
@@ -171,6 +186,7 @@ pub(crate) async fn of_view(
     JsonBody(of): JsonBody<ViewRequest>,
 ) -> Answered {
     let headers = for_itself(&headers, "view");
+    let kept = Arc::clone(&state);
     answered(state, (of.text, headers, JSON), move |text, watch| {
         let question = ViewQuestion {
             analysis: of.analysis.as_deref(),
@@ -179,6 +195,7 @@ pub(crate) async fn of_view(
             levels_um: of.levels_um.as_deref(),
             lines: of.lines,
             layer: of.layer.as_ref(),
+            paths: of.columns.then_some(&kept.paths),
         };
         as_json(&view(text, &question, watch)?)
     })
@@ -208,13 +225,29 @@ pub(crate) async fn pose(
     JsonBody(of): JsonBody<PosturesRequest>,
 ) -> Answered {
     let headers = for_itself(&headers, "pose");
+    let kept = Arc::clone(&state);
     answered(state, (of.text, headers, JSON), move |text, watch| {
         let question = PostureQuestion {
             analysis: of.analysis.as_deref(),
             at: of.at,
             case: of.case,
         };
-        as_json(&postures(text, &question, watch)?)
+        as_json(&kept.paths.postures(text, &question, watch)?)
+    })
+    .await
+}
+
+pub(crate) async fn path_columns(
+    Shared(state): Shared<Arc<State>>,
+    headers: HeaderMap,
+    JsonBody(of): JsonBody<PathColumnsRequest>,
+) -> Answered {
+    let headers = for_itself(&headers, "path-columns");
+    let kept = Arc::clone(&state);
+    let kind = "application/octet-stream";
+    answered(state, (of.text, headers, kind), move |text, watch| {
+        kept.paths
+            .columns(text, (of.analysis.as_deref(), &of.keys), watch)
     })
     .await
 }

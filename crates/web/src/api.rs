@@ -18,7 +18,8 @@ use axum::response::Response;
 use serde_json::Value;
 
 use crate::answers::{
-    AnalysisRequest, MeshRequest, PictureRequest, PosturesRequest, TableRequest, ViewRequest,
+    AnalysisRequest, MeshRequest, PathColumnsRequest, PictureRequest, PosturesRequest, TableRequest,
+    ViewRequest,
 };
 use crate::files::{Files, TicketAnswer, TicketRequest, UploadedFile};
 use crate::job::JobAnswer;
@@ -74,6 +75,14 @@ fn operations() -> Vec<Operation> {
         Operation::new(POST, "/pose", "The arm at one place", answers::pose)
             .takes::<PosturesRequest>()
             .answers::<PosturesAnswer>(),
+        Operation::new(
+            POST,
+            "/path-columns",
+            "Columns of a path as numbers of 4 bytes, little-endian",
+            answers::path_columns,
+        )
+        .takes::<PathColumnsRequest>()
+        .sends("application/octet-stream"),
         Operation::new(
             POST,
             "/reachable",

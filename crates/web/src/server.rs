@@ -15,6 +15,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use armill_study::StudyError;
+use armill_study::live::PathCache;
 use axum::Router;
 use axum::routing::get;
 use hyper::Request;
@@ -108,6 +109,7 @@ impl Server {
             work: Work::new(),
             opening: Opening::default(),
             tickets: Tickets::default(),
+            paths: PathCache::default(),
         });
         let (stop, stopped) = watch::channel(false);
         let app = router(&state, Guard::new(port, token));

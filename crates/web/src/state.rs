@@ -1,5 +1,7 @@
 //! What all handlers share.
 
+use armill_study::live::PathCache;
+
 use crate::cell::Cell;
 use crate::opening::Opening;
 use crate::queue::Queue;
@@ -13,4 +15,5 @@ pub(crate) struct State {
     pub work: Work,
     pub opening: Opening,
     pub tickets: Tickets,
+    pub paths: PathCache,
 }

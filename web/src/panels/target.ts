@@ -26,14 +26,14 @@ export function target(live: Live): HTMLElement {
     ];
   };
   const onPath = (): NumberField[] => {
-    const n = live.scene!.points!.xyz_mm.length;
+    const n = live.scene!.points!.count;
     return [new NumberField({ id: "target-point", label: live.answer!.holes.length > 0 ? "Hole" : live.answer!.volumes.length > 0 ? "Point of the box" : "Point of the path", unit: "", range: [1, n], step: 1, input: (v) => live.goTo({ point: Math.min(n, Math.max(1, Math.round(v))) - 1 }) })];
   };
   const draw = () => {
     const { answer, scene, at } = live;
     if (!answer) return;
     const kind = answer.maps.length > 0 ? "map" : scene?.points ? "path" : "none";
-    const key = `${kind} ${live.analysis} ${live.map?.grid.points} ${live.map?.grid.y_mm[0]} ${scene?.points?.xyz_mm.length}`;
+    const key = `${kind} ${live.analysis} ${live.map?.grid.points} ${live.map?.grid.y_mm[0]} ${scene?.points?.count}`;
     root.hidden = kind === "none";
     if (key !== made) {
       made = key;

@@ -5,6 +5,7 @@ import { fixed, percent, trimmed, um } from "../format";
 import type { Live } from "../live";
 import type { LayerKey, Line } from "../types";
 import { along, viridis, type Rgb, type Scale } from "./colour";
+import type { Values } from "./points";
 
 export interface Layer {
   title: string;
@@ -45,7 +46,7 @@ export interface ShownLayer {
   scale: Scale | null;
   names: string[];
   /** Of a map by its index, of points 0. */
-  values: (index: number) => (number | null)[];
+  values: (index: number) => Values;
   lines: (index: number) => { level: number; lines_mm: Line[] }[];
 }
 
@@ -53,14 +54,14 @@ export interface ShownLayer {
 export function shownLayer(live: Live): ShownLayer {
   const got = live.layer_answer;
   if (got && got.key === live.layer) {
-    return { key: got.key, layer: LAYERS[got.key], scale: got.levels, names: got.names, values: (i) => got.values[i] ?? [], lines: (i) => (got.lines[i] ?? []) as { level: number; lines_mm: Line[] }[] };
+    return { key: got.key, layer: LAYERS[got.key], scale: got.levels, names: got.names, values: (i) => (i === 0 ? live.path?.get(got.key) : null) ?? got.values[i] ?? [], lines: (i) => (got.lines[i] ?? []) as { level: number; lines_mm: Line[] }[] };
   }
   return {
     key: FIRST,
     layer: LAYERS[FIRST],
     scale: live.levels_um,
     names: [],
-    values: (i) => live.answer?.maps[i]?.grid.in_plane_um ?? live.scene?.points?.columns.in_plane_um ?? [],
+    values: (i) => live.answer?.maps[i]?.grid.in_plane_um ?? live.scene?.points?.column(FIRST) ?? [],
     lines: (i) => (live.lines[i]?.levels ?? []).map(({ level_um, lines_mm }) => ({ level: level_um, lines_mm: lines_mm as Line[] })),
   };
 }
@@ -79,7 +80,7 @@ export function namedColour(index: number): Rgb {
 
 /** A value with its unit. */
 export function textOf({ layer, names }: Pick<ShownLayer, "layer" | "names">, value: number | null | undefined): string {
-  if (value === null || value === undefined) return "not known";
+  if (value === null || value === undefined || Number.isNaN(value)) return "not known";
   if (layer.named) return names[value] ?? "not known";
   return layer.unit === "°" ? `${layer.text(value)}°` : layer.unit ? `${layer.text(value)} ${layer.unit}` : layer.text(value);
 }

@@ -9,6 +9,7 @@ import { along, css, ends, viridis, type Scale } from "./colour";
 import { FIRST, LAYERS, levelText, namedColour, shownLayer, textOf, type ShownLayer } from "./layers";
 import { handleBar } from "./handle-bar";
 import { outsideLimits } from "./plate";
+import { SHOWN } from "./points";
 import type { View } from "./stage";
 import { ELLIPSOID, type SceneView, type Show, type Under } from "./view";
 
@@ -156,13 +157,12 @@ function scaleBar({ layer }: ShownLayer, scale: Scale, tolerance: number): SVGEl
 /** What is drawn in other ways than by a colour, where there is any. */
 function marks(live: Live): HTMLElement | null {
   const { answer, map, scene } = live;
-  const columns = scene?.points?.columns.in_plane_um ?? map?.grid.in_plane_um ?? [];
   const shown: [boolean, string, string][] = [
     [map !== null && outsideLimits(map.grid).length > 0, "hatched", "outside joint limits"],
-    [map === null && answer!.paths.length > 0 && scene!.points!.outside_joint_limits.length > 0, "dashed", "outside joint limits"],
+    [map === null && answer!.paths.length > 0 && scene!.points!.any_outside, "dashed", "outside joint limits"],
     [lostHoles(answer!).length > 0, "crossed", "cannot be drilled"],
     [answer!.volumes.length > 0, "surface", "surface: tolerance"],
-    [columns.includes(null), "empty", "no posture"],
+    [scene?.points?.any_empty ?? map?.grid.in_plane_um.includes(null) ?? false, "empty", "no posture"],
   ];
   const list = shown.filter(([there]) => there);
   return list.length === 0 ? null : h("p", { class: "marks" }, list.map(([, kind, text]) => h("span", {}, h("i", { class: `mark ${kind}` }, kind === "crossed" ? "✕" : ""), text)));
@@ -180,10 +180,12 @@ function hover(tip: HTMLElement, live: Live, under: Under, x: number, y: number,
     for (const flag of flags) rows.push(["", flag]);
   } else {
     const points = live.scene!.points!;
-    const columns = points.columns;
     const i = under.index;
-    rows.push(["Point", String(i + 1)], ["x, y, z", `${points.xyz_mm[i]!.map((v) => fixed(v, 1)).join(", ")} mm`]);
-    for (const [name, list] of [["In plane", columns.in_plane_um], ["Along", columns.along_um], ["Across", columns.cross_um], ["Normal", columns.normal_um], ["Full", columns.full_um]] as const) if (list) rows.push([name, `${um(list[i])} µm`]);
+    rows.push(["Point", String(i + 1)], ["x, y, z", `${points.at(i).map((v) => fixed(v, 1)).join(", ")} mm`]);
+    for (const [name, key] of SHOWN) {
+      const list = points.column(key);
+      if (list) rows.push([name, `${um(list[i])} µm`]);
+    }
   }
   const chosen = shownLayer(live);
   // Deviations are in every tooltip.

@@ -31,6 +31,8 @@ export class Stage {
   private readonly ground = new THREE.Group();
   /** Whether an object is in front of a label of this group at this point. */
   covered: (group: string, at: THREE.Vector3) => boolean = () => false;
+  /** Called before each frame is drawn. */
+  before: () => void = () => {};
   private ground_key = "";
   private requested = false;
   private readonly by_card: boolean;
@@ -69,6 +71,7 @@ export class Stage {
     this.requested = true;
     requestAnimationFrame(() => {
       this.requested = false;
+      this.before();
       this.render(this.by_card ? Math.min(devicePixelRatio, 2) : Math.min(devicePixelRatio, 1));
       this.labels.place(this.camera, this.size, this.covered);
       if (this.by_card) return;

@@ -5,6 +5,7 @@ import { niceStep } from "../format";
 import { lostHoles } from "../headline";
 import { api } from "../server";
 import type { Live } from "../live";
+import { measured } from "../measured";
 import { sharesOf } from "../shares";
 import type { At, Line, Plate, Vec3 } from "../types";
 import { Arm } from "./arm";
@@ -15,6 +16,7 @@ import { Handles } from "./handles";
 import { Crosses } from "./crosses";
 import { Ellipsoid } from "./ellipsoid";
 import { shownLayer } from "./layers";
+import { Marker } from "./marker";
 import { Part } from "./part";
 import { PathView } from "./path";
 import { PlateView } from "./plate";
@@ -67,6 +69,7 @@ export class SceneView {
   private readonly normal = new Arrow(0x4a6fd6);
   private readonly ellipsoid = new Ellipsoid();
   private readonly path = new PathView();
+  private readonly marker = new Marker();
   private readonly volume = new VolumeView();
   private readonly part = new Part();
   readonly handles: Handles;
@@ -83,9 +86,13 @@ export class SceneView {
     this.crosses = new Crosses(this.stage.labels);
     this.shapes = new Shapes((file) => api.mesh(live.text, file), () => this.drawPose());
     this.stage.covered = (group, at) => group !== "arm" && this.show.arm && !this.ghost && this.live.pose !== null && isCovered(this.arm.limbs, this.stage.camera.position, at, this.shapes.group.visible ? STOUT : 1);
-    this.stage.scene.add(this.arm.group, this.shapes.group, this.force.group, this.deviation.group, this.in_plane.group, this.normal.group, this.ellipsoid.group, this.path.group, this.volume.group, this.part.group, this.crosses.group);
+    this.stage.scene.add(this.arm.group, this.shapes.group, this.force.group, this.deviation.group, this.in_plane.group, this.normal.group, this.ellipsoid.group, this.path.group, this.marker.group, this.volume.group, this.part.group, this.crosses.group);
     live.listen(["answer", "view"], () => this.drawAnswer());
     live.listen(["pose", "view"], () => this.drawPose());
+    live.listen(["at", "pose"], () => this.drawMarker());
+    this.stage.before = () => {
+      if (this.path.update(this.stage.camera, this.stage.size)) host.dataset.vectors = String(this.path.vectors);
+    };
     this.handles = new Handles(this.stage, live);
     this.point();
   }
@@ -148,10 +155,11 @@ export class SceneView {
   private drawLost(): void {
     const { answer, scene } = this.live;
     const lost = answer ? lostHoles(answer) : [];
-    const at = scene?.points?.xyz_mm ?? [];
+    const points = scene?.points;
+    if (!points || lost.length === 0) return this.crosses.draw([], [], [], 0);
+    const at = Array.from({ length: points.count }, (_, i) => points.at(i));
     const rows = new Map(answer?.holes[0]?.each.map((row) => [row.hole, row.normal_axis]));
-    const box = new THREE.Box3().setFromPoints(at.map((p) => new THREE.Vector3(...p)));
-    const size = Math.max(6, Math.min(40, 0.05 * (box.getSize(new THREE.Vector3()).length() || 100)));
+    const size = Math.max(6, Math.min(40, 0.05 * (points.size || 100)));
     this.crosses.draw(lost, at, lost.map(({ hole }) => rows.get(hole) ?? null), size);
   }
 
@@ -235,7 +243,14 @@ export class SceneView {
   /** The point of the answer at which the robot is. */
   private pointOfRobot(): Vec3 | null {
     const { at, scene } = this.live;
-    return typeof at?.point === "number" ? ((scene?.points?.xyz_mm[at.point] as Vec3 | undefined) ?? null) : null;
+    const points = scene?.points;
+    return typeof at?.point === "number" && points && at.point < points.count ? points.at(at.point) : null;
+  }
+
+  /** The point of a path to which the robot is sent. */
+  private drawMarker(): void {
+    this.marker.draw(this.live.path ? this.pointOfRobot() : null);
+    this.stage.draw();
   }
 
   /** Draws deviations so large that they are seen, by a round number, until the user says how large. */
@@ -260,10 +275,7 @@ export class SceneView {
   private partSize(): number | null {
     const { scene, answer } = this.live;
     if (!scene?.points || !answer || answer.paths.length + answer.holes.length === 0) return null;
-    const box = new THREE.Box3();
-    const point = new THREE.Vector3();
-    for (const p of scene.points.xyz_mm) box.expandByPoint(point.set(...p));
-    return box.getSize(point).length() || null;
+    return scene.points.size || null;
   }
 
   private reach(): number {
@@ -277,7 +289,7 @@ export class SceneView {
     const drawing = pose?.drawings[posture];
     box.expandByPoint(new THREE.Vector3());
     drawing?.links_mm.forEach((p) => box.expandByPoint(new THREE.Vector3(...p)));
-    scene?.points?.xyz_mm.forEach((p) => box.expandByPoint(new THREE.Vector3(...p)));
+    if (scene?.points) box.union(scene.points.box);
     if (scene?.box) box.union(this.volume.extent(scene.box));
     const plates = this.platesOf();
     for (const plate of plates) plate.corners_mm.forEach((p) => box.expandByPoint(new THREE.Vector3(...p)));
@@ -298,8 +310,10 @@ export class SceneView {
     });
     canvas.addEventListener("pointermove", (e) => {
       if (tool) return this.dragTool(e);
+      const begun = performance.now();
       this.onHover(e.buttons || this.handles.busy ? null : this.under(e), e.clientX, e.clientY);
       canvas.style.cursor = this.onTool(e) ? "grab" : "";
+      measured("hover", begun);
     });
     canvas.addEventListener("pointerleave", () => this.onHover(null, 0, 0));
     canvas.addEventListener("pointerup", (e) => {
@@ -344,7 +358,7 @@ export class SceneView {
     if (this.path.beads) {
       const hit = this.caster.intersectObject(this.path.beads)[0];
       if (hit?.instanceId !== undefined) return { kind: "point", index: hit.instanceId };
-    } else if (this.path.group.children.length > 0) {
+    } else if (!this.path.empty) {
       const index = this.path.under(this.stage.camera, event.clientX - box.left, event.clientY - box.top, box.width, box.height);
       if (index !== null) return { kind: "point", index };
     }

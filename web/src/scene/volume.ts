@@ -4,6 +4,7 @@
 import * as THREE from "three";
 import type { Scene, Vec3 } from "../types";
 import { colourOf, type ShownLayer } from "./layers";
+import { known } from "./points";
 import { surfaceBelow } from "./surface";
 
 type Box = NonNullable<Scene["box"]>;
@@ -44,12 +45,13 @@ export class VolumeView {
     const [nx, ny, nz] = box.counts;
     const values: (number | null)[] = Array<number | null>(nx * ny * nz).fill(null);
     this.order = new Int32Array(nx * ny * nz).fill(-1);
-    points.xyz_mm.forEach((p, i) => {
-      const [x, y, z] = this.placeOf(p);
+    const in_plane = points.column("in_plane_um");
+    for (let i = 0; i < points.count; i++) {
+      const [x, y, z] = this.placeOf(points.at(i));
       const cell = (z * ny + y) * nx + x;
-      values[cell] = points.columns.in_plane_um[i] ?? null;
+      values[cell] = known(in_plane, i);
       this.order[cell] = i;
-    });
+    }
     const mesh = surfaceBelow({ origin_mm: [0, 0, 0], step_mm: 1, counts: box.counts, values }, tolerance_um);
     this.surface.geometry.dispose();
     this.surface.geometry = new THREE.BufferGeometry()

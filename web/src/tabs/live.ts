@@ -16,6 +16,7 @@ import { shares } from "../panels/shares";
 import { verdict } from "../panels/verdict";
 import { overlay } from "../scene/overlay";
 import { SceneView } from "../scene/view";
+import { Timeline } from "../timeline/timeline";
 import type { Tab } from "./tab";
 
 export function liveTab(live: Live, jobs: JobStore): Tab & { view: SceneView } {
@@ -34,7 +35,7 @@ export function liveTab(live: Live, jobs: JobStore): Tab & { view: SceneView } {
     "div",
     { class: "live" },
     h("aside", { class: "left", "aria-label": "Settings" }, controls(live)),
-    h("div", { class: "middle" }, verdict(live, () => view.fit()), advice(live, jobs), host),
+    h("div", { class: "middle" }, verdict(live, () => view.fit()), advice(live, jobs), host, new Timeline(live).root),
     right,
   );
   host.append(overlay(view, live));

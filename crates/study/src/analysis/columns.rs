@@ -97,15 +97,23 @@ pub fn table(
         series,
         |rows, i| Some(rows.answers.points[i].as_ref().ok()?.singularity?.word()),
     ));
-    // All series of an analysis have the same columns.
-    let numbers = series.first().map_or_else(Vec::new, |rows| {
-        let contributors = rows.setting.model.contributor_names(robot.joints());
-        let mut columns = found.own_columns(robot);
-        columns.extend(numbers(robot, contributors, rows.answers));
-        columns
-    });
-    columns.extend(filled(&numbers, series));
+    columns.extend(filled(&numbers_of(robot, found, series), series));
     Ok(Table::new(name, columns)?)
+}
+
+/// The columns of numbers of one analysis, not filled yet. All series of an analysis have the same.
+pub fn numbers_of<'a>(
+    robot: &'a Robot,
+    found: &'a AnalysisData<'_>,
+    series: &[Rows<'_>],
+) -> Vec<Numbers<'a>> {
+    let Some(rows) = series.first() else {
+        return Vec::new();
+    };
+    let contributors = rows.setting.model.contributor_names(robot.joints());
+    let mut columns = found.own_columns(robot);
+    columns.extend(numbers(robot, contributors, rows.answers));
+    columns
 }
 
 /// A value of an evaluation, in the unit of its quantity; none where it is not known.

@@ -200,6 +200,19 @@ impl Subject {
     }
 }
 
+impl AnalysisResult<'_> {
+    /// The data of a path, without its analysis.
+    pub fn into_path(self) -> Option<Box<PathResult>> {
+        match self.found {
+            AnalysisData::Path(_, found) => Some(found),
+            AnalysisData::Map(..)
+            | AnalysisData::Sections(_)
+            | AnalysisData::Volume(..)
+            | AnalysisData::Holes(..) => None,
+        }
+    }
+}
+
 impl AnalysisData<'_> {
     /// Every series of its points.
     pub fn rows(&self) -> Vec<Rows<'_>> {

@@ -96,7 +96,7 @@ impl LayerKey {
     }
 
     /// Its value at a point that is reached, in the unit of the quantity; none where it is not known.
-    fn value(
+    pub(super) fn value(
         self,
         (robot, setting, answers): (&Robot, &Setting, &Answers),
         (index, evaluation): (usize, &Evaluation),

@@ -16,6 +16,8 @@
 //! | `arm` | the worst and best points, and the arm there |
 //! | `reachable` | the nearest placement that the robot reaches |
 //! | `scene` | what can be drawn in space |
+//! | `path_columns` | the points of a path as columns of numbers |
+//! | `path_cache` | the last evaluated path, for its columns and poses |
 //! | `layer` | the values of another quantity that colours show |
 //! | `scale` | the levels of the colour scale |
 //! | `lines` | the lines of equal deviation of a map |
@@ -42,6 +44,8 @@ mod layer;
 mod lines;
 mod meshes;
 mod outline;
+mod path_cache;
+mod path_columns;
 mod posture;
 mod process;
 mod reachable;
@@ -60,6 +64,8 @@ pub use layer::{LayerAnswer, LayerKey, LayerLine, LayerRequest};
 pub use lines::{LevelAnswer, LinesAnswer};
 pub use meshes::{DrawnMesh, mesh_bytes};
 pub use outline::{ChangedAnswer, ChangedValue, OutlineAnswer, OutlinedAnalysis, changed, outline};
+pub use path_cache::PathCache;
+pub use path_columns::{OperationInView, PathColumnInView, PathInView};
 pub use posture::{
     CaseAnswer, ChainPosition, DrawnJoint, DrawnPosture, JointLimits, PoseTarget, PostureQuestion,
     PosturesAnswer, postures,
@@ -130,6 +136,17 @@ struct EditedAnalysis<'a> {
 }
 
 impl EditedAnalysis<'_> {
+    /// The same with another folder.
+    fn in_folder(self, folder: &Path) -> EditedAnalysis<'_> {
+        EditedAnalysis {
+            folder,
+            parsed: self.parsed,
+            name: self.name,
+            table: self.table,
+            study: self.study,
+        }
+    }
+
     /// What its points share; of sections those of the one with this number, from 0.
     fn setting(&self, section: usize) -> Result<&Setting, StudyError> {
         let found = self

@@ -33,6 +33,38 @@ fn answers_are_the_bytes_of_the_command() {
 }
 
 #[test]
+fn points_of_a_path_come_as_columns_and_the_pose_at_one_is_the_same_with_the_path_kept() {
+    let folder = folder(STUDY);
+    let served = serve(folder.path());
+    let pose = || {
+        let of = json!({ "text": STUDY, "analysis": "rim", "at": { "point": 7 }, "case": 1 });
+        served.post("/api/pose", of).text()
+    };
+    let before = pose();
+    let view = served.post(
+        "/api/view",
+        json!({ "text": STUDY, "analysis": "rim", "columns": true }),
+    );
+    let view = view.json();
+    assert_eq!(
+        (&view["path"]["points"], &view["scene"]["points"]),
+        (&json!(360), &Value::Null)
+    );
+    assert_eq!(pose(), before);
+    let columns = |keys: Value| {
+        served.post(
+            "/api/path-columns",
+            json!({ "text": STUDY, "analysis": "rim", "keys": keys }),
+        )
+    };
+    let given = columns(json!(["xyz_mm", "in_plane_um"]));
+    assert_eq!(given.header("content-type").unwrap(), "application/octet-stream");
+    assert_eq!(given.body.len(), 360 * 4 * 4);
+    let refused = columns(json!(["weight_kg"]));
+    assert_eq!((refused.status, refused.kind().as_str()), (400, "invalid-input"));
+}
+
+#[test]
 fn values_scene_pose_table_and_pictures_are_those_of_the_study() {
     let folder = folder(STUDY);
     let served = serve(folder.path());
