@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::Instant;
+use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
 use armill_core::watch::Watch;
 use armill_plan::Measure;
@@ -56,6 +56,8 @@ pub(crate) struct JobAnswer {
     pub of: usize,
     /// The best so far, or the current step.
     pub best: Option<String>,
+    /// When it was requested, since 1970: identifies it over restarts of the server.
+    pub requested_at_ms: u64,
     /// Time since it was requested.
     pub started_s_ago: f64,
     /// Time of computing.
@@ -89,6 +91,7 @@ pub(crate) struct Job {
     task: Task,
     title: String,
     requested: Instant,
+    requested_at_ms: u64,
     pub cancel: AtomicBool,
     /// Room for event streams.
     pub streams: Arc<Semaphore>,
@@ -117,6 +120,9 @@ impl Job {
             task,
             title,
             requested: Instant::now(),
+            requested_at_ms: SystemTime::now()
+                .duration_since(UNIX_EPOCH)
+                .map_or(0, |since| u64::try_from(since.as_millis()).unwrap_or(0)),
             cancel: AtomicBool::new(false),
             streams: Arc::new(Semaphore::new(most_streams)),
             finished: AtomicUsize::new(0),
@@ -177,6 +183,7 @@ impl Job {
                 done: self.finished.load(Ordering::Relaxed),
                 of: self.all.load(Ordering::Relaxed),
                 best: inner.best.clone(),
+                requested_at_ms: self.requested_at_ms,
                 started_s_ago: self.requested.elapsed().as_secs_f64(),
                 seconds: inner.begun.map_or(0.0, |begun| (end - begun).as_secs_f64()),
                 error: inner.error.clone(),

@@ -6,20 +6,12 @@ import type { Job } from "../types";
 /** So many of a study are kept, and none whose answer is longer. */
 const MOST = 12;
 const LONGEST = 200_000;
-/** Requests of one job, as two lists have it, differ by less. */
-const SAME_MS = 3000;
-
-interface KeptJob {
-  /** When it was requested, ms since 1970. */
-  at_ms: number;
-  job: Job;
-}
 
 type Store = Pick<Storage, "getItem" | "setItem">;
 
 export class KeptJobs {
   private readonly name: string;
-  private all: KeptJob[];
+  private all: Job[];
 
   /** `identity`: of the study, over restarts of the server. */
   constructor(private readonly store: Store, identity: string) {
@@ -27,10 +19,9 @@ export class KeptJobs {
     this.all = this.read();
   }
 
-  keep(job: Job, now_ms: number): void {
-    const at_ms = now_ms - 1000 * job.started_s_ago;
+  keep(job: Job): void {
     if (JSON.stringify(job).length > LONGEST) return;
-    this.all = [{ at_ms, job }, ...this.all.filter((kept) => !isSame(kept, job.kind, at_ms))].slice(0, MOST);
+    this.all = [job, ...this.all.filter((kept) => !isSame(kept, job))].slice(0, MOST);
     try {
       this.store.setItem(this.name, JSON.stringify(this.all));
     } catch {
@@ -40,18 +31,18 @@ export class KeptJobs {
 
   /** Those that are not among the jobs of the server, by names that the server does not give. */
   except(jobs: Job[], now_ms: number): Job[] {
-    const known = (kept: KeptJob) => jobs.some((job) => isSame(kept, job.kind, now_ms - 1000 * job.started_s_ago));
-    return this.all.filter((kept) => !known(kept)).map(({ at_ms, job }) => ({ ...job, id: `earlier-${Math.round(at_ms)}`, started_s_ago: (now_ms - at_ms) / 1000 }));
+    const others = this.all.filter((kept) => !jobs.some((job) => isSame(kept, job)));
+    return others.map((job) => ({ ...job, id: `earlier-${job.requested_at_ms}`, started_s_ago: (now_ms - job.requested_at_ms) / 1000 }));
   }
 
-  private read(): KeptJob[] {
+  private read(): Job[] {
     try {
-      const read = JSON.parse(this.store.getItem(this.name) ?? "[]") as KeptJob[];
-      return Array.isArray(read) ? read.filter(({ at_ms, job }) => typeof at_ms === "number" && typeof job?.kind === "string" && Array.isArray(job.files) && Array.isArray(job.measures)) : [];
+      const read = JSON.parse(this.store.getItem(this.name) ?? "[]") as Job[];
+      return Array.isArray(read) ? read.filter((job) => typeof job?.requested_at_ms === "number" && typeof job.kind === "string" && Array.isArray(job.files) && Array.isArray(job.measures)) : [];
     } catch {
       return [];
     }
   }
 }
 
-const isSame = (kept: KeptJob, kind: string, at_ms: number): boolean => kept.job.kind === kind && Math.abs(kept.at_ms - at_ms) < SAME_MS;
+const isSame = (a: Job, b: Job): boolean => a.kind === b.kind && a.requested_at_ms === b.requested_at_ms;

@@ -22,7 +22,7 @@ export class JobStore {
   /** Jobs of earlier servers on this study are listed too. */
   rememberOf(identity: string): void {
     this.kept = new KeptJobs(localStorage, identity);
-    for (const job of this.jobs.values()) if (job.answer) this.kept.keep(job, Date.now());
+    for (const job of this.jobs.values()) if (job.answer) this.kept.keep(job);
     this.changed();
   }
 
@@ -85,7 +85,7 @@ export class JobStore {
     try {
       const job = await api.job(id);
       this.jobs.set(id, job);
-      this.kept?.keep(job, Date.now());
+      this.kept?.keep(job);
       this.changed();
     } catch (error) {
       this.fail(error);

@@ -94,6 +94,7 @@ pub struct DrawnPosture {
     /// Centre of the flange.
     pub flange_mm: [f64; 3],
     /// Axes x, y, z of the flange.
+    // unit: directions, length 1
     pub flange_axes: [[f64; 3]; 3],
     /// Tool centre point.
     pub tool_mm: [f64; 3],

@@ -32,6 +32,7 @@ pub struct SceneAnswer {
     /// The reference frame of coordinates.
     pub base_mm: [f64; 3],
     /// Its axes x, y, z, base.
+    // unit: directions, length 1
     pub base_axes: [[f64; 3]; 3],
     /// The plane; of sections the first.
     pub plate: PlateInScene,
