@@ -7,7 +7,7 @@ import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { createInterface } from "node:readline";
 import { after, before, test } from "node:test";
-import { launch, open, serve, settled } from "./setup.mjs";
+import { launch, open, serious, serve, settled } from "./setup.mjs";
 
 let server, browser;
 before(async () => {
@@ -99,3 +99,19 @@ test("in a folder without a study the page says that it shows an example", async
     rmSync(folder, { recursive: true, force: true });
   }
 });
+
+for (const dark of [false, true])
+  test(`axe finds nothing serious with an error, a notice, a pinned state and unsaved changes, ${dark ? "dark" : "light"}`, async () => {
+    const page = await open(browser, server.url, { dark });
+    await page.getByRole("button", { name: "Pin this state for comparison" }).click();
+    await page.fill("#field-x", "1000");
+    await settled(page);
+    await page.getByRole("button", { name: "Copy a link to this state" }).click();
+    await page.locator(".notice").waitFor();
+    await page.fill("#field-limit", "-50");
+    await banner(page).waitFor();
+    await page.click("[data-handle='move part']");
+    await page.waitForTimeout(400);
+    assert.deepEqual(await serious(page), []);
+    await page.context().close();
+  });

@@ -2,12 +2,10 @@
 
 import assert from "node:assert/strict";
 import { existsSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
-import { createRequire } from "node:module";
 import { after, before, test } from "node:test";
 import { gzipSync } from "node:zlib";
-import { difference, launch, open, serve, settled } from "./setup.mjs";
+import { difference, launch, open, serious, serve, settled } from "./setup.mjs";
 
-const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 const KEPT = new URL("./pictures/", import.meta.url).pathname;
 const DIST = new URL("../../dist/", import.meta.url).pathname;
 let server, browser;
@@ -43,9 +41,7 @@ for (const dark of [false, true])
     for (const tab of ["live", "pictures", "jobs", "study", "files"]) {
       await page.click(`#tab-${tab}`);
       await page.waitForTimeout(400);
-      await page.evaluate(axe);
-      const found = await page.evaluate(async () => (await axe.run({ resultTypes: ["violations"] })).violations.filter((v) => ["serious", "critical"].includes(v.impact)).map((v) => `${v.id}: ${v.nodes.map((n) => n.html.slice(0, 120)).join(" | ")}`));
-      assert.deepEqual(found, [], tab);
+      assert.deepEqual(await serious(page), [], tab);
     }
     await page.context().close();
   });

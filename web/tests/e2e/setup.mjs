@@ -3,6 +3,7 @@
 // folder with a page that is shown in place of that in the binary, so that a change of the page needs no new binary.
 
 import { spawn } from "node:child_process";
+import { createRequire } from "node:module";
 import { cpSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -135,4 +136,15 @@ export async function difference(page, a, b) {
     },
     [a.toString("base64"), b.toString("base64")],
   );
+}
+
+const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+
+/** What axe finds serious or critical in the page, or in this part of it. */
+export async function serious(page, part = "body") {
+  await page.evaluate(axe);
+  return page.evaluate(async (part) => {
+    const { violations } = await window.axe.run(part, { resultTypes: ["violations"] });
+    return violations.filter(({ impact }) => ["serious", "critical"].includes(impact)).map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html.slice(0, 120)).join(" | ")}`);
+  }, part);
 }

@@ -1,12 +1,9 @@
 // Tablets, phones, and 200 % zoom: the scene has a height and can be used, nothing is cut off.
 
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
-import { createRequire } from "node:module";
 import { after, before, test } from "node:test";
-import { launch, open, serve, settled } from "./setup.mjs";
+import { launch, open, serious, serve, settled } from "./setup.mjs";
 
-const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 let server, browser;
 before(async () => {
   server = await serve();
@@ -36,9 +33,7 @@ for (const [name, width, height] of [["a tablet", 820, 1180], ["a phone", 390, 8
       tall: [...document.querySelectorAll(".verdict")].filter((e) => e.scrollHeight > e.clientHeight + 1).length,
     }));
     assert.deepEqual(cut, { page: 0, beside: [], tall: 0 });
-    await page.evaluate(axe);
-    const found = await page.evaluate(async () => (await axe.run({ resultTypes: ["violations"] })).violations.filter((v) => ["serious", "critical"].includes(v.impact)).map((v) => `${v.id}: ${v.nodes.map((n) => n.html.slice(0, 120)).join(" | ")}`));
-    assert.deepEqual(found, []);
+    assert.deepEqual(await serious(page), []);
     // Cards over the scene do not cover each other.
     const cards = await page.locator(".overlay > .card:visible").evaluateAll((all) => all.map((e) => e.getBoundingClientRect().toJSON()));
     for (const [i, a] of cards.entries()) for (const b of cards.slice(i + 1)) assert.ok(a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top, "cards over each other");

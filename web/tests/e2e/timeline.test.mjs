@@ -2,11 +2,9 @@
 
 import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
-import { createRequire } from "node:module";
 import { after, before, test } from "node:test";
-import { client, launch, open, serve, settled, um } from "./setup.mjs";
+import { client, launch, open, serious, serve, settled, um } from "./setup.mjs";
 
-const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 /** Two operations, each with its tool; feeds are known. */
 const APT = `PARTNO/1
 UNIT/MM
@@ -261,9 +259,7 @@ for (const [name, width, height] of [["a tablet", 820, 1180], ["a phone", 390, 8
     await page.keyboard.press("ArrowRight");
     await settled(page);
     assert.equal(await point(page), there + 1);
-    await page.evaluate(axe);
-    const found = await page.evaluate(async () => (await axe.run("#timeline", { resultTypes: ["violations"] })).violations.filter((v) => ["serious", "critical"].includes(v.impact)).map((v) => `${v.id}: ${v.nodes.map((n) => n.html.slice(0, 120)).join(" | ")}`));
-    assert.deepEqual(found, []);
+    assert.deepEqual(await serious(page, "#timeline"), []);
     assert.deepEqual(page.complaints, []);
     await page.context().close();
   });

@@ -5,6 +5,7 @@
 //! | thing | where | made from |
 //! |---|---|---|
 //! | virtual environment | `target/bench-venv` | `bench/python/requirements.txt`, reinstalled when that changes |
+//! | armill's wheel | `target/bench-wheels` | the sources, for release |
 //! | programs in C++ | `target/bench-...` | `bench/cpp/`, rebuilt when the source is newer |
 //!
 //! numba works on one thread and on all, the others on one. Nothing outside `target/` is installed.
@@ -17,6 +18,7 @@ use std::{env, fs};
 
 /// Where the packages of the peers are installed, and the list of them.
 const VENV: &str = "target/bench-venv";
+const WHEELS: &str = "target/bench-wheels";
 const REQUIREMENTS: &str = "bench/python/requirements.txt";
 const PINOCCHIO: CppPeer = CppPeer {
     source: "bench/cpp/pinocchio.cpp",
@@ -55,21 +57,34 @@ pub fn python() -> Command {
     command
 }
 
-/// armill's own Python package.
+/// armill's own Python package, built for release and installed.
 ///
 /// # Errors
-/// How to install it, where it is not.
+/// Why it cannot be built.
 pub fn package() -> Result<Command, String> {
-    let mut there = Command::new(in_venv("python"));
-    there.args(["-c", "import armill"]).stderr(Stdio::null());
-    if !there.status().is_ok_and(|status| status.success()) {
-        return Err(format!("no wheel, built for release, is installed in {VENV}"));
-    }
+    let wheels = absolute(WHEELS)?;
+    let _ = fs::remove_dir_all(&wheels);
+    let mut build = Command::new(absolute(VENV)?.join("bin/maturin"));
+    build.args(["build", "--release", "--out"]).arg(&wheels);
+    printed(build.current_dir("python"))?;
+    let mut install = Command::new(in_venv("python"));
+    let arguments = "-m pip install -q --force-reinstall --no-deps --no-index --find-links";
+    printed(
+        install
+            .args(arguments.split(' '))
+            .arg(&wheels)
+            .arg("armill"),
+    )?;
     let mut command = Command::new(in_venv("python"));
     command.arg("bench/python/armill_package.py");
     command.envs(THREADS.iter().map(|name| (name, "1")));
     command.env("PYTHONDONTWRITEBYTECODE", "1");
     Ok(command)
+}
+
+/// A path of the repository that is valid in any folder.
+fn absolute(path: &str) -> Result<PathBuf, String> {
+    std::path::absolute(path).map_err(|problem| problem.to_string())
 }
 
 /// A source in C++ and the program made of it.
