@@ -4748,6 +4748,11 @@ export interface components {
             /** @description The best so far, or the current step. */
             best: string | null;
             /**
+             * Format: uint64
+             * @description When it was requested, since 1970: identifies it over restarts of the server.
+             */
+            requested_at_ms: number;
+            /**
              * Format: double
              * @description Time since it was requested.
              */
