@@ -3,6 +3,7 @@
 import "./style/base.css";
 import "./style/live.css";
 import "./style/panels.css";
+import "./style/spin-map.css";
 import "./style/tabs.css";
 import "./style/changes.css";
 import { Kept } from "./changes/kept";

@@ -19,6 +19,7 @@ const LABELS: Record<string, string> = {
   half_size_mm: "half-width",
   step_mm: "grid step",
   spin_deg: "tool spin",
+  spin_curve_mm_deg: "spin along the path, point",
 };
 /** Lists of three coordinates: each has its own field in the live view. */
 const AXES: Record<string, string[]> = { centre_mm: ["distance x", "sideways y", "height z"] };

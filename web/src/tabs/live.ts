@@ -14,6 +14,7 @@ import { shares } from "../panels/shares";
 import { verdict } from "../panels/verdict";
 import { overlay } from "../scene/overlay";
 import { SceneView } from "../scene/view";
+import { spinMap } from "../spin-map/panel";
 import type { Tab } from "./tab";
 
 export function liveTab(live: Live): Tab & { view: SceneView } {
@@ -32,7 +33,7 @@ export function liveTab(live: Live): Tab & { view: SceneView } {
     "div",
     { class: "live" },
     h("aside", { class: "left", "aria-label": "Settings" }, controls(live)),
-    h("div", { class: "middle" }, verdict(live, () => view.fit()), host),
+    h("div", { class: "middle" }, verdict(live, () => view.fit()), host, spinMap(live)),
     right,
   );
   host.append(overlay(view, live));
