@@ -4,7 +4,8 @@
 import { fixed, percent, trimmed, um } from "../format";
 import type { Live } from "../live";
 import type { LayerKey, Line } from "../types";
-import { along, viridis, type Rgb, type Scale } from "./colour";
+import { along, diverging, viridis, type Rgb, type Scale } from "./colour";
+import { minusPinned, whyNot } from "./difference";
 
 export interface Layer {
   title: string;
@@ -16,6 +17,8 @@ export interface Layer {
   tolerance: boolean;
   /** Whether values are names, not sizes. */
   named?: boolean;
+  /** Whether values are about zero: differences. */
+  diverging?: boolean;
   /** What it is, where the title does not say it. */
   about?: string;
 }
@@ -49,8 +52,14 @@ export interface ShownLayer {
   lines: (index: number) => { level: number; lines_mm: Line[] }[];
 }
 
-/** The chosen layer, or the first one until its values have come. */
+/** The chosen layer; its difference to the pinned state where that is wanted and there is one. */
 export function shownLayer(live: Live): ShownLayer {
+  const shown = presentLayer(live);
+  return live.differs && live.pinned && whyNot(live, shown) === null ? minusPinned(shown, live.pinned) : shown;
+}
+
+/** The chosen layer, or the first one until its values have come. */
+export function presentLayer(live: Live): ShownLayer {
   const got = live.layer_answer;
   if (got && got.key === live.layer) {
     return { key: got.key, layer: LAYERS[got.key], scale: got.levels, names: got.names, values: (i) => got.values[i] ?? [], lines: (i) => (got.lines[i] ?? []) as { level: number; lines_mm: Line[] }[] };
@@ -69,7 +78,7 @@ export function shownLayer(live: Live): ShownLayer {
 export function colourOf({ layer, scale, names }: Pick<ShownLayer, "layer" | "scale" | "names">, value: number | null): Rgb {
   if (value === null) return NONE;
   if (layer.named) return value < names.length ? namedColour(value) : NONE;
-  return scale ? viridis(along(scale, value)) : NONE;
+  return scale ? (layer.diverging ? diverging : viridis)(along(scale, value)) : NONE;
 }
 
 export function namedColour(index: number): Rgb {

@@ -13,6 +13,7 @@ import { shade } from "./colour";
 import { isCovered } from "./covered";
 import { Crosses } from "./crosses";
 import { Ellipsoid } from "./ellipsoid";
+import { GhostArm } from "./ghost";
 import { shownLayer } from "./layers";
 import { Part } from "./part";
 import { PathView } from "./path";
@@ -23,6 +24,8 @@ import { VolumeView } from "./volume";
 
 export interface Show {
   arm: boolean;
+  /** The arm of the pinned state. */
+  pinned: boolean;
   /** The robot's own shape, where its file names one. */
   shape: boolean;
   forces: boolean;
@@ -52,11 +55,12 @@ const STOUT = 1.7;
 
 export class SceneView {
   readonly stage: Stage;
-  readonly show: Show = { arm: true, shape: true, forces: true, deviation: true, parts: false, ellipsoid: false, certainty: true, rectangle: false, magnified: 1000, magnified_by_hand: false, mm_per_n: MM_PER_N };
+  readonly show: Show = { arm: true, pinned: true, shape: true, forces: true, deviation: true, parts: false, ellipsoid: false, certainty: true, rectangle: false, magnified: 1000, magnified_by_hand: false, mm_per_n: MM_PER_N };
   onHover: (under: Under, x: number, y: number) => void = () => {};
   onScale: () => void = () => {};
   private readonly arm = new Arm();
   private readonly shapes: Shapes;
+  private readonly pinned_arm = new GhostArm();
   private readonly force = new Arrow(0xd55e00);
   private readonly deviation = new Arrow(0xcc3fa0);
   private readonly in_plane = new Arrow(0x009e9a);
@@ -78,7 +82,7 @@ export class SceneView {
     this.crosses = new Crosses(this.stage.labels);
     this.shapes = new Shapes((file) => api.mesh(live.text, file), () => this.drawPose());
     this.stage.covered = (group, at) => group !== "arm" && this.show.arm && !this.ghost && this.live.pose !== null && isCovered(this.arm.limbs, this.stage.camera.position, at, this.shapes.group.visible ? STOUT : 1);
-    this.stage.scene.add(this.arm.group, this.shapes.group, this.force.group, this.deviation.group, this.in_plane.group, this.normal.group, this.ellipsoid.group, this.path.group, this.volume.group, this.part.group, this.crosses.group);
+    this.stage.scene.add(this.arm.group, this.shapes.group, this.pinned_arm.group, this.force.group, this.deviation.group, this.in_plane.group, this.normal.group, this.ellipsoid.group, this.path.group, this.volume.group, this.part.group, this.crosses.group);
     live.listen(["answer", "view"], () => this.drawAnswer());
     live.listen(["pose", "view"], () => this.drawPose());
     this.point();
@@ -212,6 +216,9 @@ export class SceneView {
       }
       if (this.show.ellipsoid) this.ellipsoid.draw(tip, answer.stiffness, ELLIPSOID);
     }
+    const pinned = this.pinned_arm.draw(this.show.arm && this.show.pinned && !this.ghost ? (this.live.pinned?.drawing ?? null) : null, drawing ?? null);
+    this.stage.labels.group("pinned");
+    if (pinned) this.stage.labels.add("pinned", pinned, "pinned", "pinned");
     this.stage.draw();
   }
 
