@@ -20,7 +20,7 @@ const HEIGHT = 236;
 export function spinMap(live: Live): HTMLElement {
   const { root, body } = panel("spin-map", "Path × spin map", false);
   const canvas = h("canvas", { role: "img", "aria-label": "Deviation over path and spin" });
-  const tip = h("div", { class: "tip card", hidden: true });
+  const tip = h("div", { class: "spin-tip card", hidden: true });
   const status = h("p", { class: "note spin-status", role: "status" });
   const legend = h("div", { class: "spin-legend" });
   const tools = h("div", { class: "spin-tools" });

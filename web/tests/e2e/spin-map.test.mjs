@@ -171,7 +171,7 @@ test("the tooltip has the values of a cell, and a click sends the robot there", 
   const plot = await page.locator(".spin-border").boundingBox();
   const [x, y] = [plot.x + 0.25 * plot.width, plot.y + 0.5 * plot.height];
   await page.mouse.move(x, y);
-  const tip = await page.locator(".spin-plot .tip").innerText();
+  const tip = await page.locator(".spin-tip").innerText();
   const row = map.spins_deg.findIndex((spin) => Math.abs(spin) < 1e-9);
   const near = map.in_plane_um[row].slice(80, 101).map((value) => `${um(value)} µm`);
   assert.ok(near.some((text) => tip.includes(text)), tip);
@@ -204,7 +204,7 @@ for (const [name, width, height, dark] of [["a desk", 1280, 800, false], ["a des
     await page.waitForTimeout(400);
     const beside = await page.evaluate(() => [...document.querySelectorAll("#panel-spin-map *")].filter((e) => {
       const b = e.getBoundingClientRect();
-      return b.width > 1 && !e.closest(".tip") && (b.right > innerWidth + 1 || b.left < -1);
+      return b.width > 1 && !e.closest(".spin-tip") && (b.right > innerWidth + 1 || b.left < -1);
     }).map((e) => `${e.tagName}.${e.getAttribute("class")}`));
     assert.deepEqual(beside, []);
     assert.equal(await page.evaluate(() => document.documentElement.scrollWidth - innerWidth), 0);
