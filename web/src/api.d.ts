@@ -662,6 +662,104 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/spin-map": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** A path over its length and the spin of the tool */
+        post: {
+            parameters: {
+                query?: never;
+                header?: never;
+                path?: never;
+                cookie?: never;
+            };
+            requestBody: {
+                content: {
+                    "application/json": components["schemas"]["AnalysisRequest"];
+                };
+            };
+            responses: {
+                /** @description success */
+                200: {
+                    headers: {
+                        [name: string]: unknown;
+                    };
+                    content: {
+                        "application/json": components["schemas"]["SpinMapAnswer"];
+                    };
+                };
+                /** @description error */
+                default: {
+                    headers: {
+                        [name: string]: unknown;
+                    };
+                    content: {
+                        "application/json": components["schemas"]["ErrorBody"];
+                    };
+                };
+            };
+        };
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/spin-search": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** The spins that a search finds along a path */
+        post: {
+            parameters: {
+                query?: never;
+                header?: never;
+                path?: never;
+                cookie?: never;
+            };
+            requestBody: {
+                content: {
+                    "application/json": components["schemas"]["AnalysisRequest"];
+                };
+            };
+            responses: {
+                /** @description success */
+                200: {
+                    headers: {
+                        [name: string]: unknown;
+                    };
+                    content: {
+                        "application/json": components["schemas"]["SpinSearchAnswer"];
+                    };
+                };
+                /** @description error */
+                default: {
+                    headers: {
+                        [name: string]: unknown;
+                    };
+                    content: {
+                        "application/json": components["schemas"]["ErrorBody"];
+                    };
+                };
+            };
+        };
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/scene": {
         parameters: {
             query?: never;
@@ -2028,6 +2126,11 @@ export interface components {
              * @description Spin of the tool about its axis; of paths alone.
              */
             spin_deg: number | null;
+            /** @description The curve that is added to it along a path, if there is one. */
+            spin_curve_mm_deg: [
+                number,
+                number
+            ][] | null;
             /** @description Sections: the x coordinate of the plane's centre, one a section. */
             distances_mm: number[] | null;
             /** @description Sections: the tilt of the plane, one a section. */
@@ -2235,7 +2338,7 @@ export interface components {
             outside_joint_limits: number[];
             /**
              * @description `state`, `branch`, `in_plane_um`, `normal_um`, `full_um`, of a path `along_um`, `cross_um`, `axial_um`, `line`,
-             *     `distance_mm`: see the table of the analysis.
+             *     `distance_mm` and `turn_deg`: see the table of the analysis.
              */
             columns: {
                 [key: string]: unknown;
@@ -4656,6 +4759,83 @@ export interface components {
              * @description Points of the analysis that were tested at each placement.
              */
             tested_points: number;
+        };
+        /** @description The deviation of a path over its length and the spin of the tool. */
+        SpinMapAnswer: {
+            /** @description Name of the analysis. */
+            analysis: string;
+            /**
+             * Format: double
+             * @description Length of the path.
+             */
+            length_mm: number;
+            /** @description Indices of the points of the columns. */
+            points: number[];
+            /** @description Distance along the path of each column. */
+            distance_mm: number[];
+            /** @description Spin of each row, ascending. */
+            spins_deg: number[];
+            /** @description In-plane deviation, row after row; `null` where the point is out of reach. */
+            in_plane_um: (number | null)[][];
+            /** @description Smallest distance of a joint from its limits (mm of a prismatic one), row after row; negative outside. */
+            limit_margin_deg: (number | null)[][];
+            /** @description The joint of this distance: its index among the names. */
+            limit_joint: number[][];
+            /**
+             * @description State of each cell, row after row: sum of 1 (outside joint limits), 2 (singular), 4 (out of reach), 8 (a joint jumps
+             *     since the column before), 16 (a joint is too slow for the feed since the column before).
+             */
+            state: number[][];
+            /** @description The joint that jumps or is too slow: its index among the names; 0 for other cells. */
+            move_joint: number[][];
+            /** @description Names of the joints. */
+            joint_names: string[];
+            /**
+             * @description Levels of the colour scale for the cells inside limits and away from singularities, at most four times the
+             *     tolerance; `null` if no point is reached.
+             */
+            levels_um: number[] | null;
+            /**
+             * Format: double
+             * @description The tolerance.
+             */
+            tolerance_um: number;
+            /** @description Whether every point of the path was evaluated; otherwise those of the columns. */
+            is_complete: boolean;
+        };
+        /** @description The spins along a path that a search finds. */
+        SpinSearchAnswer: {
+            /** @description Name of the analysis. */
+            analysis: string;
+            /** @description Indices of points, evenly spread. */
+            points: number[];
+            /** @description Distance along the path of each. */
+            distance_mm: number[];
+            /** @description Spin of each, as in the rows of the map; `null` where no spin is usable. */
+            spins_deg: (number | null)[];
+            /** @description A curve for the study that is near these spins, in addition to its constant spin. */
+            curve_mm_deg: [
+                number,
+                number
+            ][];
+            /** @description The branch, if it is the same on the whole path and has a name. */
+            branch: string | null;
+            /**
+             * Format: double
+             * @description Largest in-plane deviation with these spins.
+             */
+            max_in_plane_um: number | null;
+            /**
+             * Format: uint
+             * @description Points of the path without a usable spin.
+             */
+            unusable: number;
+            /** @description Points at which the arm has to stop and change its posture. */
+            breaks: number[];
+            /** @description Component of the deviation that was minimised: `in-plane`, `cross-track`, `axial`. */
+            component: string;
+            /** @description The objective: `worst`, `mean`, `above-tolerance`. */
+            objective: string;
         };
         /** @description The pictures of an analysis. */
         PicturesAnswer: {

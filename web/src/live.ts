@@ -6,6 +6,8 @@
 
 import type { Draft } from "./changes/drafts";
 import { History, type Step } from "./changes/history";
+import type { Compared } from "./changes/pin";
+import type { PinnedScene } from "./scene/difference";
 import { FIRST } from "./scene/layers";
 import { DRAWN, Points } from "./scene/points";
 import { api, Refused } from "./server";
@@ -52,6 +54,10 @@ export class Live {
   /** What colours show, and its values where the answer does not have them. */
   layer: LayerKey = FIRST;
   layer_answer: LayerAnswer | null = null;
+  /** What scene and verdict keep of a pinned state, and whether colours show the difference to it. */
+  pinned: PinnedScene | null = null;
+  compared: Compared | null = null;
+  differs = false;
   pose: Pose | null = null;
   posture = 0;
   load_case = 1;

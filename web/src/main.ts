@@ -4,6 +4,7 @@ import "./style/base.css";
 import "./style/live.css";
 import "./style/panels.css";
 import "./style/timeline.css";
+import "./style/spin-map.css";
 import "./style/tabs.css";
 import "./style/changes.css";
 import { Kept } from "./changes/kept";

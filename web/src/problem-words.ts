@@ -25,6 +25,7 @@ const LABELS: Record<string, string> = {
   spindle_rpm: "spindle speed",
   diameter_mm: "diameter",
   corner_radius_mm: "corner radius",
+  spin_curve_mm_deg: "spin along the path, point",
 };
 /** Lists of three coordinates: each has its own field in the live view. */
 const AXES: Record<string, string[]> = { centre_mm: ["distance x", "sideways y", "height z"] };

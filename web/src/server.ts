@@ -2,7 +2,7 @@
 
 import { Events } from "./events";
 import type { Schema } from "./tables/schema";
-import type { At, Change, Changed, Checked, Job, MaterialRow, Picture, Pose, Problem, Reachable, RobotRow, Shown, StoredFile, Study, StudyVersion, Tables, TakenIn, View, Wrong } from "./types";
+import type { At, Change, Changed, Checked, Job, MaterialRow, Picture, Pose, Problem, Reachable, RobotRow, Shown, SpinMap, SpinSearch, StoredFile, Study, StudyVersion, Tables, TakenIn, View, Wrong } from "./types";
 
 export class Refused extends Error {
   constructor(
@@ -98,6 +98,8 @@ export const api = {
   mesh: async (text: string, file: string) => (await raw("POST", "/api/mesh", { text, file })).arrayBuffer(),
   pose: (text: string, analysis: string | null, at: At, load_case: number, signal?: AbortSignal) => json<Pose>("POST", "/api/pose", { text, analysis, at, case: load_case }, signal),
   reachable: (text: string, analysis: string | null, signal?: AbortSignal) => json<Reachable>("POST", "/api/reachable", { text, analysis }, signal),
+  spinMap: (text: string, analysis: string | null, signal?: AbortSignal) => json<SpinMap>("POST", "/api/spin-map", { text, analysis }, signal),
+  spinSearch: (text: string, analysis: string | null, signal?: AbortSignal) => json<SpinSearch>("POST", "/api/spin-search", { text, analysis }, signal),
   pictures: (text: string, analysis: string | null, signal?: AbortSignal) => json<{ pictures: Picture[] }>("POST", "/api/pictures", { text, analysis }, signal),
   table: async (text: string, analysis: string | null, measured = false) => (await raw("POST", "/api/table", { text, analysis, format: "csv", measured })).blob(),
   png: async (text: string, analysis: string | null, name: string) => (await raw("POST", "/api/picture.png", { text, analysis, name })).blob(),

@@ -32,6 +32,9 @@ export type Setting = Schemas["SettingAnswer"];
 export type HoleRow = Schemas["HoleAnswer"];
 export type Reachable = Schemas["ReachableAnswer"];
 export type Values = Schemas["ValuesAnswer"];
+/** The deviation over a path and the spin of the tool; the spins that a search finds. */
+export type SpinMap = Schemas["SpinMapAnswer"];
+export type SpinSearch = Schemas["SpinSearchAnswer"];
 /** The grid of a map that is requested alone. */
 export type MapGrid = Schemas["GridAnswer"];
 /** y', z' of its points. */
@@ -70,6 +73,9 @@ export type ScenePoints = Omit<Schemas["PointsInScene"], "columns"> & {
     full_um?: (number | null)[];
     along_um?: (number | null)[];
     cross_um?: (number | null)[];
+    distance_mm?: (number | null)[];
+    /** With a search or a curve: in addition to the constant spin. */
+    turn_deg?: (number | null)[];
   };
 };
 type SceneAs<P> = Omit<Schemas["SceneAnswer"], "points" | "plate" | "sections" | "box" | "base_axes"> & {

@@ -11,7 +11,7 @@ use armill_study::answer::answer;
 use armill_study::file_names;
 use armill_study::live::{
     ChangedValue, Follow, PoseRequest, PoseTarget, PostureQuestion, StudyText, ViewQuestion, answer_json,
-    changed, outline, pictures, postures, scene, table_csv, values, view,
+    changed, outline, pictures, postures, scene, spin_map, spin_search, table_csv, values, view,
 };
 use armill_study::output::{self, OutputOptions, StudyResults};
 use armill_study::run::run;
@@ -639,4 +639,73 @@ fn refuses_invalid_points_with_a_message() {
         ..PoseTarget::default()
     };
     assert!(refused(none, "rim").contains("5 joint positions"));
+}
+
+/// A path that a spindle across the flange follows, so that a spin moves the wrist.
+const SPUN_CIRCLE: &str = "format = 1\nrobot = \"yaskawa/mh12\"\ntolerance_um = 100\nload = { cases_n = [[30, 50, 50]], frame = \"feed\" }\nplane = { centre_mm = [700, 0, 500], tilt_deg = 90, half_size_mm = 100, step_mm = 50 }\ntool.flange_from_tool_mm_deg = [100, 0, 150, 0, 90, 0]\n[[analysis]]\nkind = \"path\"\nname = \"c\"\ncircle.radius_mm = 200\n";
+
+#[test]
+fn a_row_of_the_spin_map_is_the_answer_with_that_spin() {
+    let map = spin_map(of(SPUN_CIRCLE), None, Watch::NONE).unwrap();
+    assert_eq!((map.points.len(), map.spins_deg.len()), (360, 73));
+    assert_eq!((map.spins_deg[0], map.spins_deg[72]), (-180.0, 180.0));
+    let names: Vec<&str> = map.joint_names.iter().map(String::as_str).collect();
+    assert_eq!(names, ["S", "L", "U", "R", "B", "T"]);
+    // A curve and a constant spin do not change the rows: they are spins of the tool.
+    let other = format!("{SPUN_CIRCLE}spin_deg = 20\nspin_curve_mm_deg = [[0, 10], [600, 40]]\n");
+    let curved = spin_map(of(&other), None, Watch::NONE).unwrap();
+    let settings = values(of(&other), None).unwrap();
+    assert_eq!(settings.spin_deg, Some(20.0));
+    assert_eq!(settings.spin_curve_mm_deg, Some(vec![[0.0, 10.0], [600.0, 40.0]]));
+    let (mut reached, mut blocked) = (0, 0);
+    for row in (0..73).step_by(6) {
+        let text = format!("{SPUN_CIRCLE}spin_deg = {}\n", map.spins_deg[row]);
+        let scene = scene(of(&text), None, Watch::NONE).unwrap().points.unwrap();
+        let plain = scene.columns["in_plane_um"].as_array().unwrap();
+        for (column, index) in map.points.iter().enumerate() {
+            let of_map = map.in_plane_um[row][column];
+            // Both have three decimals.
+            match (of_map, plain[*index].as_f64()) {
+                (Some(a), Some(b)) => assert!((a - b).abs() < 1.1e-3, "{row} {column}: {a} {b}"),
+                (a, b) => assert_eq!(a, b),
+            }
+            let again = curved.in_plane_um[row][column];
+            assert!(again.unwrap_or(0.0) - of_map.unwrap_or(0.0) < 1.1e-3);
+            let outside = scene.outside_joint_limits.contains(index);
+            assert_eq!(map.state[row][column] & 1 == 1, outside, "{row} {column}");
+            assert_eq!(map.state[row][column] & 4 == 4, of_map.is_none());
+            reached += usize::from(of_map.is_some());
+            blocked += usize::from(outside);
+        }
+    }
+    assert!(reached > 0 && blocked > 0, "{reached} {blocked}");
+    // Beyond four tolerances the colour is the same.
+    let levels = map.levels_um.unwrap();
+    assert_eq!((levels[0], *levels.last().unwrap()), (0.0, 400.0));
+    assert!(map.state.iter().flatten().any(|state| state & 8 != 0));
+}
+
+#[test]
+fn the_spins_of_a_search_are_a_curve_for_the_study_with_the_same_deviation() {
+    let found = spin_search(of(SPUN_CIRCLE), None, Watch::NONE).unwrap();
+    assert_eq!((found.unusable, found.breaks.len()), (0, 0));
+    let branch = found.branch.unwrap();
+    let curve = serde_json::to_string(&found.curve_mm_deg).unwrap();
+    let text = format!("{SPUN_CIRCLE}spin_curve_mm_deg = {curve}\nposture.branch = \"{branch}\"\n");
+    let worst = |text: &str| {
+        let answer = view(of(text), &ViewQuestion::default(), Watch::NONE)
+            .unwrap()
+            .answer;
+        answer.paths[0].max_in_plane_um.unwrap()
+    };
+    let searched = found.max_in_plane_um.unwrap();
+    assert!(searched < worst(SPUN_CIRCLE), "{searched}");
+    // The curve is within a degree of the spins found.
+    assert!(
+        (worst(&text) / searched - 1.0).abs() < 0.03,
+        "{} {searched}",
+        worst(&text)
+    );
+    let error = spin_map(of(BROKEN), Some("good"), Watch::NONE).unwrap_err();
+    assert!(error.to_string().contains("`good` is no path"), "{error}");
 }

@@ -9,6 +9,8 @@
 //! | `POST /api/path-columns` | columns of the points of a path, as numbers of 4 bytes |
 //! | `POST /api/scene` | the geometry of an analysis for drawing |
 //! | `POST /api/reachable` | the nearest placement that the robot reaches |
+//! | `POST /api/spin-map` | a path over its length and the spin of the tool |
+//! | `POST /api/spin-search` | the spins that a search finds |
 //! | `POST /api/mesh` | the shape of a link, where the robot's file names one |
 //! | `POST /api/table` | the table of an analysis |
 //! | `POST /api/pictures`, `POST /api/picture.png` | its pictures, and one in pixels |
@@ -20,7 +22,8 @@ use std::sync::{Arc, OnceLock};
 use armill_core::watch::Watch;
 use armill_study::live::{
     ChangedValue, LayerRequest, PoseRequest, PoseTarget, PostureQuestion, StudyText, ViewQuestion,
-    answer_json, measured_csv, mesh_bytes, picture_svg, pictures, reachable, scene, table_csv, values, view,
+    answer_json, measured_csv, mesh_bytes, picture_svg, pictures, reachable, scene, spin_map, spin_search,
+    table_csv, values, view,
 };
 use armill_study::materials::MaterialRow;
 use armill_study::robot_answers::library_rows;
@@ -260,6 +263,30 @@ pub(crate) async fn of_reachable(
     let headers = for_itself(&headers, "reachable");
     answered(state, (of.text, headers, JSON), move |text, watch| {
         as_json(&reachable(text, of.analysis.as_deref(), watch)?)
+    })
+    .await
+}
+
+pub(crate) async fn of_spin_map(
+    Shared(state): Shared<Arc<State>>,
+    headers: HeaderMap,
+    JsonBody(of): JsonBody<AnalysisRequest>,
+) -> Answered {
+    let headers = for_itself(&headers, "spin-map");
+    answered(state, (of.text, headers, JSON), move |text, watch| {
+        as_json(&spin_map(text, of.analysis.as_deref(), watch)?)
+    })
+    .await
+}
+
+pub(crate) async fn of_spin_search(
+    Shared(state): Shared<Arc<State>>,
+    headers: HeaderMap,
+    JsonBody(of): JsonBody<AnalysisRequest>,
+) -> Answered {
+    let headers = for_itself(&headers, "spin-search");
+    answered(state, (of.text, headers, JSON), move |text, watch| {
+        as_json(&spin_search(text, of.analysis.as_deref(), watch)?)
     })
     .await
 }

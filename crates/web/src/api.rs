@@ -6,8 +6,8 @@ use std::sync::{Arc, LazyLock};
 
 use armill_study::answer::StudyAnswer;
 use armill_study::live::{
-    ChangedAnswer, OutlineAnswer, PicturesAnswer, PosturesAnswer, ReachableAnswer, SceneAnswer, TablesAnswer,
-    ValuesAnswer, ViewAnswer,
+    ChangedAnswer, OutlineAnswer, PicturesAnswer, PosturesAnswer, ReachableAnswer, SceneAnswer,
+    SpinMapAnswer, SpinSearchAnswer, TablesAnswer, ValuesAnswer, ViewAnswer,
 };
 use armill_study::materials::MaterialRow;
 use armill_study::robot_answers::RobotRow;
@@ -91,6 +91,22 @@ fn operations() -> Vec<Operation> {
         )
         .takes::<AnalysisRequest>()
         .answers::<ReachableAnswer>(),
+        Operation::new(
+            POST,
+            "/spin-map",
+            "A path over its length and the spin of the tool",
+            answers::of_spin_map,
+        )
+        .takes::<AnalysisRequest>()
+        .answers::<SpinMapAnswer>(),
+        Operation::new(
+            POST,
+            "/spin-search",
+            "The spins that a search finds along a path",
+            answers::of_spin_search,
+        )
+        .takes::<AnalysisRequest>()
+        .answers::<SpinSearchAnswer>(),
         Operation::new(
             POST,
             "/scene",

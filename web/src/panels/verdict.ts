@@ -1,6 +1,7 @@
 // The verdict: fraction within tolerance inside joint limits, extreme deviations, joint with the largest share, number of
 // warnings; where nothing is reached, the nearest placement that is.
 
+import { significant } from "../changes/pin";
 import { h, renew, type Child } from "../dom";
 import { DASH, mm, percent, plusMinus, um } from "../format";
 import { headline } from "../headline";
@@ -24,7 +25,7 @@ export function verdict(live: Live, fit: () => void): HTMLElement {
     if (!answer || !setting) return;
     const { share, state, line: text, extra: facts, reached } = headline(answer, map);
     line.className = `verdict-line ${state}`;
-    renew(line, h("span", { class: "verdict-mark", "aria-hidden": "true" }, state === "good" ? "✓" : state === "part" ? "◐" : "✕"), text);
+    renew(line, h("span", { class: "verdict-mark", "aria-hidden": "true" }, state === "good" ? "✓" : state === "part" ? "◐" : "✕"), text, changed(live));
     meter.setAttribute("aria-label", `${percent(share)} within tolerance`);
     renew(meter, h("span", { style: `width:${(100 * share).toFixed(2)}%` }));
     if (reached) renew(points, extreme(live, "worst", live.worst), extreme(live, "best", live.best), blame(live));
@@ -33,9 +34,18 @@ export function verdict(live: Live, fit: () => void): HTMLElement {
     if (extra.textContent !== more) extra.textContent = extra.title = more;
   };
   live.listen(["answer"], () => reach.ask());
-  live.listen(["answer", "pose"], draw);
+  live.listen(["answer", "pose", "view"], draw);
   draw();
   return root;
+}
+
+/** The worst deviation compared with that of the pinned state. */
+function changed({ compared, worst }: Live): Child {
+  const change = compared && significant({ worst_um: worst?.in_plane_um ?? null, worst_u_um: worst?.in_plane_u_um ?? null }, compared);
+  if (!change) return null;
+  const known = worst?.in_plane_u_um != null && compared.worst_u_um !== null;
+  const about = `Worst in-plane deviation${known ? "" : "; its uncertainty is not known"}`;
+  return [" ", h("span", { class: "verdict-change", title: about }, `· ${change}`)];
 }
 
 /** Where nothing is reached: the nearest placement that is, from the server, and a button that moves the part there. */

@@ -8,10 +8,19 @@ import type { ArmDrawing, Vec3 } from "../types";
 import type { Limb } from "./covered";
 
 const vector = (v: Vec3): THREE.Vector3 => new THREE.Vector3(v[0], v[1], v[2]);
-const BODY = new THREE.MeshStandardMaterial({ color: 0xd5dbe3, roughness: 0.42, metalness: 0.15 });
-const HOUSING = new THREE.MeshStandardMaterial({ color: 0x39434f, roughness: 0.5, metalness: 0.35 });
-const STEEL = new THREE.MeshStandardMaterial({ color: 0x9aa5b1, roughness: 0.3, metalness: 0.7 });
-const TIP = new THREE.MeshStandardMaterial({ color: 0xe8792b, roughness: 0.4, metalness: 0.1 });
+/** Materials of the parts of an arm. */
+export interface Paints {
+  body: THREE.Material;
+  housing: THREE.Material;
+  steel: THREE.Material;
+  tip: THREE.Material;
+}
+const SOLID: Paints = {
+  body: new THREE.MeshStandardMaterial({ color: 0xd5dbe3, roughness: 0.42, metalness: 0.15 }),
+  housing: new THREE.MeshStandardMaterial({ color: 0x39434f, roughness: 0.5, metalness: 0.35 }),
+  steel: new THREE.MeshStandardMaterial({ color: 0x9aa5b1, roughness: 0.3, metalness: 0.7 }),
+  tip: new THREE.MeshStandardMaterial({ color: 0xe8792b, roughness: 0.4, metalness: 0.1 }),
+};
 const UP = new THREE.Vector3(0, 1, 0);
 
 /** A part by its measures (mm), about its origin and along y. */
@@ -37,9 +46,9 @@ export class Arm {
   /** In the order in which they are drawn. */
   private parts: { mesh: THREE.Mesh; measures: string }[] = [];
   private drawn = 0;
-  private readonly rings: THREE.MeshStandardMaterial[] = [];
+  readonly rings: THREE.MeshStandardMaterial[] = [];
 
-  constructor() {
+  constructor(private readonly paints: Paints = SOLID) {
     this.group.add(this.body, this.tooling);
   }
 
@@ -65,10 +74,10 @@ export class Arm {
     let along = 0;
     knots.slice(1).forEach((to, i) => {
       const from = knots[i]!;
-      this.add(limb(lengths[i]!, radius(along), radius(along + lengths[i]!)), from, to.clone().sub(from).normalize(), BODY);
+      this.add(limb(lengths[i]!, radius(along), radius(along + lengths[i]!)), from, to.clone().sub(from).normalize(), this.paints.body);
       this.limbs.push({ from, to, radius: radius(along) });
       along += lengths[i]!;
-      if (i + 2 < knots.length) this.add(ball(radius(along)), to, UP, BODY);
+      if (i + 2 < knots.length) this.add(ball(radius(along)), to, UP, this.paints.body);
     });
     this.pedestal(base, thick);
 
@@ -77,7 +86,7 @@ export class Arm {
       const { at, size, on_link } = this.housingOf(vector(joint.origin_mm), axis, knots, lengths, radius);
       const long = on_link ? size * 0.55 : size * 1.28;
       const wide = on_link ? size * 1.13 : size * 1.16;
-      this.add(drum(wide, long), at, axis, HOUSING);
+      this.add(drum(wide, long), at, axis, this.paints.housing);
       const share = Math.min(1, Math.max(0, shares[i] ?? 0));
       const colour = (this.rings[i] ??= new THREE.MeshStandardMaterial({ roughness: 0.45 }));
       colour.color.copy(quiet).lerp(accent, Math.sqrt(share));
@@ -149,13 +158,13 @@ export class Arm {
   private pedestal(base: THREE.Vector3, thick: number): void {
     const profile = [[0, 0], [1.9, 0], [1.9, 0.22], [1.75, 0.3], [1.35, 0.36], [1.22, 1.1], [1.1, 1.25], [0, 1.25]].map(([r, z]) => new THREE.Vector2(r! * thick, z! * thick));
     const made = () => new THREE.LatheGeometry(profile, 56);
-    this.add({ measures: shapeKey("pedestal", thick), make: made }, base, new THREE.Vector3(0, 0, 1), HOUSING);
+    this.add({ measures: shapeKey("pedestal", thick), make: made }, base, new THREE.Vector3(0, 0, 1), this.paints.housing);
     this.limbs.push({ from: base, to: base.clone().setZ(base.z + 1.2 * thick), radius: 1.5 * thick });
   }
 
   /** Cutter, holder and spindle along the axis of the tool; where that is not the way to the flange, on a bracket. */
   private tool(flange: THREE.Vector3, tip: THREE.Vector3, axis: THREE.Vector3, thick: number, cutter: CutterShape | null): void {
-    this.add(drum(thick * 1.05, thick * 0.28), flange.clone().addScaledVector(axis, -thick * 0.25), axis, STEEL, this.tooling);
+    this.add(drum(thick * 1.05, thick * 0.28), flange.clone().addScaledVector(axis, -thick * 0.25), axis, this.paints.steel, this.tooling);
     const length = tip.distanceTo(flange);
     this.limbs.push({ from: flange, to: tip, radius: thick * 0.7 });
     if (length > 2) {
@@ -167,17 +176,17 @@ export class Arm {
       const spindle = straight ? length - cuts - holder : Math.max(0.45 * length, 2.2 * thick);
       const at = (along: number) => tip.clone().addScaledVector(back, along);
       const round = cutter !== null && cutter.corner > 0.98 * radius;
-      this.add(limb(cuts - (round ? radius : 0), radius, radius), at(round ? radius : 0), back, TIP, this.tooling);
-      if (round) this.add(ball(radius), at(radius), UP, TIP, this.tooling);
-      this.add(limb(holder, Math.max(1.6 * radius, 0.34 * thick), 0.62 * thick), at(cuts), back, HOUSING, this.tooling);
-      this.add(limb(spindle, 0.72 * thick, 0.72 * thick), at(cuts + holder), back, STEEL, this.tooling);
+      this.add(limb(cuts - (round ? radius : 0), radius, radius), at(round ? radius : 0), back, this.paints.tip, this.tooling);
+      if (round) this.add(ball(radius), at(radius), UP, this.paints.tip, this.tooling);
+      this.add(limb(holder, Math.max(1.6 * radius, 0.34 * thick), 0.62 * thick), at(cuts), back, this.paints.housing, this.tooling);
+      this.add(limb(spindle, 0.72 * thick, 0.72 * thick), at(cuts + holder), back, this.paints.steel, this.tooling);
       if (!straight) {
         const held = at(cuts + holder + 0.6 * spindle);
-        this.add(limb(held.distanceTo(flange), 0.8 * thick, 0.5 * thick), flange, held.clone().sub(flange).normalize(), STEEL, this.tooling);
+        this.add(limb(held.distanceTo(flange), 0.8 * thick, 0.5 * thick), flange, held.clone().sub(flange).normalize(), this.paints.steel, this.tooling);
       }
     }
     // The tip is seen also where the cutter is thin.
-    if (!cutter) this.add(ball(Math.max(6, thick * 0.24)), tip, UP, TIP, this.tooling);
+    if (!cutter) this.add(ball(Math.max(6, thick * 0.24)), tip, UP, this.paints.tip, this.tooling);
   }
 }
 

@@ -7,13 +7,21 @@ export type Rgb = [number, number, number];
 
 const ANCHORS = [0x440154, 0x482878, 0x3e4989, 0x31688e, 0x26828e, 0x1f9e89, 0x35b779, 0x6ece58, 0xb5de2b, 0xfde725];
 
+/** Differences: blue, white, red (RdBu of ColorBrewer, Brewer 2002, reversed), safe for the colour-blind. */
+const DIVERGING = [0x053061, 0x2166ac, 0x4393c3, 0x92c5de, 0xd1e5f0, 0xf7f7f7, 0xfddbc7, 0xf4a582, 0xd6604d, 0xb2182b, 0x67001f];
+
 /** Components 0 to 1 in sRGB, at 0 to 1 along the map. */
-export function viridis(at: number): Rgb {
-  const x = Math.min(1, Math.max(0, at)) * (ANCHORS.length - 1);
-  const low = Math.min(Math.floor(x), ANCHORS.length - 2);
+export const viridis = (at: number): Rgb => between(ANCHORS, at);
+
+/** The same for values about zero, which is at one half. */
+export const diverging = (at: number): Rgb => between(DIVERGING, at);
+
+function between(anchors: number[], at: number): Rgb {
+  const x = Math.min(1, Math.max(0, at)) * (anchors.length - 1);
+  const low = Math.min(Math.floor(x), anchors.length - 2);
   const t = x - low;
-  const a = ANCHORS[low]!;
-  const b = ANCHORS[low + 1]!;
+  const a = anchors[low]!;
+  const b = anchors[low + 1]!;
   const mix = (shift: number) => (((a >> shift) & 255) * (1 - t) + ((b >> shift) & 255) * t) / 255;
   return [mix(16), mix(8), mix(0)];
 }

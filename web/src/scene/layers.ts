@@ -3,8 +3,9 @@
 
 import { fixed, percent, trimmed, um } from "../format";
 import type { Live } from "../live";
-import type { LayerKey, Line } from "../types";
-import { along, viridis, type Rgb, type Scale } from "./colour";
+import type { LayerAnswer, LayerKey, Line } from "../types";
+import { along, diverging, viridis, type Rgb, type Scale } from "./colour";
+import { minusPinned, whyNot } from "./difference";
 import type { Values } from "./points";
 
 export interface Layer {
@@ -17,6 +18,8 @@ export interface Layer {
   tolerance: boolean;
   /** Whether values are names, not sizes. */
   named?: boolean;
+  /** Whether values are about zero: differences. */
+  diverging?: boolean;
   /** What it is, where the title does not say it. */
   about?: string;
 }
@@ -50,11 +53,23 @@ export interface ShownLayer {
   lines: (index: number) => { level: number; lines_mm: Line[] }[];
 }
 
-/** The chosen layer, or the first one until its values have come. */
+/** The chosen layer; its difference to the pinned state where that is wanted and there is one. */
 export function shownLayer(live: Live): ShownLayer {
+  const shown = presentLayer(live);
+  return live.differs && live.pinned && whyNot(live, shown) === null ? minusPinned(shown, live.pinned) : shown;
+}
+
+/** The values of a layer, a list a map: those of a path are in its columns. */
+export function valuesOf({ path }: Pick<Live, "path">, { key, values }: LayerAnswer): Values[] {
+  const column = path?.get(key);
+  return column ? [column] : values;
+}
+
+/** The chosen layer, or the first one until its values have come. */
+export function presentLayer(live: Live): ShownLayer {
   const got = live.layer_answer;
   if (got && got.key === live.layer) {
-    return { key: got.key, layer: LAYERS[got.key], scale: got.levels, names: got.names, values: (i) => (i === 0 ? live.path?.get(got.key) : null) ?? got.values[i] ?? [], lines: (i) => (got.lines[i] ?? []) as { level: number; lines_mm: Line[] }[] };
+    return { key: got.key, layer: LAYERS[got.key], scale: got.levels, names: got.names, values: (i) => valuesOf(live, got)[i] ?? [], lines: (i) => (got.lines[i] ?? []) as { level: number; lines_mm: Line[] }[] };
   }
   return {
     key: FIRST,
@@ -70,7 +85,7 @@ export function shownLayer(live: Live): ShownLayer {
 export function colourOf({ layer, scale, names }: Pick<ShownLayer, "layer" | "scale" | "names">, value: number | null): Rgb {
   if (value === null) return NONE;
   if (layer.named) return value < names.length ? namedColour(value) : NONE;
-  return scale ? viridis(along(scale, value)) : NONE;
+  return scale ? (layer.diverging ? diverging : viridis)(along(scale, value)) : NONE;
 }
 
 export function namedColour(index: number): Rgb {

@@ -5,16 +5,16 @@ import { fixed, mm, percent, plusMinus, trimmed, um } from "../format";
 import { headline, lostHoles } from "../headline";
 import type { Live } from "../live";
 import type { LayerKey } from "../types";
-import { along, css, ends, viridis, type Scale } from "./colour";
-import { FIRST, LAYERS, levelText, namedColour, shownLayer, textOf, type ShownLayer } from "./layers";
+import { along, css, ends, type Scale } from "./colour";
 import { handleBar } from "./handle-bar";
+import { colourOf, FIRST, LAYERS, levelText, namedColour, shownLayer, textOf, type ShownLayer } from "./layers";
 import { outsideLimits } from "./plate";
 import { SHOWN } from "./points";
 import type { View } from "./stage";
 import { ELLIPSOID, type SceneView, type Show, type Under } from "./view";
 
 const VIEWS: [View, string, string][] = [["overview", "Overview", "1"], ["front", "Front", "2"], ["side", "Side", "3"], ["top", "Top", "4"], ["plate", "Plate", "5"]];
-const SWITCHES: [keyof Show | keyof Live["wanted"], string][] = [["arm", "Arm"], ["shape", "CAD meshes"], ["forces", "Force arrow"], ["deviation", "Deviation arrow"], ["parts", "Components: in plane, normal"], ["ellipsoid", "Compliance ellipsoid"], ["lines", "Lines of equal deviation"], ["certainty", "Robustly within (dashed)"], ["rectangle", "Largest rectangle within"], ["fix_scale", "Fix the colour scale"]];
+const SWITCHES: [keyof Show | keyof Live["wanted"], string][] = [["arm", "Arm"], ["shape", "CAD meshes"], ["forces", "Force arrow"], ["deviation", "Deviation arrow"], ["parts", "Components: in plane, normal"], ["ellipsoid", "Compliance ellipsoid"], ["lines", "Lines of equal deviation"], ["pinned", "Pinned arm"], ["certainty", "Robustly within (dashed)"], ["rectangle", "Largest rectangle within"], ["fix_scale", "Fix the colour scale"]];
 
 export function overlay(view: SceneView, live: Live): HTMLElement {
   const legendBox = h("div", { class: "legend", role: "img" });
@@ -58,6 +58,8 @@ export function overlay(view: SceneView, live: Live): HTMLElement {
       const label = h("label", {}, box, ` ${text}`);
       // There to be chosen where the robot has one.
       if (key === "shape") live.listen(["pose"], () => (label.hidden = !live.pose?.drawings.some((d) => d.meshes.length > 0)));
+      if (key === "pinned") live.listen(["view"], () => (label.hidden = live.pinned === null));
+      label.hidden = key === "pinned";
       return label;
     }),
   );
@@ -109,7 +111,7 @@ function legend(box: HTMLElement, card: HTMLElement, live: Live): void {
   if (card.hidden || !setting) return;
   const shown = shownLayer(live);
   const cases = setting.cases_n.length;
-  const about = shown.key === FIRST ? (cases > 1 ? `largest of ${cases} load cases` : "") : (shown.layer.about ?? "");
+  const about = shown.key === FIRST && !shown.layer.diverging ? (cases > 1 ? `largest of ${cases} load cases` : "") : (shown.layer.about ?? "");
   const name = h("p", { class: "legend-name" }, h("b", {}, shown.layer.unit), about ? h("small", {}, ` ${about}`) : null);
   box.setAttribute("aria-label", legendText(shown, setting.tolerance_um));
   const bar = shown.layer.named ? namedBar(shown, live.section) : shown.scale ? scaleBar(shown, shown.scale, setting.tolerance_um) : h("p", { class: "legend-name" }, "not known for these points");
@@ -132,8 +134,10 @@ function scaleBar({ layer }: ShownLayer, scale: Scale, tolerance: number): SVGEl
   const W = 280;
   const [low, high] = ends(scale);
   const at = (value: number) => 14 + (W - 28) * along(scale, value);
-  const stops = Array.from({ length: 21 }, (_, i) => s("stop", { offset: i / 20, "stop-color": css(viridis(i / 20)) }));
+  const stops = Array.from({ length: 21 }, (_, i) => s("stop", { offset: i / 20, "stop-color": css(colourOf({ layer, scale: [0, 1], names: [] }, i / 20)) }));
   const every = Math.ceil(scale.length / 6);
+  // The zero of a difference has its tick.
+  const middle = layer.diverging ? (scale.length - 1) / 2 : 0;
   const inside = tolerance >= low && tolerance <= high;
   const top = layer.tolerance ? 15 : 3;
   const height = layer.tolerance ? 46 : 34;
@@ -142,7 +146,7 @@ function scaleBar({ layer }: ShownLayer, scale: Scale, tolerance: number): SVGEl
     { width: W, height, viewBox: `0 0 ${W} ${height}`, "aria-hidden": "true" },
     s("defs", {}, s("linearGradient", { id: "bar" }, stops)),
     s("rect", { x: 14, y: top, width: W - 28, height: 12, rx: 2, fill: "url(#bar)" }),
-    scale.filter((_, i) => i % every === 0).map((level) => [
+    scale.filter((_, i) => (i - middle) % every === 0).map((level) => [
       s("line", { x1: at(level), x2: at(level), y1: top + 12, y2: top + 16, class: "tick" }),
       s("text", { x: at(level), y: top + 28, "text-anchor": "middle" }, levelText(layer, level)),
     ]),
@@ -189,7 +193,7 @@ function hover(tip: HTMLElement, live: Live, under: Under, x: number, y: number,
   }
   const chosen = shownLayer(live);
   // Deviations are in every tooltip.
-  if (!["in_plane_um", "normal_um", "full_um"].includes(chosen.key)) rows.push([chosen.layer.title, textOf(chosen, chosen.values(live.section)[under.index])]);
+  if (chosen.layer.diverging || !["in_plane_um", "normal_um", "full_um"].includes(chosen.key)) rows.push([chosen.layer.title, textOf(chosen, chosen.values(live.section)[under.index])]);
   fill(tip, h("dl", {}, rows.map(([name, value]) => [h("dt", {}, name), h("dd", {}, value)])), h("p", {}, "Click: the robot goes there"));
   const box = host.getBoundingClientRect();
   const left = x - box.left + (x - box.left > box.width - 230 ? -225 : 16);

@@ -25,7 +25,9 @@ const NONE = linear([[0.55, 0.58, 0.62]]);
 /** Sizes have one table, since each scale has the same colours; names have one entry each. */
 const SIZES = { layer: { named: false }, scale: [0, 1], names: [] } as unknown as ShownLayer;
 const OF_SIZES = linear(Array.from({ length: STEPS }, (_, i) => colourOf(SIZES, i / (STEPS - 1))));
-const tableOf = (shown: ShownLayer): Float32Array => (shown.layer.named ? linear(shown.names.map((_, i) => colourOf(shown, i))) : OF_SIZES);
+const DIFFERENCES = { ...SIZES, layer: { diverging: true } } as unknown as ShownLayer;
+const OF_DIFFERENCES = linear(Array.from({ length: STEPS }, (_, i) => colourOf(DIFFERENCES, i / (STEPS - 1))));
+const tableOf = (shown: ShownLayer): Float32Array => (shown.layer.named ? linear(shown.names.map((_, i) => colourOf(shown, i))) : shown.layer.diverging ? OF_DIFFERENCES : OF_SIZES);
 
 export class PlateView {
   readonly group = new THREE.Group();

@@ -10,7 +10,7 @@ export type Values = readonly (number | null)[] | Float32Array;
 /** The columns that are shown under the pointer, in this order. */
 export const SHOWN = [["In plane", "in_plane_um"], ["Along", "along_um"], ["Across", "cross_um"], ["Normal", "normal_um"], ["Full", "full_um"]] as const;
 /** The columns of a path that the scene draws. */
-export const DRAWN = ["xyz_mm", "deviation_um", "outside_joint_limits", "distance_mm", ...SHOWN.map(([, key]) => key)];
+export const DRAWN = ["xyz_mm", "deviation_um", "outside_joint_limits", "distance_mm", "turn_deg", ...SHOWN.map(([, key]) => key)];
 
 export class Points {
   readonly count: number;

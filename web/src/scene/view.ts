@@ -15,6 +15,7 @@ import { isCovered } from "./covered";
 import { Handles } from "./handles";
 import { Crosses } from "./crosses";
 import { Ellipsoid } from "./ellipsoid";
+import { GhostArm } from "./ghost";
 import { shownLayer } from "./layers";
 import { Marker } from "./marker";
 import { Part } from "./part";
@@ -26,6 +27,8 @@ import { VolumeView } from "./volume";
 
 export interface Show {
   arm: boolean;
+  /** The arm of the pinned state. */
+  pinned: boolean;
   /** The robot's own shape, where its file names one. */
   shape: boolean;
   forces: boolean;
@@ -58,11 +61,12 @@ const TIP_PX = 12;
 
 export class SceneView {
   readonly stage: Stage;
-  readonly show: Show = { arm: true, shape: true, forces: true, deviation: true, parts: false, ellipsoid: false, certainty: true, rectangle: false, magnified: 1000, magnified_by_hand: false, mm_per_n: MM_PER_N };
+  readonly show: Show = { arm: true, pinned: true, shape: true, forces: true, deviation: true, parts: false, ellipsoid: false, certainty: true, rectangle: false, magnified: 1000, magnified_by_hand: false, mm_per_n: MM_PER_N };
   onHover: (under: Under, x: number, y: number) => void = () => {};
   onScale: () => void = () => {};
   private readonly arm = new Arm();
   private readonly shapes: Shapes;
+  private readonly pinned_arm = new GhostArm();
   private readonly force = new Arrow(0xd55e00);
   private readonly deviation = new Arrow(0xcc3fa0);
   private readonly in_plane = new Arrow(0x009e9a);
@@ -86,7 +90,7 @@ export class SceneView {
     this.crosses = new Crosses(this.stage.labels);
     this.shapes = new Shapes((file) => api.mesh(live.text, file), () => this.drawPose());
     this.stage.covered = (group, at) => group !== "arm" && this.show.arm && !this.ghost && this.live.pose !== null && isCovered(this.arm.limbs, this.stage.camera.position, at, this.shapes.group.visible ? STOUT : 1);
-    this.stage.scene.add(this.arm.group, this.shapes.group, this.force.group, this.deviation.group, this.in_plane.group, this.normal.group, this.ellipsoid.group, this.path.group, this.marker.group, this.volume.group, this.part.group, this.crosses.group);
+    this.stage.scene.add(this.arm.group, this.shapes.group, this.pinned_arm.group, this.force.group, this.deviation.group, this.in_plane.group, this.normal.group, this.ellipsoid.group, this.path.group, this.marker.group, this.volume.group, this.part.group, this.crosses.group);
     live.listen(["answer", "view"], () => this.drawAnswer());
     live.listen(["pose", "view"], () => this.drawPose());
     live.listen(["at", "pose"], () => this.drawMarker());
@@ -228,6 +232,9 @@ export class SceneView {
       }
       if (this.show.ellipsoid) this.ellipsoid.draw(tip, answer.stiffness, ELLIPSOID);
     }
+    const pinned = this.pinned_arm.draw(this.show.arm && this.show.pinned && !this.ghost ? (this.live.pinned?.drawing ?? null) : null, drawing ?? null);
+    this.stage.labels.group("pinned");
+    if (pinned) this.stage.labels.add("pinned", pinned, "pinned", "pinned");
     this.stage.draw();
   }
 

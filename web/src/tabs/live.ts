@@ -16,6 +16,7 @@ import { shares } from "../panels/shares";
 import { verdict } from "../panels/verdict";
 import { overlay } from "../scene/overlay";
 import { SceneView } from "../scene/view";
+import { spinMap } from "../spin-map/panel";
 import { Timeline } from "../timeline/timeline";
 import type { Tab } from "./tab";
 
@@ -35,7 +36,7 @@ export function liveTab(live: Live, jobs: JobStore): Tab & { view: SceneView } {
     "div",
     { class: "live" },
     h("aside", { class: "left", "aria-label": "Settings" }, controls(live)),
-    h("div", { class: "middle" }, verdict(live, () => view.fit()), advice(live, jobs), host, new Timeline(live).root),
+    h("div", { class: "middle" }, verdict(live, () => view.fit()), advice(live, jobs), host, new Timeline(live).root, spinMap(live)),
     right,
   );
   host.append(overlay(view, live));

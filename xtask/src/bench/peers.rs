@@ -69,12 +69,7 @@ pub fn package() -> Result<Command, String> {
     printed(build.current_dir("python"))?;
     let mut install = Command::new(in_venv("python"));
     let arguments = "-m pip install -q --force-reinstall --no-deps --no-index --find-links";
-    printed(
-        install
-            .args(arguments.split(' '))
-            .arg(&wheels)
-            .arg("armill"),
-    )?;
+    printed(install.args(arguments.split(' ')).arg(&wheels).arg("armill"))?;
     let mut command = Command::new(in_venv("python"));
     command.arg("bench/python/armill_package.py");
     command.envs(THREADS.iter().map(|name| (name, "1")));

@@ -122,6 +122,34 @@ impl PathLoad {
         closed
     }
 
+    /// The load at these points alone.
+    ///
+    /// # Panics
+    /// If it does not [cover](PathLoad::covers) one of them.
+    pub fn at_points(&self, indices: &[usize]) -> PathLoad {
+        match self {
+            PathLoad::Cases(load) => PathLoad::Cases(load.clone()),
+            PathLoad::OfEach {
+                cases,
+                frame,
+                wrenches,
+            } => PathLoad::OfEach {
+                cases: *cases,
+                frame: *frame,
+                wrenches: indices
+                    .iter()
+                    .flat_map(|index| &wrenches[index * cases..][..*cases])
+                    .copied()
+                    .collect(),
+            },
+            PathLoad::Cuts(cuts) => PathLoad::Cuts(CutsAlong {
+                cutters: cuts.cutters.clone(),
+                points: indices.iter().map(|index| cuts.points[*index]).collect(),
+                ..*cuts
+            }),
+        }
+    }
+
     /// The load with all forces and moments multiplied by `factor`; of a cut with those of its law.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> PathLoad {
@@ -374,6 +402,18 @@ mod tests {
             ..CutHere::NOTHING
         };
         assert!(!cuts(vec![other_tool]).covers(1));
+        // Points alone keep their wrenches.
+        let mut numbered = each_of(4);
+        if let PathLoad::OfEach { wrenches, .. } = &mut numbered {
+            (0..8).for_each(|k| wrenches[k] = wrench(k as f64));
+        }
+        let some = numbered.at_points(&[1, 3]);
+        assert!(some.covers(2) && !some.covers(3) && cut.at_points(&[0, 2]).covers(2));
+        let identity = (Isometry::identity(), Rotation3::identity());
+        for (index, of) in [1, 3].into_iter().enumerate() {
+            let found = in_base(&some, index, &identity.0, &identity.1);
+            assert_eq!(found, in_base(&numbered, of, &identity.0, &identity.1));
+        }
         // Closed by their first point they cover one more.
         let [each, cut] = [each_of(3), cut].map(|load| load.closed());
         assert!(each.covers(4) && !each.covers(5) && cut.covers(4) && !cut.covers(5));

@@ -28,6 +28,15 @@ pub enum Spin {
     Given(f64),
 }
 
+impl Spin {
+    /// The constant part, rad: it turns the tool about its axis at all points alike.
+    pub fn angle(self) -> f64 {
+        match self {
+            Spin::Fixed(angle) | Spin::AlongFeed(angle) | Spin::Given(angle) => angle,
+        }
+    }
+}
+
 /// A path in the cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placing {

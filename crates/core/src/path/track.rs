@@ -143,6 +143,31 @@ impl Track {
         }
     }
 
+    /// These points alone, in ascending order, each at its distance along the path.
+    pub fn at_points(&self, indices: &[usize]) -> Track {
+        let of = &self.path;
+        let spins = self.spins.as_ref();
+        Track {
+            path: SampledPath {
+                points: indices.iter().map(|index| of.points[*index]).collect(),
+                moves: of.moves,
+                cutting_time: of.cutting_time,
+                ..SampledPath::default()
+            },
+            spins: spins.map(|spins| indices.iter().map(|index| spins[*index]).collect()),
+            ..*self
+        }
+    }
+
+    /// The track with the tool turned by `spin` (rad) about its axis at all points, in addition.
+    pub fn spun(&self, spin: f64) -> Track {
+        let had = |index: usize| self.spins.as_ref().map_or(0.0, |spins| spins[index]);
+        Track {
+            spins: Some((0..self.len()).map(|index| had(index) + spin).collect()),
+            ..self.clone()
+        }
+    }
+
     /// The tool pose at point `index`, and the tool axis as its normal.
     pub fn stop(&self, index: usize) -> Stop {
         let point = &self.path.points[index];

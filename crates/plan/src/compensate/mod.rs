@@ -96,8 +96,13 @@ fn of_path<'a>(
     let closed;
     let analysis = match path.shape() {
         Some(Shape::Circle { .. }) => {
+            let mut track = path.track.closed(path.length());
+            let last = track.spins.as_mut().and_then(|spins| spins.last_mut());
+            if let (Some(curve), Some(last)) = (&path.spin_curve, last) {
+                *last = curve.at(path.length());
+            }
             closed = PathAnalysis {
-                track: path.track.closed(path.length()),
+                track,
                 load: path.load.closed(),
                 ..path.clone()
             };

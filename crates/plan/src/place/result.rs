@@ -78,7 +78,8 @@ impl PlacementResult {
                 let spins = part_from_tools.iter().enumerate().map(|(index, on_part)| {
                     let evaluated = track.base_from_part.rotation * on_part;
                     let turn = track.stop(index).base_from_tool.rotation.inverse() * evaluated;
-                    2.0 * turn.k.atan2(turn.w)
+                    let had = track.spins.as_ref().map_or(0.0, |spins| spins[index]);
+                    had + 2.0 * turn.k.atan2(turn.w)
                 });
                 path.track.spins = Some(spins.collect());
             }

@@ -241,7 +241,7 @@ impl AnalysisData<'_> {
     /// The columns that only its kind has.
     pub fn own_columns<'a>(&'a self, robot: &'a Robot) -> Vec<Numbers<'a>> {
         match self {
-            AnalysisData::Path(analysis, found) => path::columns::columns(&analysis.track, found),
+            AnalysisData::Path(analysis, found) => path::columns::columns(analysis, found),
             AnalysisData::Holes(analysis, found) => holes::columns::columns(robot, analysis, found),
             AnalysisData::Map(..) | AnalysisData::Sections(_) | AnalysisData::Volume(..) => Vec::new(),
         }

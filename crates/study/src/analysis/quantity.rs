@@ -228,10 +228,10 @@ pub const FEED: Quantity = input(
     6,
     "speed of the tip, if the program specifies it",
 );
-/// Spin of a search.
+/// Spin of a search or a curve.
 pub const TURN: Quantity = angle(
     "turn_deg",
-    "spin of the tool about its axis that was found, relative to the one without the search",
+    "spin of the tool about its axis that was found by a search or is given by a curve, in addition to the constant one",
     SPIN,
 );
 /// Along the track.

@@ -124,6 +124,11 @@ impl Resolver<'_> {
             ("step_mm", AnalysisKind::Path, t.step_mm.is_some()),
             ("program", with_tool, t.program.is_some()),
             ("spin_deg", AnalysisKind::Path, t.spin_deg.is_some()),
+            (
+                "spin_curve_mm_deg",
+                AnalysisKind::Path,
+                t.spin_curve_mm_deg.is_some(),
+            ),
             ("cut", AnalysisKind::Path, t.cut.is_some()),
             ("posture.search", with_tool, search.is_some()),
             ("holes", AnalysisKind::Holes, t.holes.is_some()),

@@ -74,6 +74,10 @@ pub struct AnalysisTable {
     /// Path: spin of the tool about its axis on a shape; for a program use `program.spin_deg`.
     #[schemars(range(min = -360.0, max = 360.0))]
     pub spin_deg: Option<f64>,
+    /// Path: spin of the tool that changes along it, in addition to the constant one: points (distance along the path,
+    /// spin), linear between them.
+    #[schemars(length(max = 1000), inner(inner(range(min = -1e9, max = 1e9))))]
+    pub spin_curve_mm_deg: Option<Vec<[f64; 2]>>,
     /// Path: a tool path program, and how the tool follows it; holes: those that it drills.
     pub program: Option<ProgramTable>,
     /// Holes: a list of them.

@@ -21,6 +21,7 @@
 //! | `layer` | the values of another quantity that colours show |
 //! | `scale` | the levels of the colour scale |
 //! | `lines` | the lines of equal deviation of a map |
+//! | `spin_map` | a path over its length and the spin of the tool, and the spins that a search finds |
 //! | `meshes` | the meshes of the robot, if its file names them |
 //! | `file_kind` | the probable kind of a file |
 //!
@@ -51,6 +52,7 @@ mod process;
 mod reachable;
 mod scale;
 mod scene;
+mod spin_map;
 mod tables;
 mod values;
 mod view;
@@ -73,6 +75,7 @@ pub use posture::{
 pub use process::{GivenElsewhere, ProcessValues, process_values};
 pub use reachable::{ReachableAnswer, reachable};
 pub use scene::{BoxInScene, PlateInScene, PointsInScene, SceneAnswer, SectionInScene, scene};
+pub use spin_map::{SpinMapAnswer, SpinSearchAnswer, spin_map, spin_search};
 pub use tables::{TablesAnswer, ValueLocation, tables};
 pub use values::{ValuesAnswer, values};
 pub use view::{ViewAnswer, ViewQuestion, view};

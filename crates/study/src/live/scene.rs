@@ -79,7 +79,7 @@ pub struct PointsInScene {
     /// Points with a posture outside joint limits, from 0.
     pub outside_joint_limits: Vec<usize>,
     /// `state`, `branch`, `in_plane_um`, `normal_um`, `full_um`, of a path `along_um`, `cross_um`, `axial_um`, `line`,
-    /// `distance_mm`: see the table of the analysis.
+    /// `distance_mm` and `turn_deg`: see the table of the analysis.
     pub columns: Map<String, Value>,
 }
 
@@ -95,7 +95,7 @@ pub struct BoxInScene {
 }
 
 /// The columns that are drawn, if the table of the analysis has them.
-const COLUMNS: [&str; 11] = [
+const COLUMNS: [&str; 12] = [
     "state",
     "branch",
     "in_plane_um",
@@ -107,6 +107,7 @@ const COLUMNS: [&str; 11] = [
     "line",
     "hole",
     "distance_mm",
+    "turn_deg",
 ];
 
 /// What can be drawn of this analysis, or of the first; a path, holes or a box are evaluated for it.

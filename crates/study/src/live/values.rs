@@ -62,6 +62,8 @@ pub struct ValuesAnswer {
     pub branches: Vec<String>,
     /// Spin of the tool about its axis; of paths alone.
     pub spin_deg: Option<f64>,
+    /// The curve that is added to it along a path, if there is one.
+    pub spin_curve_mm_deg: Option<Vec<[f64; 2]>>,
     /// Sections: the x coordinate of the plane's centre, one a section.
     pub distances_mm: Option<Vec<f64>>,
     /// Sections: the tilt of the plane, one a section.
@@ -124,6 +126,7 @@ pub(super) fn values_of(edited: &EditedAnalysis<'_>) -> Result<ValuesAnswer, Stu
             false => Vec::new(),
         },
         spin_deg: spin(table),
+        spin_curve_mm_deg: table.spin_curve_mm_deg.clone(),
         distances_mm: table.distances_mm.clone(),
         tilts_deg: table.tilts_deg.clone(),
         box_half_size_mm: table.in_box.as_ref().map(|of| of.half_size_mm),

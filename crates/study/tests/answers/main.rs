@@ -1,6 +1,6 @@
 //! Small studies through the library: results compared with each other, with counting, and with invariants.
 //!
-//! `counts`: points and the tolerance; `same_points`: one point computed in two ways; `paths`: shapes; `deviations`:
+//! `counts`: points and the tolerance; `same_points`: one point computed in two ways; `paths`: shapes; `spin_curves`: a spin that changes along a path; `deviations`:
 //! what changes them; `statements`: sentences, sources, warnings; `running`: reading, progress, files.
 
 // A panic is how a test says that its claim is false; helper functions too.
@@ -11,6 +11,7 @@ mod deviations;
 mod paths;
 mod running;
 mod same_points;
+mod spin_curves;
 mod statements;
 
 use std::path::Path;

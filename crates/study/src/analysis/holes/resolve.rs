@@ -77,6 +77,7 @@ impl Resolver<'_> {
             return Ok(None);
         };
         let mut analysis = PathAnalysis {
+            spin_curve: None,
             source,
             track: Track {
                 path,

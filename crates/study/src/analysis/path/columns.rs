@@ -1,16 +1,18 @@
-//! Columns that only a path has: line, distance and feed, the spin that a search found, and the components of the
+//! Columns that only a path has: line, distance and feed, the spin of a search or a curve, and the components of the
 //! deviation of the worst case relative to the track, with their part due to backlash and geometry; force, torque, chip and removal rate of a cut.
 
 use armill_core::path::{Pace, Parts, Track};
 use armill_core::units::{to_deg, to_mm, to_um};
 
 use crate::analysis::numbers::Numbers;
+use crate::analysis::path::PathAnalysis;
 use crate::analysis::path::process_loads::ProcessPoint;
 use crate::analysis::path::run::PathResult;
 use crate::analysis::quantity::{self, Quantity};
 
 /// Line, distance and feed, and the deviation relative to the track.
-pub fn columns<'a>(track: &'a Track, found: &'a PathResult) -> Vec<Numbers<'a>> {
+pub fn columns<'a>(analysis: &'a PathAnalysis, found: &'a PathResult) -> Vec<Numbers<'a>> {
+    let track = &analysis.track;
     let points = &track.path.points;
     let part = |quantity: &'static Quantity, of: fn(Parts) -> f64| {
         Numbers::of(quantity, move |rows, index, evaluation| {
@@ -29,10 +31,13 @@ pub fn columns<'a>(track: &'a Track, found: &'a PathResult) -> Vec<Numbers<'a>> 
         part(&quantity::CROSS, |parts| parts.cross),
         part(&quantity::AXIAL, |parts| parts.axial),
     ];
-    columns.extend(found.searched.as_ref().map(|searched| {
-        let spins = &searched.posture.spins;
-        Numbers::of(&quantity::TURN, move |_, index, _| to_deg(spins[index]))
-    }));
+    let searched = found.searched.as_ref().map(|searched| &searched.posture.spins);
+    let of_curve = track.spins.as_ref().filter(|_| analysis.spin_curve.is_some());
+    columns.extend(
+        searched
+            .or(of_curve)
+            .map(|spins| Numbers::of(&quantity::TURN, move |_, index, _| to_deg(spins[index]))),
+    );
     columns.extend(process(found));
     columns.extend(unloaded(track, found));
     columns

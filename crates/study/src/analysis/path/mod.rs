@@ -7,7 +7,7 @@
 //!
 //! `shape` and [`program`] (its keys [`program_table`], its file `program_file`, then `machine_program` or
 //! [`robot_program`]) give its points, [`feature`] marks stretches of them; `load` puts on the load: given cases, a [`cut`], a [`drill`], or [`measured`] forces; `shape_tables`: the tables of
-//! shapes. [`resolve`](mod@resolve) joins these, [`run`] evaluates the path. [`answer`], [`sentence`], [`warnings`] are
+//! shapes; `spin_curve`: a spin that changes along the path. [`resolve`](mod@resolve) joins these, [`run`] evaluates the path. [`answer`], [`sentence`], [`warnings`] are
 //! its answer; [`columns`], [`pictures`] (with `track_views`, [`point_groups`], `turns`, [`process_limits`]) and [`report`] its files. [`process_loads`]:
 //! what the cut asks of tool and spindle.
 
@@ -33,6 +33,7 @@ pub mod run;
 pub mod sentence;
 mod shape;
 pub mod shape_tables;
+mod spin_curve;
 mod track_views;
 mod turns;
 pub mod warnings;
@@ -45,7 +46,7 @@ pub use measured::MeasuredForces;
 pub use robot_program::RobotPath;
 
 use armill_core::load::PathLoad;
-use armill_core::path::{ForceSummary, Shape, Track};
+use armill_core::path::{ForceSummary, Shape, SpinCurve, Track};
 use armill_formats::robot::RobotDescription;
 use armill_formats::toolpath::Summary;
 
@@ -59,8 +60,10 @@ pub struct PathAnalysis {
     pub setting: Setting,
     /// Source of the points.
     pub source: PathSource,
-    /// The points and their placement.
+    /// The points and their placement, with the spins of the curve.
     pub track: Track,
+    /// The spin that changes along the path, in addition to the constant one.
+    pub spin_curve: Option<SpinCurve>,
     /// The load; of a cut in a stock as if the engagement were constant.
     pub load: PathLoad,
     /// The cut of the forces, in place of given cases.

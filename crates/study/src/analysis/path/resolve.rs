@@ -6,7 +6,7 @@ use armill_core::units::from_deg;
 
 use super::load::{LoadSource, put_on};
 use super::robot_program::{self, RobotInCell};
-use super::{PathAnalysis, PathSource, program, shape};
+use super::{PathAnalysis, PathSource, program, shape, spin_curve};
 use crate::StudyError;
 use crate::analysis::resolve::Resolver;
 use crate::input::problem_log::ProblemLog;
@@ -67,8 +67,14 @@ impl Resolver<'_> {
             log.problem("spin_deg", "`spin_deg` is valid for shapes only", hint);
             return Ok(None);
         }
+        let searches = self.of_posture(|posture| posture.search.as_ref()).is_some();
+        if table.spin_curve_mm_deg.is_some() && searches {
+            spin_curve::refuse_with_search(log);
+            return Ok(None);
+        }
         let mut analysis = PathAnalysis {
             source,
+            spin_curve: None,
             track: Track {
                 path,
                 placing,
@@ -87,6 +93,13 @@ impl Resolver<'_> {
                 .map_or_else(Vec::new, |of| of.feature.clone()),
             setting,
         };
+        if let Some(points) = &table.spin_curve_mm_deg {
+            let Some(curve) = spin_curve::resolve(log, points, &analysis) else {
+                return Ok(None);
+            };
+            analysis.track.spins = Some(curve.along(&analysis.track.path));
+            analysis.spin_curve = Some(curve);
+        }
         let pushes = put_on(log, push, self.folder, &mut analysis)?;
         Ok(pushes.then_some(analysis))
     }

@@ -10,7 +10,9 @@ use armill_core::map::{
     radial_deviations, worst_points,
 };
 use armill_core::nalgebra::{Point3, Translation3, UnitQuaternion};
-use armill_core::optimize::{FollowedTrack, Gain, Objective, PostureFound, gain_along, postures_along};
+use armill_core::optimize::{
+    FollowedTrack, Gain, Objective, PostureFound, PostureSearch, gain_along, postures_along,
+};
 use armill_core::path::{ForceSummary, LoadedTrack, NoForces, Shape, Stock, Track};
 use armill_core::spatial::Wrench;
 use armill_core::units::to_mm;
@@ -111,6 +113,16 @@ pub struct Followed {
     pub searched: Option<SearchResult>,
 }
 
+/// Spins and branches that a search found, and the path with them.
+pub struct FoundSpins {
+    /// The result of the search.
+    pub posture: PostureFound,
+    /// The path with the spins found.
+    pub turned: Track,
+    /// The answers along it.
+    pub along: AlongPath,
+}
+
 impl Runner<'_> {
     /// The answers along a path, and all that follows from them in the branch that was followed.
     pub fn path(&self, analysis: &PathAnalysis) -> Result<PathResult, StudyError> {
@@ -166,11 +178,11 @@ impl Runner<'_> {
                 searched: None,
             });
         };
-        let path = LoadedTrack { track, load: &load };
-        let posture = postures_along(&question, path, search, self.watch)?;
-        let turned = posture.turned(track);
-        let choices = posture.choices();
-        let found = along_postures(&question, &turned, load.clone(), choices, self.watch)?;
+        let FoundSpins {
+            posture,
+            turned,
+            along: found,
+        } = self.search(analysis, &load, search)?;
         let ways = [(track, &nominal), (&turned, &found)];
         let followed = ways.map(|(track, along)| FollowedTrack {
             path: LoadedTrack { track, load: &load },
@@ -201,6 +213,25 @@ impl Runner<'_> {
                 obstacles: numbers,
                 gain,
             }),
+        })
+    }
+
+    /// The spins and branches that `search` finds along the path under this load, and the path with them.
+    pub fn search(
+        &self,
+        analysis: &PathAnalysis,
+        load: &PathLoad,
+        search: &PostureSearch,
+    ) -> Result<FoundSpins, StudyError> {
+        let question = self.question(&analysis.setting);
+        let track = &analysis.track;
+        let posture = postures_along(&question, LoadedTrack { track, load }, search, self.watch)?;
+        let turned = posture.turned(track);
+        let along = along_postures(&question, &turned, load.clone(), posture.choices(), self.watch)?;
+        Ok(FoundSpins {
+            posture,
+            turned,
+            along,
         })
     }
 
