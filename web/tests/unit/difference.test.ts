@@ -5,6 +5,7 @@ import type { Live } from "../../src/live";
 import { diverging } from "../../src/scene/colour";
 import { aboutZero, minusPinned, placesOf, whyNot, type PinnedScene } from "../../src/scene/difference";
 import { colourOf, LAYERS, type ShownLayer } from "../../src/scene/layers";
+import { Points } from "../../src/scene/points";
 
 const map = { answer: { maps: [{ grid: { y_mm: [-50, 50], z_mm: [0] } }] }, scene: null, values: { kind: "map" } };
 const pinned = (over: Partial<PinnedScene> = {}): PinnedScene => ({ drawing: null, kind: "map", places: [[-50, 50, 0]], values: new Map([["in_plane_um", [[100, 40]]]]), ...over });
@@ -22,9 +23,9 @@ test("there is a difference only at the same points, of sizes", () => {
 });
 
 test("points that move with the part are the same points", () => {
-  const at = (x: number) => ({ answer: { maps: [] }, scene: { box: null, plate: { centre_mm: [x, 0, 0], y_axis: [0, 1, 0], z_axis: [0, 0, 1], normal_axis: [-1, 0, 0] }, points: { xyz_mm: [[x, 5, 7]] } } }) as unknown as Live;
+  const at = (x: number) => ({ answer: { maps: [] }, scene: { box: null, plate: { centre_mm: [x, 0, 0], y_axis: [0, 1, 0], z_axis: [0, 0, 1], normal_axis: [-1, 0, 0] }, points: Points.ofAnswer({ xyz_mm: [[x, 5, 7]], deviation_um: [null], outside_joint_limits: [], columns: { in_plane_um: [1] } } as never) } }) as unknown as Live;
   expect(placesOf(at(900))).toEqual(placesOf(at(1000)));
-  expect(placesOf(at(900))).toEqual([[5, 7, 0]]);
+  expect(placesOf(at(900)).map((list) => [...(list as Float64Array)])).toEqual([[5, 7, 0]]);
 });
 
 test("values are minus the pinned ones, on a scale about zero, and unknown ones stay unknown", () => {
