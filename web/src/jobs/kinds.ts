@@ -18,7 +18,7 @@ export const KINDS: JobKind[] = [
   { id: "run", name: "Run", start: "Run the study", about: "All analyses, with tables, pictures and report in the folder of the study.", bounds: null },
   { id: "place", name: "Placement", start: "Find the best placement", about: "The placement of the part with the smallest deviation of a path.", bounds: "place" },
   { id: "posture", name: "Posture", start: "Find the best posture", about: "The best spin of the tool and branch along the paths; requires a path.", bounds: "posture" },
-  { id: "advise", name: "Advice", start: "Advise", about: "Placement, spin, cut and compensation that bring a path within the tolerance, each with its gain.", bounds: "place" },
+  { id: "advise", name: "Advice", start: "Advise", about: "Placement, spin, cut and compensation that bring a path within the tolerance, each with its gain.", bounds: null },
   { id: "compensate", name: "Compensation", start: "Compensate", about: "The path to command so that the tool follows the nominal path, as a table and in the program it comes from.", bounds: null },
   { id: "identify", name: "Compliance identification", start: "Identify compliances", about: "Joint compliances from load tests: a table in the folder of the study.", bounds: null },
 ];

@@ -5,8 +5,9 @@
 // | move the part | `plane.centre_mm` (`box.centre_mm`), along the axes of the reference frame |
 // | turn the part | `plane.tilt_deg`, about y; a study with `plane.rotation_deg`: that, about all three axes |
 // | move the tool | the position of the TCP in `tool.flange_from_tool_mm_deg`, along the axes of the flange |
+// | turn the tool | its angles there, about the TCP and the axes of the flange |
 //
-// A drag is measured from its start: the text, not the drawing, has the value.
+// A drag is measured from its start: the text, not the drawing, has the value. The values of the chosen handle can be typed.
 
 import * as THREE from "three";
 import { TransformControls } from "three/addons/controls/TransformControls.js";
@@ -14,7 +15,14 @@ import type { Live } from "../live";
 import type { Axes, Scene, Vec3 } from "../types";
 import type { Stage } from "./stage";
 
-export type Handle = "move part" | "turn part" | "move tool";
+export type Handle = "move part" | "turn part" | "move tool" | "turn tool";
+
+/** The values that a handle changes. */
+export interface HandleValues {
+  unit: "mm" | "°";
+  names: string[];
+  values: number[];
+}
 
 /** Snapped to these, mm and deg. */
 export const SNAP_MM = 10;
@@ -62,7 +70,7 @@ export class Handles {
   possible(handle: Handle): boolean {
     const { values, pose, posture } = this.live;
     if (!values) return false;
-    if (handle === "move tool") return pose?.drawings[posture] !== undefined;
+    if (handle === "move tool" || handle === "turn tool") return pose?.drawings[posture] !== undefined;
     if (handle === "move part") return values.distances_mm === null;
     return values.tilts_deg === null;
   }
@@ -91,11 +99,11 @@ export class Handles {
     }
     this.setSnap(this.snap);
     controls.setSpace("local");
-    controls.setMode(handle === "turn part" ? "rotate" : "translate");
+    controls.setMode(handle.startsWith("turn") ? "rotate" : "translate");
     const all = handle !== "turn part" || live.values!.tilt_deg === null;
     controls.showX = controls.showZ = all;
     controls.showY = true;
-    if (handle === "move tool") {
+    if (handle.endsWith("tool")) {
       const drawing = live.pose!.drawings[live.posture]!;
       proxy.position.set(...drawing.tool_mm);
       proxy.quaternion.copy(rotationOf(drawing.flange_axes));
@@ -116,26 +124,45 @@ export class Handles {
   }
 
   private dragged(): void {
-    const { start, live, proxy } = this;
+    const { start, proxy } = this;
     if (!start || !this.handle) return;
-    if (this.handle === "turn part") return this.turned(start);
+    if (this.handle.startsWith("turn")) return this.turned(start);
     // In the axes of the handle: those of the reference frame, or of the flange.
     const by = proxy.position.clone().sub(start.position).applyQuaternion(start.rotation.clone().invert());
-    if (this.handle === "move tool") {
-      const [x, y, z, ...angles] = start.tool;
-      live.change("tool.flange_from_tool_mm_deg", [rounded(x! + by.x), rounded(y! + by.y), rounded(z! + by.z), ...angles]);
-    } else if (start.centre) {
-      const [x, y, z] = start.centre;
-      live.change(live.values!.centre_key, [rounded(x + by.x), rounded(y + by.y), rounded(z + by.z)]);
-    }
+    const from = this.handle === "move tool" ? start.tool.slice(0, 3) : start.centre;
+    if (from) this.write([from[0]! + by.x, from[1]! + by.y, from[2]! + by.z].map(rounded));
   }
 
-  private turned({ rotation, tilt, turned }: Start): void {
-    // In the axes of the reference frame, at the start of the drag.
+  private turned({ rotation, tilt, turned, tool }: Start): void {
+    // In the axes of the reference frame, or of the flange, at the start of the drag.
     const by = rotation.clone().invert().multiply(this.proxy.quaternion);
-    if (tilt !== null) return this.live.change("plane.tilt_deg", rounded(wrapped(tilt + THREE.MathUtils.radToDeg(2 * Math.atan2(by.y, by.w)))));
-    if (turned === null) return;
-    this.live.change("plane.rotation_deg", anglesOf(by.multiply(rotationBy(turned))));
+    if (this.handle === "turn tool") return this.write(anglesOf(by.multiply(rotationBy(tool.slice(3) as Vec3))));
+    if (tilt !== null) return this.write([rounded(wrapped(tilt + THREE.MathUtils.radToDeg(2 * Math.atan2(by.y, by.w))))]);
+    if (turned !== null) this.write(anglesOf(by.multiply(rotationBy(turned))));
+  }
+
+  /** The values of the chosen handle; null without one. */
+  get values(): HandleValues | null {
+    const { handle, live } = this;
+    const v = live.values;
+    if (handle === null || !v || !this.possible(handle)) return null;
+    const tool = v.flange_from_tool_mm_deg;
+    if (handle === "move part") return { unit: "mm", names: ["x", "y", "z"], values: v.centre_mm };
+    if (handle === "move tool") return { unit: "mm", names: ["x", "y", "z"], values: tool.slice(0, 3) };
+    if (handle === "turn tool") return { unit: "°", names: ["rx", "ry", "rz"], values: tool.slice(3) };
+    return v.rotation_deg ? { unit: "°", names: ["rx", "ry", "rz"], values: v.rotation_deg } : { unit: "°", names: ["tilt"], values: [v.tilt_deg ?? 0] };
+  }
+
+  /** Changes the values of the chosen handle. */
+  write(values: number[]): void {
+    const { handle, live } = this;
+    const v = live.values!;
+    const tool = v.flange_from_tool_mm_deg;
+    if (handle === "move part") live.change(v.centre_key, values);
+    else if (handle === "move tool") live.change("tool.flange_from_tool_mm_deg", [...values, ...tool.slice(3)]);
+    else if (handle === "turn tool") live.change("tool.flange_from_tool_mm_deg", [...tool.slice(0, 3), ...values]);
+    else if (v.rotation_deg) live.change("plane.rotation_deg", values);
+    else live.change("plane.tilt_deg", values[0]);
   }
 }
 

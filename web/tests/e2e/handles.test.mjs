@@ -98,3 +98,31 @@ test("the tool is moved on the flange; its tip is dragged over the plate", async
   assert.deepEqual(page.complaints, []);
   await page.context().close();
 });
+
+test("the tool is turned by a ring; values of a handle are typed next to it", async () => {
+  const page = await open(browser, server.url);
+  const { x, y, ring } = await plate(page);
+  await page.mouse.click(x, y);
+  await settled(page);
+  await page.click("[data-handle='turn tool']");
+  const values = () => page.locator(".handle-fields input").evaluateAll((all) => all.map((box) => Number(box.value)));
+  assert.deepEqual(await values(), [0, 0, 0]);
+  // The axis of the tool is across the picture: its ring is a circle.
+  await drag(page, { x: x + ring * 0.71, y: y - ring * 0.71 }, { x: x + ring * 0.71 + 60, y: y - ring * 0.71 + 60 });
+  const turned = await values();
+  assert.ok(turned.some((deg) => deg !== 0) && turned.every((deg) => deg % 5 === 0), turned.join());
+  await page.keyboard.press("Control+z");
+  await settled(page);
+  assert.deepEqual(await values(), [0, 0, 0]);
+  await page.getByLabel("rz, °").fill("30");
+  await settled(page);
+  assert.deepEqual(await values(), [0, 0, 30]);
+  await page.getByLabel("rz, °").fill("x");
+  assert.equal(await page.getByLabel("rz, °").getAttribute("aria-invalid"), "true");
+  await page.click("[data-handle='move part']");
+  await page.getByLabel("z, mm", { exact: true }).fill("950");
+  await settled(page);
+  assert.equal(await value(page, "z"), 950);
+  assert.deepEqual(page.complaints, []);
+  await page.context().close();
+});
