@@ -199,8 +199,11 @@ export function spinMap(live: Live): HTMLElement {
   });
 
   root.addEventListener("toggle", () => {
-    if ((root as HTMLDetailsElement).open && isPath()) source.want();
+    const { open } = root as HTMLDetailsElement;
+    if (open && isPath()) source.want();
     draw();
+    // It may open below what is seen.
+    if (open) root.scrollIntoView({ block: "nearest" });
   });
   live.listen(["answer"], () => {
     // What the study has now.

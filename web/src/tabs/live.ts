@@ -36,7 +36,7 @@ export function liveTab(live: Live, jobs: JobStore): Tab & { view: SceneView } {
     "div",
     { class: "live" },
     h("aside", { class: "left", "aria-label": "Settings" }, controls(live)),
-    h("div", { class: "middle" }, verdict(live, () => view.fit()), advice(live, jobs), host, new Timeline(live).root, spinMap(live)),
+    h("div", { class: "middle" }, verdict(live, () => view.fit()), advice(live, jobs), host, h("div", { class: "under" }, new Timeline(live).root, spinMap(live))),
     right,
   );
   host.append(overlay(view, live));

@@ -1,12 +1,9 @@
 // A pinned state in the scene: its arm, the difference to its values, and the change in the verdict; by keyboard.
 
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
-import { createRequire } from "node:module";
 import { after, before, test } from "node:test";
-import { difference, launch, open, serve, settled } from "./setup.mjs";
+import { difference, launch, open, serious, serve, settled } from "./setup.mjs";
 
-const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 let server, browser;
 before(async () => {
   server = await serve();
@@ -113,9 +110,7 @@ for (const [name, width, height, dark] of [["a desk", 1280, 800, true], ["a tabl
       tall: [...document.querySelectorAll(".verdict")].filter((e) => e.scrollHeight > e.clientHeight + 1).length,
     }));
     assert.deepEqual(cut, { page: 0, beside: [], tall: 0 });
-    await page.evaluate(axe);
-    const found = await page.evaluate(async () => (await axe.run({ resultTypes: ["violations"] })).violations.filter((v) => ["serious", "critical"].includes(v.impact)).map((v) => `${v.id}: ${v.nodes.map((n) => n.html.slice(0, 120)).join(" | ")}`));
-    assert.deepEqual(found, []);
+    assert.deepEqual(await serious(page), []);
     assert.deepEqual(page.complaints, []);
     await page.context().close();
   });

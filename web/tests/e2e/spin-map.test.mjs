@@ -2,11 +2,9 @@
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { createRequire } from "node:module";
 import { after, before, test } from "node:test";
-import { client, launch, open, serve, settled, um } from "./setup.mjs";
+import { client, launch, open, serious, serve, settled, um } from "./setup.mjs";
 
-const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 // A spindle across the flange: a spin moves the wrist.
 const STUDY = `format = 1
 title = "Circle"
@@ -39,16 +37,12 @@ after(async () => {
   await server?.stop();
 });
 
-const serious = async (page) => {
-  await page.evaluate(axe);
-  return page.evaluate(async () => (await axe.run({ resultTypes: ["violations"] })).violations.filter((v) => ["serious", "critical"].includes(v.impact)).map((v) => `${v.id}: ${v.nodes.map((n) => n.html.slice(0, 120)).join(" | ")}`));
-};
-
 /** The page with the map opened by keyboard. */
 async function opened(size = {}) {
   const page = await open(browser, server.url, size);
   await page.locator("#panel-spin-map > summary").press("Enter");
   await page.locator(".spin-knot").first().waitFor();
+  await page.locator(".spin-plot").scrollIntoViewIfNeeded();
   return page;
 }
 
