@@ -251,8 +251,7 @@ export class Live {
 
   /** Changes of several keys that are one step; `whole`: keys of the study, not of the analysis. */
   changeTogether(values: Record<string, unknown>, whole = false): void {
-    for (const [key, value] of Object.entries(values)) this.pending.set(whole ? `\n${key}` : key, value);
-    this.refresh();
+    this.changeAll(Object.entries(values).map(([key, value]) => ({ key, value, whole })));
   }
 
   /** Changes of several keys, of the analysis or of the study, that are one step. */

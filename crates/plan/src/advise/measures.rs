@@ -10,11 +10,13 @@ use super::answer::AdviceAnswer;
 use crate::measure::Measure;
 
 /// In the order of the steps, then the permitted cut and the compensation; `placement`: the
-/// changes of the placement; `process`: that of the study.
+/// changes of the placement; `process`: that of the study; `searches`: whether
+/// the study has a search for spins already, whose options are to stay.
 pub(super) fn measures(
     answer: &AdviceAnswer,
     placement: Vec<ChangedValue>,
     process: Option<&ProcessValues>,
+    searches: bool,
 ) -> Vec<Measure> {
     let name = || Some(answer.analysis.clone());
     let gain_of = |step: &str| answer.steps.iter().find(|one| one.step == step)?.gain_in_words();
@@ -30,7 +32,7 @@ pub(super) fn measures(
             changes: placement,
         });
     }
-    if let Some(turns) = &answer.turns {
+    if let Some(turns) = answer.turns.as_ref().filter(|_| !searches) {
         all.push(Measure {
             measure: "spin",
             sentence: with_gain(

@@ -174,10 +174,13 @@ pub fn advise(
         compliance_assumed: study.compliance_is_assumed(),
     };
     answer.advice = answer.sentences();
+    let searches = study
+        .paths(Some(name))
+        .any(|(_, path)| path.setting.search.is_some());
     let process = process_values(text_of(found), Some(name))?;
     let files = AdvisedFiles::of(&file, &placed, turns, &answer.steps, commanded)?;
     Ok(Advice {
-        measures: measures::measures(&answer, placed.changes(found)?, process.as_ref()),
+        measures: measures::measures(&answer, placed.changes(found)?, process.as_ref(), searches),
         answer,
         pictures: placed.pictures,
         study: advised.clone(),
