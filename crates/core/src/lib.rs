@@ -15,6 +15,7 @@
 
 pub mod budget;
 pub mod calibrate;
+pub mod clearance;
 pub mod compliance;
 pub mod frame;
 pub mod identify;

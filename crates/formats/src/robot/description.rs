@@ -3,6 +3,7 @@
 //! Each format gives one: our own robot file fills all of it, a foreign one has one source for everything and states in
 //! `remarks` what it assumed.
 
+use armill_core::clearance::ArmBody;
 use armill_core::robot::Robot;
 
 use crate::controller::ControllerTable;
@@ -27,6 +28,10 @@ pub struct RobotDescription {
     pub symbols: Vec<Symbol>,
     /// What else is known of each joint, in the order of the robot's.
     pub joint_notes: Vec<JointNote>,
+    /// Bodies of its links.
+    pub bodies: Vec<ArmBody>,
+    /// Pairs of these bodies that are apart in every posture, by index.
+    pub apart: Vec<[usize; 2]>,
     /// Every source, in the order of their keys.
     pub sources: Vec<Source>,
 }
@@ -75,6 +80,8 @@ impl RobotDescription {
             controller: None,
             symbols: vec![None; robot.chain().motions().len()],
             joint_notes: vec![note; robot.joints().len()],
+            bodies: Vec::new(),
+            apart: Vec::new(),
             sources: vec![Source {
                 key: key.to_owned(),
                 what: what.to_owned(),

@@ -12,8 +12,8 @@
 //! has a `read`, or a `read_to_tip` where there are links to choose from, and tests with broken input.
 //! [`format`](mod@format) detects which of them a file is, and reads it.
 //!
-//! [`spring_tables`]: tables of springs and masses, which studies have as well. [`pendant`]: what a pendant
-//! shows.
+//! [`spring_tables`] and [`shape_tables`]: tables of springs, masses and shapes, which studies have as well.
+//! [`pendant`]: what a pendant shows.
 //! `description`: what all of them give.
 
 pub mod armill;
@@ -22,6 +22,7 @@ pub mod dh;
 pub mod format;
 pub mod opw;
 pub mod pendant;
+pub mod shape_tables;
 pub mod spring_tables;
 pub mod urdf;
 #[cfg(feature = "xacro")]

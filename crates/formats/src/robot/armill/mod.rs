@@ -92,6 +92,8 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
             .into_iter()
             .map(|motion| motion.symbol)
             .collect(),
+        bodies: Vec::new(),
+        apart: Vec::new(),
         joint_notes: file.joint.into_iter().map(joint_note).collect(),
         sources: sources::listed(file.sources),
     })

@@ -1,0 +1,371 @@
+//! A triangle mesh with a tree of boxes: distances to convex bodies, to points and to other meshes.
+//!
+//! A closed mesh is a solid: what is inside of it touches it. An open mesh is a surface only.
+//!
+//! Each node of the tree has a box around its triangles; subtrees whose bound exceeds the nearest distance found so far are left
+//! out. Distances in m, in the frame of the mesh; exact but for rounding.
+
+use nalgebra::{IsometryMatrix3, Matrix3, Point3, Vector3};
+
+use super::bounds::{Bounds, Capsule};
+use super::convex::{Convex, Core, rounded};
+use super::nearest::{Nearest, Segment, Triangle};
+
+/// Most triangles of a leaf of the tree.
+const LEAF: usize = 4;
+
+/// Directions of the rays that decide whether a point is inside: not along edges and faces of usual parts.
+const RAYS: [Vector3<f64>; 3] = [
+    Vector3::new(0.577_1, 0.288_3, 0.764_1),
+    Vector3::new(-0.411_7, 0.831_9, 0.372_3),
+    Vector3::new(0.313_1, -0.517_3, 0.796_5),
+];
+
+/// A triangle mesh.
+#[derive(Clone, Debug)]
+pub struct Mesh {
+    /// In the order of the leaves.
+    triangles: Vec<Triangle>,
+    nodes: Vec<Node>,
+    hull: Capsule,
+    closed: bool,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Node {
+    bounds: Bounds,
+    /// The first triangle of a leaf, else the first of two children, one after the other.
+    first: u32,
+    /// Triangles of a leaf; 0 of an inner node.
+    count: u32,
+}
+
+impl Mesh {
+    /// The mesh of these triangles, m; `closed` if they enclose a solid. `None` without any triangle.
+    ///
+    /// Not checked: that a closed mesh has no open edge.
+    pub fn new(triangles: Vec<[Point3<f64>; 3]>, closed: bool) -> Option<Mesh> {
+        if triangles.is_empty() || u32::try_from(2 * triangles.len()).is_err() {
+            return None;
+        }
+        let mut triangles: Vec<Triangle> = triangles.into_iter().map(Triangle).collect();
+        let mut nodes = vec![Node {
+            bounds: Bounds::EMPTY,
+            first: 0,
+            count: triangles.len() as u32,
+        }];
+        let mut open = vec![0_usize];
+        while let Some(index) = open.pop() {
+            let (start, count) = (nodes[index].first as usize, nodes[index].count as usize);
+            let own = &mut triangles[start..start + count];
+            nodes[index].bounds = Bounds::of(own.iter().flat_map(|triangle| triangle.0));
+            if count <= LEAF {
+                continue;
+            }
+            let centres = Bounds::of(own.iter().map(centre));
+            let axis = centres.half().imax();
+            let middle = count / 2;
+            own.select_nth_unstable_by(middle, |a, b| centre(a)[axis].total_cmp(&centre(b)[axis]));
+            let children = nodes.len();
+            for (first, count) in [(start, middle), (start + middle, count - middle)] {
+                nodes.push(Node {
+                    bounds: Bounds::EMPTY,
+                    first: first as u32,
+                    count: count as u32,
+                });
+            }
+            nodes[index].first = children as u32;
+            nodes[index].count = 0;
+            open.extend([children, children + 1]);
+        }
+        let points: Vec<_> = triangles.iter().flat_map(|triangle| triangle.0).collect();
+        let hull = enclosing_capsule(&points);
+        Some(Mesh {
+            triangles,
+            nodes,
+            hull,
+            closed,
+        })
+    }
+
+    /// Its triangles, m, in an order of its own.
+    pub fn triangles(&self) -> &[Triangle] {
+        &self.triangles
+    }
+
+    /// Whether it encloses a solid.
+    pub fn is_closed(&self) -> bool {
+        self.closed
+    }
+
+    /// The box around it.
+    pub fn bounds(&self) -> &Bounds {
+        &self.nodes[0].bounds
+    }
+
+    /// A capsule around it.
+    pub fn hull(&self) -> &Capsule {
+        &self.hull
+    }
+
+    fn leaf(&self, node: &Node) -> &[Triangle] {
+        &self.triangles[node.first as usize..][..node.count as usize]
+    }
+
+    /// Whether a point is inside of a closed mesh; `false` of an open one.
+    pub fn contains(&self, point: &Point3<f64>) -> bool {
+        if !self.closed || self.bounds().distance_of(point) > 0.0 {
+            return false;
+        }
+        let inside = RAYS
+            .iter()
+            .filter(|ray| self.crossings(point, ray) % 2 == 1)
+            .count();
+        2 * inside > RAYS.len()
+    }
+
+    /// How many triangles the ray from `point` crosses.
+    fn crossings(&self, point: &Point3<f64>, ray: &Vector3<f64>) -> usize {
+        let mut count = 0;
+        let mut open = vec![0_u32];
+        while let Some(index) = open.pop() {
+            let node = &self.nodes[index as usize];
+            if !meets(&node.bounds, point, ray) {
+                continue;
+            }
+            if node.count == 0 {
+                open.extend([node.first, node.first + 1]);
+                continue;
+            }
+            count += self
+                .leaf(node)
+                .iter()
+                .filter(|triangle| is_crossed(triangle, point, ray))
+                .count();
+        }
+        count
+    }
+
+    /// The nearest points of a convex body (in the frame of the mesh) and this mesh, that of the body first; `None`
+    /// where they are farther apart than `limit`, m.
+    pub fn nearest_to_convex(&self, body: &Convex, hull: &Capsule, limit: f64) -> Option<Nearest> {
+        let mut best: Option<Nearest> = None;
+        let mut limit = limit;
+        let mut open = vec![(hull.bound_to(self.bounds()), 0_u32)];
+        while let Some((bound, index)) = open.pop() {
+            if bound > limit {
+                continue;
+            }
+            let node = &self.nodes[index as usize];
+            if node.count == 0 {
+                let children = [node.first, node.first + 1]
+                    .map(|child| (hull.bound_to(&self.nodes[child as usize].bounds), child));
+                open.extend(farther_first(children));
+                continue;
+            }
+            for triangle in self.leaf(node) {
+                let found = match &body.core {
+                    Core::Segment(segment) => rounded(triangle.nearest_to_segment(segment), body.radius, 0.0),
+                    _ => body.nearest(&Convex {
+                        core: Core::Triangle(*triangle),
+                        radius: 0.0,
+                    }),
+                };
+                if found.distance < limit || (best.is_none() && found.distance <= limit) {
+                    if found.distance == 0.0 {
+                        return Some(found);
+                    }
+                    limit = found.distance;
+                    best = Some(found);
+                }
+            }
+        }
+        let inner = body.core.inner_point();
+        if self.contains(&inner) {
+            return Some(Nearest::touching(inner));
+        }
+        best
+    }
+
+    /// The nearest points of this mesh and another one, whose frame is at `from_other`; in the frame of this mesh; `None`
+    /// where they are farther apart than `limit`, m.
+    pub fn nearest_to_mesh(
+        &self,
+        other: &Mesh,
+        from_other: &IsometryMatrix3<f64>,
+        limit: f64,
+    ) -> Option<Nearest> {
+        let frames = Frames::of(from_other);
+        let mut best: Option<Nearest> = None;
+        let mut limit = limit;
+        let mut open = vec![(frames.bound(self.bounds(), other.bounds()), 0_u32, 0_u32)];
+        while let Some((bound, own, others)) = open.pop() {
+            if bound > limit {
+                continue;
+            }
+            let (first, second) = (&self.nodes[own as usize], &other.nodes[others as usize]);
+            if first.count > 0 && second.count > 0 {
+                for theirs in other.leaf(second) {
+                    let theirs = Triangle(theirs.0.map(|corner| from_other * corner));
+                    for ours in self.leaf(first) {
+                        let found = ours.nearest(&theirs);
+                        if found.distance < limit || (best.is_none() && found.distance <= limit) {
+                            if found.distance == 0.0 {
+                                return Some(found);
+                            }
+                            limit = found.distance;
+                            best = Some(found);
+                        }
+                    }
+                }
+                continue;
+            }
+            // The larger one of two inner nodes is opened.
+            let opens_first = second.count > 0
+                || (first.count == 0 && first.bounds.half().norm() > second.bounds.half().norm());
+            let children = if opens_first {
+                [first.first, first.first + 1].map(|child| {
+                    let bound = frames.bound(&self.nodes[child as usize].bounds, &second.bounds);
+                    (bound, (child, others))
+                })
+            } else {
+                [second.first, second.first + 1].map(|child| {
+                    let bound = frames.bound(&first.bounds, &other.nodes[child as usize].bounds);
+                    (bound, (own, child))
+                })
+            };
+            open.extend(farther_first(children).map(|(bound, nodes)| (bound, nodes.0, nodes.1)));
+        }
+        let theirs = from_other * other.triangles[0].0[0];
+        if self.contains(&theirs) {
+            return Some(Nearest::touching(theirs));
+        }
+        let ours = self.triangles[0].0[0];
+        if other.contains(&from_other.inverse_transform_point(&ours)) {
+            return Some(Nearest::touching(ours));
+        }
+        best
+    }
+}
+
+/// Two frames of meshes.
+struct Frames {
+    from_other: IsometryMatrix3<f64>,
+    to_other: IsometryMatrix3<f64>,
+    turn: Matrix3<f64>,
+    back: Matrix3<f64>,
+}
+
+impl Frames {
+    fn of(from_other: &IsometryMatrix3<f64>) -> Frames {
+        let turn = from_other.rotation.matrix().abs();
+        Frames {
+            from_other: *from_other,
+            to_other: from_other.inverse(),
+            back: turn.transpose(),
+            turn,
+        }
+    }
+
+    /// A lower bound of the distance between whatever is in a box of this mesh and in a box of the other, m.
+    fn bound(&self, own: &Bounds, others: &Bounds) -> f64 {
+        let here = own.distance(&others.moved(&self.from_other, &self.turn));
+        let there = own.moved(&self.to_other, &self.back).distance(others);
+        here.max(there)
+    }
+}
+
+/// In the order of a stack: the nearer one is taken first.
+fn farther_first<T: Copy>(children: [(f64, T); 2]) -> [(f64, T); 2] {
+    let [first, second] = children;
+    if first.0 <= second.0 {
+        [second, first]
+    } else {
+        children
+    }
+}
+
+fn centre(triangle: &Triangle) -> Point3<f64> {
+    let [a, b, c] = triangle.0;
+    Point3::from((a.coords + b.coords + c.coords) / 3.0)
+}
+
+/// Whether the ray meets the box.
+fn meets(bounds: &Bounds, from: &Point3<f64>, ray: &Vector3<f64>) -> bool {
+    let (mut near, mut far) = (0.0_f64, f64::INFINITY);
+    for axis in 0..3 {
+        let (one, other) = (
+            (bounds.least[axis] - from[axis]) / ray[axis],
+            (bounds.greatest[axis] - from[axis]) / ray[axis],
+        );
+        near = near.max(one.min(other));
+        far = far.min(one.max(other));
+    }
+    near <= far
+}
+
+/// Whether the ray crosses the triangle (Moller & Trumbore 1997, *Fast, minimum storage ray/triangle intersection*).
+fn is_crossed(triangle: &Triangle, from: &Point3<f64>, ray: &Vector3<f64>) -> bool {
+    let [a, b, c] = triangle.0;
+    let (ab, ac) = (b - a, c - a);
+    let p = ray.cross(&ac);
+    let determinant = ab.dot(&p);
+    if determinant == 0.0 {
+        return false;
+    }
+    let s = from - a;
+    let u = s.dot(&p) / determinant;
+    let q = s.cross(&ab);
+    let v = ray.dot(&q) / determinant;
+    u >= 0.0 && v >= 0.0 && u + v <= 1.0 && ac.dot(&q) / determinant > 0.0
+}
+
+/// A capsule around these points, about the longest of their principal axes.
+fn enclosing_capsule(points: &[Point3<f64>]) -> Capsule {
+    let mean = points.iter().map(|point| point.coords).sum::<Vector3<f64>>() / points.len() as f64;
+    let spread = points.iter().fold(Matrix3::zeros(), |sum, point| {
+        let d = point.coords - mean;
+        sum + d * d.transpose()
+    });
+    let directions = spread.symmetric_eigen().eigenvectors;
+    // Vertices are not spread evenly over a surface: the axes of the frame are tried as well.
+    let tries =
+        (0..3)
+            .map(|i| directions.column(i).into_owned())
+            .chain([Vector3::x(), Vector3::y(), Vector3::z()]);
+    let centre = Bounds::of(points.iter().copied()).centre();
+    let capsules = tries.flat_map(|direction| {
+        [centre, mean.into()].map(|through: Point3<f64>| {
+            Capsule::around(
+                points,
+                &Segment {
+                    from: through,
+                    to: through + direction,
+                },
+            )
+        })
+    });
+    let volume = |capsule: &Capsule| {
+        let r = capsule.radius;
+        r * r * (2.0 * capsule.axis.half_length() + 4.0 / 3.0 * r)
+    };
+    let mut best: Option<Capsule> = None;
+    for capsule in capsules {
+        if best.is_none_or(|best| volume(&capsule) < volume(&best)) {
+            best = Some(capsule);
+        }
+    }
+    let mut best = best.unwrap_or(Capsule {
+        axis: Segment {
+            from: centre,
+            to: centre,
+        },
+        radius: 0.0,
+    });
+    // Rounding must not leave a point outside.
+    best.radius += 1e-9 * (1.0 + best.radius + 2.0 * best.axis.half_length());
+    best
+}
+
+#[cfg(test)]
+mod tests;
