@@ -96,6 +96,15 @@ impl Bounds {
         Vector3::new(gap(0), gap(1), gap(2)).norm()
     }
 
+    /// How far it reaches against and along a direction, m: the least and the greatest product with its points.
+    pub fn extent(&self, direction: &Vector3<f64>) -> [f64; 2] {
+        let (middle, half) = (
+            direction.dot(&self.centre().coords),
+            direction.abs().dot(&self.half()),
+        );
+        [middle - half, middle + half]
+    }
+
     /// A box around this one, seen from another frame; `turn` is the rotation of `by` without signs.
     pub fn moved(&self, by: &IsometryMatrix3<f64>, turn: &Matrix3<f64>) -> Bounds {
         let (centre, half) = (by * self.centre(), turn * self.half());
@@ -127,6 +136,15 @@ impl Capsule {
     /// The box around it.
     pub fn bounds(&self) -> Bounds {
         Bounds::of([self.axis.from, self.axis.to]).grown(self.radius)
+    }
+
+    /// How far it reaches against and along a direction (unit, or zero), m.
+    pub fn extent(&self, direction: &Vector3<f64>) -> [f64; 2] {
+        let ends = [self.axis.from, self.axis.to].map(|end| direction.dot(&end.coords));
+        [
+            ends[0].min(ends[1]) - self.radius,
+            ends[0].max(ends[1]) + self.radius,
+        ]
     }
 
     /// A lower bound of the distance to whatever is inside of the box, m; may be negative.

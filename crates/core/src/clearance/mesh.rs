@@ -149,14 +149,18 @@ impl Mesh {
     /// The nearest points of a convex body (in the frame of the mesh) and this mesh, that of the body first; `None`
     /// where they are farther apart than `limit`, m.
     pub fn nearest_to_convex(&self, body: &Convex, hull: &Capsule, limit: f64) -> Option<Nearest> {
-        let mut best: Option<Nearest> = None;
-        let mut limit = limit;
+        let inner = body.core.inner_point();
+        if self.contains(&inner) {
+            return Some(Nearest::touching(inner));
+        }
+        let mut best = Best::within(limit);
         let mut open = vec![(hull.bound_to(self.bounds()), 0_u32)];
         while let Some((bound, index)) = open.pop() {
-            if bound > limit {
+            let node = &self.nodes[index as usize];
+            let reach = hull.extent(&best.direction)[1];
+            if best.excludes(bound) || best.excludes(node.bounds.extent(&best.direction)[0] - reach) {
                 continue;
             }
-            let node = &self.nodes[index as usize];
             if node.count == 0 {
                 let children = [node.first, node.first + 1]
                     .map(|child| (hull.bound_to(&self.nodes[child as usize].bounds), child));
@@ -164,27 +168,23 @@ impl Mesh {
                 continue;
             }
             for triangle in self.leaf(node) {
-                let found = match &body.core {
+                let reach = hull.extent(&best.direction)[1];
+                if best.excludes(triangle.extent(&best.direction)[0] - reach) {
+                    continue;
+                }
+                best.take(match &body.core {
                     Core::Segment(segment) => rounded(triangle.nearest_to_segment(segment), body.radius, 0.0),
                     _ => body.nearest(&Convex {
                         core: Core::Triangle(*triangle),
                         radius: 0.0,
                     }),
-                };
-                if found.distance < limit || (best.is_none() && found.distance <= limit) {
-                    if found.distance == 0.0 {
-                        return Some(found);
-                    }
-                    limit = found.distance;
-                    best = Some(found);
+                });
+                if best.touches() {
+                    return best.found;
                 }
             }
         }
-        let inner = body.core.inner_point();
-        if self.contains(&inner) {
-            return Some(Nearest::touching(inner));
-        }
-        best
+        best.found
     }
 
     /// The nearest points of this mesh and another one, whose frame is at `from_other`; in the frame of this mesh; `None`
@@ -195,26 +195,35 @@ impl Mesh {
         from_other: &IsometryMatrix3<f64>,
         limit: f64,
     ) -> Option<Nearest> {
+        let theirs = from_other * other.triangles[0].0[0];
+        if self.contains(&theirs) {
+            return Some(Nearest::touching(theirs));
+        }
+        let ours = self.triangles[0].0[0];
+        if other.contains(&from_other.inverse_transform_point(&ours)) {
+            return Some(Nearest::touching(ours));
+        }
         let frames = Frames::of(from_other);
-        let mut best: Option<Nearest> = None;
-        let mut limit = limit;
+        let mut best = Best::within(limit);
         let mut open = vec![(frames.bound(self.bounds(), other.bounds()), 0_u32, 0_u32)];
         while let Some((bound, own, others)) = open.pop() {
-            if bound > limit {
+            let (first, second) = (&self.nodes[own as usize], &other.nodes[others as usize]);
+            if best.excludes(bound)
+                || best.excludes(frames.gap(&first.bounds, &second.bounds, &best.direction))
+            {
                 continue;
             }
-            let (first, second) = (&self.nodes[own as usize], &other.nodes[others as usize]);
             if first.count > 0 && second.count > 0 {
                 for theirs in other.leaf(second) {
                     let theirs = Triangle(theirs.0.map(|corner| from_other * corner));
                     for ours in self.leaf(first) {
-                        let found = ours.nearest(&theirs);
-                        if found.distance < limit || (best.is_none() && found.distance <= limit) {
-                            if found.distance == 0.0 {
-                                return Some(found);
-                            }
-                            limit = found.distance;
-                            best = Some(found);
+                        let direction = &best.direction;
+                        if best.excludes(theirs.extent(direction)[0] - ours.extent(direction)[1]) {
+                            continue;
+                        }
+                        best.take(ours.nearest(&theirs));
+                        if best.touches() {
+                            return best.found;
                         }
                     }
                 }
@@ -236,15 +245,45 @@ impl Mesh {
             };
             open.extend(farther_first(children).map(|(bound, nodes)| (bound, nodes.0, nodes.1)));
         }
-        let theirs = from_other * other.triangles[0].0[0];
-        if self.contains(&theirs) {
-            return Some(Nearest::touching(theirs));
+        best.found
+    }
+}
+
+/// The nearest points found so far.
+struct Best {
+    found: Option<Nearest>,
+    limit: f64,
+    /// From the first body to the second, unit; zero while nothing is found. Whatever lies beyond the found distance along it
+    /// cannot be nearer.
+    direction: Vector3<f64>,
+}
+
+impl Best {
+    fn within(limit: f64) -> Best {
+        Best {
+            found: None,
+            limit,
+            direction: Vector3::zeros(),
         }
-        let ours = self.triangles[0].0[0];
-        if other.contains(&from_other.inverse_transform_point(&ours)) {
-            return Some(Nearest::touching(ours));
+    }
+
+    /// Whether bodies at least this far apart are of no use.
+    fn excludes(&self, bound: f64) -> bool {
+        bound > self.limit || (self.found.is_some() && bound >= self.limit)
+    }
+
+    fn take(&mut self, found: Nearest) {
+        if self.excludes(found.distance) {
+            return;
         }
-        best
+        let [from, to] = found.points;
+        self.limit = found.distance;
+        self.direction = (to - from).try_normalize(0.0).unwrap_or_else(Vector3::zeros);
+        self.found = Some(found);
+    }
+
+    fn touches(&self) -> bool {
+        self.found.is_some_and(|found| found.distance == 0.0)
     }
 }
 
@@ -272,6 +311,13 @@ impl Frames {
         let here = own.distance(&others.moved(&self.from_other, &self.turn));
         let there = own.moved(&self.to_other, &self.back).distance(others);
         here.max(there)
+    }
+
+    /// The gap between them along a direction of this mesh's frame.
+    fn gap(&self, own: &Bounds, others: &Bounds, direction: &Vector3<f64>) -> f64 {
+        let there = self.to_other.rotation * direction;
+        let offset = direction.dot(&self.from_other.translation.vector);
+        others.extent(&there)[0] + offset - own.extent(direction)[1]
     }
 }
 

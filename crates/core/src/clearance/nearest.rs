@@ -195,6 +195,17 @@ impl Triangle {
         best
     }
 
+    /// How far it reaches against and along a direction, m: the least and the greatest product with its corners.
+    pub fn extent(&self, direction: &Vector3<f64>) -> [f64; 2] {
+        self.range(|corner| direction.dot(&corner.coords))
+    }
+
+    /// The least and the greatest value of its corners.
+    fn range(&self, value: impl Fn(&Point3<f64>) -> f64) -> [f64; 2] {
+        let [a, b, c] = self.0.each_ref().map(value);
+        [a.min(b).min(c), a.max(b).max(c)]
+    }
+
     /// The nearest points of two triangles.
     pub fn nearest(&self, other: &Triangle) -> Nearest {
         let mut best: Option<Nearest> = None;
