@@ -95,6 +95,7 @@ impl Arm {
             cases: &self.cases,
             normal: Unit::new_unchecked(NORMAL.into()),
             choice,
+            clearance: None,
         }
     }
 

@@ -145,6 +145,7 @@ impl Other {
             cases: &self.cases,
             normal: Unit::new_unchecked(NORMAL.into()),
             choice,
+            clearance: None,
             uncertainty: InputUncertainty::NONE,
         };
         plane_map(&question, self.plane, grid, Watch::NONE).ok()

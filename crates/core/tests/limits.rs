@@ -95,6 +95,7 @@ fn limits(
         uncertainty: InputUncertainty::NONE,
         normal: Vector3::z_axis(),
         choice: FRONT,
+        clearance: None,
     };
     let path = SampledPath {
         operations: operations.to_vec(),
@@ -210,6 +211,7 @@ fn a_load_for_fewer_points_than_the_track_is_refused() {
         uncertainty: InputUncertainty::NONE,
         normal: Vector3::z_axis(),
         choice: FRONT,
+        clearance: None,
     };
     let short = PathLoad::OfEach {
         cases: 1,
@@ -238,6 +240,7 @@ fn counts_of_a_plane_that_is_partly_out_of_reach_add_up_to_its_points() {
         uncertainty: InputUncertainty::NONE,
         normal: plane.normal(),
         choice: FRONT,
+        clearance: None,
     };
     let map = plane_map(&question, plane, grid, Watch::NONE).unwrap();
     let reached = map.answers.evaluations().count();

@@ -51,6 +51,7 @@ fn analysis<T>(
         cases: &cases,
         normal: plane.normal(),
         choice,
+        clearance: None,
     })
 }
 
@@ -91,6 +92,7 @@ fn probability_and_robust_region_agree_with_arms_of_random_compliances() {
                 cases,
                 normal: plane.normal(),
                 choice: branch("front elbow-up"),
+                clearance: None,
             };
             plane_map(&question, plane, grid, Watch::NONE).unwrap()
         };
@@ -170,6 +172,7 @@ fn uncertainty_of_load_and_tool_agrees_with_changed_loads_and_tools() {
                 uncertainty: *uncertainty,
                 normal: plane.normal(),
                 choice: branch("front elbow-up"),
+                clearance: None,
             };
             let map = plane_map(&question, plane, Grid::within([0.3, 0.3], 0.1), Watch::NONE).unwrap();
             let answers = map.answers.evaluations().map(|(index, evaluation)| {

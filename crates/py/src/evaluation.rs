@@ -91,6 +91,7 @@ pub(crate) fn evaluate(
             None => against_tool(py, &poses)?,
         },
         choice: choice(py, robot, options.branch)?,
+        clearance: None,
     };
     let (matrices, count) = (poses.values(), poses.batch.count);
     let samples = &*springs.samples;

@@ -8,7 +8,7 @@
 //! | a cutter and the part | no: it cuts it |
 //! | a holder and the part, the arm and anything that stands still | yes |
 
-use nalgebra::{IsometryMatrix3, Point3};
+use nalgebra::IsometryMatrix3;
 
 use super::bounds::{Bounds, Capsule};
 use super::field::Field;
@@ -231,6 +231,56 @@ fn matrix(isometry: &Isometry) -> IsometryMatrix3<f64> {
     nalgebra::convert(*isometry)
 }
 
+/// A clearance that postures must keep.
+#[derive(Clone, Copy, Debug)]
+pub struct DemandedClearance<'a> {
+    /// The bodies.
+    pub cell: &'a Cell,
+    /// The least distance, m; with 0 bodies must not touch.
+    pub least: f64,
+}
+
+/// Two bodies that are nearer than demanded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Conflict {
+    /// How much of the demanded clearance is missing, m.
+    pub missing: f64,
+    /// The two bodies: indices of [`Cell::name`].
+    pub bodies: [usize; 2],
+}
+
+/// Checks postures for a demanded clearance; one per thread.
+#[derive(Clone, Debug)]
+pub struct ClearanceCheck<'a> {
+    state: CellState<'a>,
+    least: f64,
+}
+
+impl<'a> ClearanceCheck<'a> {
+    /// For this arm and tool.
+    pub fn new(
+        demanded: DemandedClearance<'a>,
+        robot: &'a Robot,
+        flange_from_tool: &Isometry,
+    ) -> ClearanceCheck<'a> {
+        ClearanceCheck {
+            state: CellState::new(demanded.cell, robot, flange_from_tool),
+            least: demanded.least,
+        }
+    }
+
+    /// The two bodies that are nearest, if they are nearer than demanded at these joint positions, rad (m).
+    pub fn conflict(&mut self, joints: &[f64]) -> Option<Conflict> {
+        self.state.set_joints(joints);
+        let found = self.state.clearance(self.least)?;
+        let distance = found.nearest.distance;
+        (distance < self.least || distance == 0.0).then_some(Conflict {
+            missing: self.least - distance,
+            bodies: found.bodies,
+        })
+    }
+}
+
 /// The bodies of a cell with the arm in one posture. Made once, used for any number of postures.
 #[derive(Clone, Debug)]
 pub struct CellState<'a> {
@@ -289,12 +339,6 @@ impl<'a> CellState<'a> {
     fn nearest_of_arm(&self, pair: [usize; 2], limit: f64) -> Option<Nearest> {
         let [first, second] = pair.map(|index| self.placed(index));
         first.nearest(&second, limit)
-    }
-
-    /// Whether no two bodies are nearer than `demanded`, m. Faster than [`CellState::clearance`].
-    pub fn is_clear(&mut self, demanded: f64) -> bool {
-        self.clearance(demanded)
-            .is_none_or(|found| found.nearest.distance >= demanded && found.nearest.distance > 0.0)
     }
 
     /// The least distance of all pairs of bodies that are checked; `None` where it is above `limit`, m, or where there is none.
@@ -384,16 +428,6 @@ impl<'a> CellState<'a> {
             }
         }
         best
-    }
-
-    /// Where a point of the arm is at most, relative to the base: for bounds of its motion.
-    pub fn hulls(&self) -> &[Capsule] {
-        &self.hulls
-    }
-
-    /// Joint frames of the posture.
-    pub fn origin(&self, joint: usize) -> Point3<f64> {
-        self.frames.origin(joint)
     }
 }
 

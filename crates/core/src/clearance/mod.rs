@@ -16,7 +16,9 @@ pub mod nearest;
 pub mod shape;
 
 pub use bounds::{Bounds, Capsule};
-pub use cell::{ArmBody, Cell, CellState, Clearance, FixedBody, Role};
+pub use cell::{
+    ArmBody, Cell, CellState, Clearance, ClearanceCheck, Conflict, DemandedClearance, FixedBody, Role,
+};
 pub use mesh::Mesh;
 pub use nearest::{Nearest, Segment, Triangle};
 pub use shape::Shape;

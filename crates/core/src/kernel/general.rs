@@ -7,6 +7,7 @@ use nalgebra::Vector3;
 
 use super::answer::{ALIKE, AnswerDetail, Evaluation};
 use super::question::{BranchChoice, Question};
+use crate::clearance::ClearanceCheck;
 use crate::frame::{Isometry, both_across};
 use crate::predict::deviation_of;
 use crate::robot::forward::{Frames, forward_into};
@@ -27,6 +28,7 @@ pub(super) struct General<'q> {
     /// Contributors whose shares are computed; empty where shares are not requested.
     contributors: Vec<Contributor>,
     links: LinkOffsets<'q>,
+    clearance: Option<ClearanceCheck<'q>>,
     joints: Vec<f64>,
     deviations: Vec<Vector3<f64>>,
     shares: Vec<f64>,
@@ -72,6 +74,7 @@ impl<'q> General<'q> {
             ),
             contributors,
             links,
+            clearance: question.clearance_check(),
         }
     }
 
@@ -90,6 +93,15 @@ impl<'q> General<'q> {
             links: LinkOffsets::Known(link_offsets),
             ..General::new(question, detail)
         }
+    }
+
+    /// Why the posture at these joint positions, rad (m), cannot be used: it does not keep the demanded clearance.
+    pub(super) fn conflict(&mut self, joints: &[f64]) -> Option<Unreachable> {
+        let conflict = self.clearance.as_mut()?.conflict(joints)?;
+        Some(Unreachable::InCollision {
+            missing: conflict.missing,
+            bodies: conflict.bodies,
+        })
     }
 
     /// Resets: the next point does not follow the previous one.
@@ -183,13 +195,16 @@ impl<'q> General<'q> {
             let missed = match evaluated {
                 Err(reason) => Some(reason),
                 Ok(evaluation) if outside(&evaluation) => Some(outside_limits(question, &evaluation)),
-                Ok(evaluation) => {
-                    if best.is_none_or(|b| evaluation.in_plane < b.in_plane * (1.0 - ALIKE)) {
-                        best = Some(evaluation);
-                        self.keep();
+                Ok(evaluation) => match self.conflict(&found.joints) {
+                    Some(conflict) => Some(conflict),
+                    None => {
+                        if best.is_none_or(|b| evaluation.in_plane < b.in_plane * (1.0 - ALIKE)) {
+                            best = Some(evaluation);
+                            self.keep();
+                        }
+                        None
                     }
-                    None
-                }
+                },
             };
             let nearer = |missed: &Unreachable| miss.is_none_or(|miss| missed.is_nearer_than(&miss));
             miss = missed.filter(nearer).or(miss);

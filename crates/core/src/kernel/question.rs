@@ -2,6 +2,7 @@
 
 use nalgebra::{Unit, Vector3};
 
+use crate::clearance::{ClearanceCheck, DemandedClearance};
 use crate::load::InputUncertainty;
 use crate::robot::BranchPattern;
 use crate::source::Arm;
@@ -34,9 +35,21 @@ pub struct Question<'a> {
     pub normal: Unit<Vector3<f64>>,
     /// Which posture is used at a point.
     pub choice: BranchChoice,
+    /// The clearance that postures must keep; those that do not keep it are not used.
+    pub clearance: Option<DemandedClearance<'a>>,
 }
 
 impl<'a> Question<'a> {
+    /// A check of the demanded clearance, if there is one.
+    pub(crate) fn clearance_check(&self) -> Option<ClearanceCheck<'a>> {
+        let demanded = self.clearance?;
+        Some(ClearanceCheck::new(
+            demanded,
+            self.arm.robot,
+            self.arm.flange_from_tool,
+        ))
+    }
+
     /// A question about this arm without load: for functions that set loads, normals and branches themselves.
     pub fn unloaded(arm: Arm<'a>, home: Option<&'a [f64]>) -> Question<'a> {
         Question {
@@ -46,6 +59,7 @@ impl<'a> Question<'a> {
             uncertainty: InputUncertainty::NONE,
             normal: Vector3::z_axis(),
             choice: BranchChoice::Best,
+            clearance: None,
         }
     }
 }

@@ -142,7 +142,12 @@ impl<'q> Solver<'q> {
             Some(lanes) => lanes.write(&mut slots),
             None => [false; BLOCK],
         };
-        for (i, decided) in decided.into_iter().enumerate().take(count) {
+        for (i, mut decided) in decided.into_iter().enumerate().take(count) {
+            // Lanes know nothing of bodies: a posture that does not keep the clearance is chosen anew, or refused.
+            if decided && self.question.clearance.is_some() {
+                let Slot { point, joints, .. } = slots.at(i);
+                decided = point.is_err() || self.general.conflict(joints).is_none();
+            }
             if decided && self.order == Order::Any {
                 continue;
             }

@@ -46,6 +46,7 @@ pub(super) fn analysis<T>(
         uncertainty: InputUncertainty::NONE,
         normal: Unit::new_normalize(Vector3::new(-0.8, 0.3, 0.5)),
         choice,
+        clearance: None,
     })
 }
 

@@ -38,6 +38,8 @@ pub struct Counts {
     pub unverified: usize,
     /// A posture reaches the point, but the arm has no stable equilibrium under the load.
     pub unstable: usize,
+    /// Postures reach the point, but none keeps the demanded clearance.
+    pub in_collision: usize,
     /// Of the points with a posture: at least one joint is outside its limits.
     pub outside_joint_limits: usize,
     /// Of the points within the tolerance: every joint is inside its limits.
@@ -65,6 +67,7 @@ impl Counts {
                 Err(Unreachable::NotFound { .. } | Unreachable::OtherBranch) => counts.not_found += 1,
                 Err(Unreachable::Unverified { .. }) => counts.unverified += 1,
                 Err(Unreachable::Unstable { .. }) => counts.unstable += 1,
+                Err(Unreachable::InCollision { .. }) => counts.in_collision += 1,
                 Err(
                     Unreachable::TooFar { .. }
                     | Unreachable::TooNear { .. }
@@ -79,7 +82,7 @@ impl Counts {
     pub fn points(&self) -> usize {
         let reached = self.within + self.above_tolerance;
         let missed = self.out_of_reach + self.no_posture_inside_limits + self.not_found;
-        reached + missed + self.unverified + self.unstable
+        reached + missed + self.unverified + self.unstable + self.in_collision
     }
 
     /// Points within the tolerance over all points; 0 where there is none.

@@ -71,7 +71,8 @@ pub fn hole_postures(
     };
     let nominal = one_branch(&open, track, load, watch)?;
     let maker = || {
-        let columns = Columns::at_single_points(question.arm, question.home, search.wrist);
+        let columns = Columns::at_single_points(question.arm, question.home, search.wrist)
+            .keeping_clear(question.clearance_check());
         (columns, Column::default())
     };
     let each = |(columns, column): &mut (Columns<'_>, Column), index: usize| {

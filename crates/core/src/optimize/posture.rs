@@ -268,7 +268,8 @@ impl Walk<'_> {
     fn chain(&self, cost: Cost, back_price: f64, watch: Watch<'_>) -> Result<(Cheapest, Seen), Cancelled> {
         let Spins { step, count, .. } = self.search.spins;
         let (arm, home) = (self.question.arm, self.question.home);
-        let maker = || Columns::new(arm, home, self.search.wrist);
+        let maker =
+            || Columns::new(arm, home, self.search.wrist).keeping_clear(self.question.clearance_check());
         let worst_alone = matches!(cost, Cost::Worst);
         let turns = Turns {
             count,
@@ -436,7 +437,7 @@ impl Seen {
 /// The most frequent reason in a column without a usable posture; out of reach only where there is no other.
 pub(super) fn blocked_by(column: &Column) -> PostureStatus {
     let count = |status: PostureStatus| column.statuses.iter().filter(|other| **other == status).count();
-    let most = PostureStatus::ALL[1..4]
+    let most = PostureStatus::ALL[1..5]
         .iter()
         .copied()
         .max_by_key(|status| count(*status));

@@ -47,6 +47,13 @@ pub enum Unreachable {
         /// Index of the load case, from 0.
         case: usize,
     },
+    /// Every requested posture has two bodies nearer to each other than demanded.
+    InCollision {
+        /// How much of the demanded clearance is missing in the best one, m.
+        missing: f64,
+        /// The two bodies: indices of [`crate::clearance::Cell::name`].
+        bodies: [usize; 2],
+    },
 }
 
 /// By how much a joint is outside its limits.
@@ -68,6 +75,7 @@ impl Unreachable {
             | Unreachable::InsideLateralOffset { by }
             | Unreachable::NotFound { by, .. }
             | Unreachable::Unverified { by }
+            | Unreachable::InCollision { missing: by, .. }
             | Unreachable::OutsideLimits {
                 by: Overrun::Slid(by),
                 ..
@@ -102,6 +110,7 @@ impl Unreachable {
             Unreachable::OutsideLimits { .. } => "no_posture_inside_limits",
             Unreachable::OtherBranch => "other_branch",
             Unreachable::Unstable { .. } => "unstable",
+            Unreachable::InCollision { .. } => "in_collision",
         }
     }
 }
@@ -163,6 +172,14 @@ impl fmt::Display for Unreachable {
                 "the arm has no stable equilibrium under load case {}: it buckles, or is far too compliant",
                 case + 1
             ),
+            Unreachable::InCollision { missing, .. } => {
+                f.write_str("no posture keeps the demanded clearance: ")?;
+                if *missing > 0.0 {
+                    write!(f, "in the best one {:.1} mm are missing", missing * 1e3)
+                } else {
+                    f.write_str("in the best one two bodies touch")
+                }
+            }
         }
     }
 }
@@ -176,8 +193,19 @@ mod tests {
     }
 
     /// Each reason with its word, its amount (m) and the end of its sentence.
-    fn all() -> [(Unreachable, &'static str, Option<f64>, &'static str); 9] {
+    fn all() -> [(Unreachable, &'static str, Option<f64>, &'static str); 11] {
+        let collision = |missing: f64| Unreachable::InCollision {
+            missing,
+            bodies: [1, 7],
+        };
         [
+            (
+                collision(0.0123),
+                "in_collision",
+                Some(0.0123),
+                "12.3 mm are missing",
+            ),
+            (collision(0.0), "in_collision", Some(0.0), "two bodies touch"),
             (
                 Unreachable::TooFar { by: 0.0123 },
                 "too_far",

@@ -46,6 +46,7 @@ fn along<T>(robot: &Robot, choice: BranchChoice, then: impl FnOnce(&Question<'_>
         cases: &cases,
         normal: Unit::new_normalize(Vector3::new(-0.8, 0.3, 0.5)),
         choice,
+        clearance: None,
     };
     then(&question, &poses)
 }

@@ -63,6 +63,7 @@ fn analysis<T>(
         cases,
         normal: Unit::new_normalize(Vector3::new(-0.8, 0.3, 0.5)),
         choice,
+        clearance: None,
     })
 }
 

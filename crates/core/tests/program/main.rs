@@ -113,6 +113,7 @@ fn question<'a>(
         uncertainty: InputUncertainty::NONE,
         normal: Vector3::z_axis(),
         choice,
+        clearance: None,
     }
 }
 

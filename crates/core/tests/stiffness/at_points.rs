@@ -48,6 +48,7 @@ fn maps_and_known_joints_agree_with_predict_on_any_number_of_threads() {
             cases: &cases,
             normal: Unit::new_normalize(Vector3::new(-0.8, 0.3, 0.5)),
             choice,
+            clearance: None,
         };
         let pose = |i: usize| {
             let at = Vector3::new(0.8, 0.01 * i as f64 - 0.5, 0.7);
@@ -122,6 +123,7 @@ fn a_load_without_equilibrium_is_a_state_of_its_points() {
         cases: &cases,
         normal: Vector3::z_axis(),
         choice: BranchChoice::Of("front elbow-up".parse().unwrap()),
+        clearance: None,
     };
     let pose = |_| from_xyz_and_fixed_angles(Vector3::new(0.9, 0.1, 0.8), Vector3::new(0.0, 1.5, 0.0));
     let found = evaluate(&question, 1, pose, Watch::NONE).unwrap();

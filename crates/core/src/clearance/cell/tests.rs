@@ -1,5 +1,7 @@
 use std::sync::Arc;
 
+use nalgebra::Point3;
+
 use super::*;
 use crate::arms::{self, Stream};
 use crate::clearance::mesh::Mesh;
@@ -130,8 +132,13 @@ fn the_least_of_all_pairs_is_found_with_its_names() {
         } else {
             collisions += 1;
         }
-        for demanded in [0.0, 0.01, 0.1] {
-            assert_eq!(state.is_clear(demanded), distance > 0.0 && distance >= demanded);
+        for least in [0.0, 0.01, 0.1] {
+            let demanded = DemandedClearance { cell: &cell, least };
+            let conflict = ClearanceCheck::new(demanded, &robot, &flange_from_tool()).conflict(&q);
+            assert_eq!(conflict.is_none(), distance > 0.0 && distance >= least);
+            if let Some(conflict) = conflict {
+                assert!((conflict.missing - (least - distance)).abs() < 1e-12);
+            }
         }
         // A limit below the distance finds nothing.
         if distance > 0.0 {
@@ -168,7 +175,6 @@ fn the_cutter_may_touch_the_part_and_the_holder_may_not() {
     let cell = cell.with_part(&[deeper]);
     let mut state = CellState::new(&cell, &robot, &flange_from_tool());
     assert_eq!(state.clearance(f64::INFINITY).unwrap().nearest.distance, 0.0);
-    assert!(!state.is_clear(0.0));
 }
 
 #[test]

@@ -23,6 +23,7 @@ pub use postures::{Column, ColumnLoad, PostureStatus, SLOTS};
 
 use super::lanes::{Backend, Batch, POINTS, flag};
 use super::question::Question;
+use crate::clearance::ClearanceCheck;
 use crate::frame::Isometry;
 use crate::robot::Robot;
 use crate::robot::forward::Frames;
@@ -35,6 +36,7 @@ use whole_columns::{WholeColumns, WholeFill};
 pub struct Columns<'q> {
     margins: ArmMargins<'q>,
     method: ColumnMethod<'q>,
+    clearance: Option<ClearanceCheck<'q>>,
 }
 
 /// By lanes or one after the other.
@@ -61,6 +63,7 @@ impl<'q> Columns<'q> {
                     margin: 0.0,
                 },
                 method: ColumnMethod::Lanes(Box::new(Batch::new(&question, form, Backend::fastest()))),
+                clearance: None,
             },
             None => Columns::whole(arm, home, [wrist, 0.0]),
         }
@@ -73,12 +76,25 @@ impl<'q> Columns<'q> {
 
     /// In lanes, if these know the arm.
     fn in_lanes(self, unloaded: bool) -> Columns<'q> {
-        let Columns { margins, method } = self;
+        let Columns {
+            margins,
+            method,
+            clearance,
+        } = self;
         let method = match (method, WholeColumns::of(&margins, unloaded)) {
             (ColumnMethod::General(rest), Some(lanes)) => ColumnMethod::Whole(Box::new(lanes), rest),
             (method, _) => method,
         };
-        Columns { margins, method }
+        Columns {
+            margins,
+            method,
+            clearance,
+        }
+    }
+
+    /// Without the postures that do not pass this check.
+    pub(crate) fn keeping_clear(self, clearance: Option<ClearanceCheck<'q>>) -> Columns<'q> {
+        Columns { clearance, ..self }
     }
 
     /// [`Columns::new`] for points that are not on a path: backlash and geometry are included as in
@@ -116,6 +132,7 @@ impl<'q> Columns<'q> {
                 rail: None,
                 link_offsets: None,
             })),
+            clearance: None,
         }
     }
 
@@ -195,6 +212,9 @@ impl<'q> Columns<'q> {
                     one_by_one.pose(&self.margins, pose, push, out.slots_of(i, joint_count));
                 }
             }
+        }
+        if let Some(clearance) = &mut self.clearance {
+            out.keep_clear(clearance, joint_count);
         }
     }
 }

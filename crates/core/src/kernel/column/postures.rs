@@ -1,5 +1,6 @@
 //! A column: every posture of some poses, and whether each can be used.
 
+use crate::clearance::ClearanceCheck;
 use nalgebra::Vector3;
 
 use crate::robot::Robot;
@@ -28,6 +29,8 @@ pub enum PostureStatus {
     Singular,
     /// The arm has no stable equilibrium under the load.
     Unstable,
+    /// Two bodies are nearer to each other than demanded.
+    InCollision,
     /// The pose is out of reach in this posture.
     #[default]
     OutOfReach,
@@ -35,11 +38,12 @@ pub enum PostureStatus {
 
 impl PostureStatus {
     /// All, the usable one first.
-    pub const ALL: [PostureStatus; 5] = [
+    pub const ALL: [PostureStatus; 6] = [
         PostureStatus::Usable,
         PostureStatus::OutsideLimits,
         PostureStatus::Singular,
         PostureStatus::Unstable,
+        PostureStatus::InCollision,
         PostureStatus::OutOfReach,
     ];
 
@@ -50,6 +54,7 @@ impl PostureStatus {
             PostureStatus::OutsideLimits => "outside_joint_limits",
             PostureStatus::Singular => "singular",
             PostureStatus::Unstable => "unstable",
+            PostureStatus::InCollision => "in_collision",
             PostureStatus::OutOfReach => "out_of_reach",
         }
     }
@@ -98,6 +103,17 @@ impl Column {
             let room = |joints: &[f64]| robot.limit_margin(joints).map_or(f64::INFINITY, |(_, room)| room);
             if usable && room(self.joints_of(slot, joint_count)) < margin {
                 self.statuses[slot] = PostureStatus::OutsideLimits;
+                self.deviations[slot] = f64::INFINITY;
+            }
+        }
+    }
+
+    /// Excludes postures that do not keep the demanded clearance.
+    pub(super) fn keep_clear(&mut self, clearance: &mut ClearanceCheck<'_>, joint_count: usize) {
+        for slot in 0..self.statuses.len() {
+            let usable = self.statuses[slot] == PostureStatus::Usable;
+            if usable && clearance.conflict(self.joints_of(slot, joint_count)).is_some() {
+                self.statuses[slot] = PostureStatus::InCollision;
                 self.deviations[slot] = f64::INFINITY;
             }
         }

@@ -32,6 +32,7 @@
 //! #     },
 //! #     home: None, uncertainty: armill_core::load::InputUncertainty::NONE, cases: &cases, normal: -Vector3::x_axis(),
 //! #     choice: BranchChoice::Best,
+//! #     clearance: None,
 //! # };
 //! // Three points of a vertical plate, the tool along base x.
 //! let (x, y, z) = ([0.9, 0.9, 3.0], [0.0, 0.1, 0.0], [0.8, 0.8, 0.8]);

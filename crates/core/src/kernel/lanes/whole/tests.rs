@@ -254,6 +254,7 @@ fn worst_case_shares_and_uncertainty_are_those_of_the_plain_row() {
             uncertainty: UNCERTAIN,
             normal,
             choice: BranchChoice::Best,
+            clearance: None,
         };
         let mut stream = arms::Stream(5);
         let q: Vec<Vec<f64>> = (0..BLOCK).map(|_| stream.joints(robot)).collect();
@@ -347,6 +348,7 @@ fn a_question_about_a_whole_model_has_the_answers_of_the_general_solver() {
                 uncertainty: UNCERTAIN,
                 normal: -Vector3::x_axis(),
                 choice,
+                clearance: None,
             };
             let found = evaluate(&question, poses.len(), |i| poses[i], Watch::NONE).unwrap();
             let mut general = General::new(&question, AnswerDetail::Shares);
