@@ -197,3 +197,41 @@ pub const PROGRAM: &[&str] = &[
     "G0 ", "G1 X", "G2 I", "G21\n", "M2\n", "%\n", "N10 ", "(", ")", "#1=", "o1 sub\n", "GOTO/", "UNITS/MM\n", "PARTNO/", "TOOL PATH/", "FINI\n", "$$", "x_mm,y_mm,z_mm\n", "x_m;y_m;z_m\n",
     "&ACCESS", "MODULE ", "/PROG", "/JOB", "movel(", "\r", "\0", "\u{feff}", "# ", "; ",
 ];
+
+/// Words of STL.
+#[rustfmt::skip]
+pub const MESH_STL: &[&str] = &[
+    "solid ", "facet normal 0 0 1\n", "outer loop\n", "vertex 0 0 0\n", "vertex 1e9 nan inf\n", "endloop\n", "endfacet\n", "endsolid", "color", "stlbn", "\u{feff}", "1e308",
+];
+
+/// Statements of OBJ.
+#[rustfmt::skip]
+pub const MESH_OBJ: &[&str] = &[
+    "v 0 0 1\n", "v 1 2 3 1\n", "f 1 2 3\n", "f -1 -2 -3 -4\n", "f 1/1 2/2 3/3 4/4 5/5\n", "f 1//1 2//2 3//3\n", "vt 0 0\n", "vn 0 0 1\n", "g a\n", "\\\n", "#", "surf", "curv", "cstype",
+    "9223372036854775807", "-9223372036854775808", "1e308", "nan",
+];
+
+/// Words of the header of PLY.
+#[rustfmt::skip]
+pub const MESH_PLY: &[&str] = &[
+    "ply\n", "format ascii 1.0\n", "format binary_little_endian 1.0\n", "format binary_big_endian 1.0\n", "comment ", "obj_info ", "element vertex 3\n", "element face 1\n",
+    "element tristrips 1\n", "element a 18446744073709551615\n", "property float x\n", "property double y\n", "property int z\n", "property uchar red\n",
+    "property list uchar int vertex_indices\n", "property list uint32 int8 vertex_index\n", "end_header\n", "nan", "1e308",
+];
+
+/// Elements and attributes of 3MF.
+#[rustfmt::skip]
+pub const MESH_3MF: &[&str] = &[
+    "<model ", "unit=\"micron\"", "requiredextensions=\"p\"", "xmlns:p=\"http://schemas.microsoft.com/3dmanufacturing/production/2015/06\"", "<object id=\"1\" type=\"support\">",
+    "<mesh>", "<vertices>", "<vertex x=\"0\" y=\"1\" z=\"2\"/>", "<triangles>", "<triangle v1=\"0\" v2=\"1\" v3=\"2\"/>", "<components>", "<component objectid=\"1\"/>", "<build>",
+    "<item objectid=\"1\"/>", "transform=\"1 0 0 0 1 0 0 0 1 0 0 0\"", "p:path=\"/3D/3dmodel.model\"", "</object>", "<!DOCTYPE", "<!ENTITY", "&amp;", "<![CDATA[", "PK\u{1}\u{2}", "PK\u{5}\u{6}",
+];
+
+/// Elements and attributes of COLLADA.
+#[rustfmt::skip]
+pub const MESH_DAE: &[&str] = &[
+    "<unit meter=\"0.001\"/>", "<up_axis>Y_UP</up_axis>", "<geometry id=\"a\">", "<mesh>", "<source id=\"b\">", "<float_array>", "<accessor stride=\"3\" count=\"1\" offset=\"1\"/>",
+    "<vertices id=\"c\">", "<input semantic=\"POSITION\" source=\"#b\"/>", "<input semantic=\"VERTEX\" source=\"#c\" offset=\"0\"/>", "<triangles>", "<polylist>", "<vcount>", "<polygons>", "<ph>",
+    "<tristrips>", "<trifans>", "<p>0 1 2</p>", "<node id=\"d\">", "<matrix>", "<translate>", "<rotate>", "<scale>", "<skew>", "<lookat>", "<instance_geometry url=\"#a\"/>", "<instance_node url=\"#d\"/>",
+    "<instance_controller/>", "<visual_scene id=\"e\">", "<instance_visual_scene url=\"#e\"/>", "1e308", "nan", "18446744073709551615",
+];

@@ -66,6 +66,52 @@ pub fn meshes() -> Vec<Vec<u8>> {
     ])
 }
 
+/// A cube as text, a tetrahedron as bytes.
+pub fn mesh_stl() -> Vec<Vec<u8>> {
+    vec![
+        include_bytes!("../../crates/formats/tests/seeds/cube.ascii.stl").to_vec(),
+        include_bytes!("../../crates/formats/tests/seeds/tetrahedron.stl").to_vec(),
+    ]
+}
+
+/// A cube with every kind of index.
+pub fn mesh_obj() -> Vec<Vec<u8>> {
+    seeds(&[
+        include_str!("../../crates/formats/tests/seeds/cube.obj"),
+        "v 0 0 0\nv 4 0 0\nv 1 1 0\nv 0 4 0\nf 2 3 4 1\n",
+    ])
+}
+
+/// A cube as text, and as bytes in big-endian order with its faces first.
+pub fn mesh_ply() -> Vec<Vec<u8>> {
+    vec![
+        include_bytes!("../../crates/formats/tests/seeds/cube.ascii.ply").to_vec(),
+        include_bytes!("../../crates/formats/tests/seeds/cube.big.ply").to_vec(),
+    ]
+}
+
+/// Two cubes, one of them by a component.
+pub fn mesh_3mf() -> Vec<Vec<u8>> {
+    vec![include_bytes!("../../crates/formats/tests/seeds/cubes.3mf").to_vec()]
+}
+
+/// A model with components and a path.
+pub fn mesh_3mf_model() -> Vec<Vec<u8>> {
+    seeds(&[
+        "<?xml version=\"1.0\"?>\n<model unit=\"inch\" xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\" \
+         xmlns:p=\"http://schemas.microsoft.com/3dmanufacturing/production/2015/06\" requiredextensions=\"p\"><resources>\
+         <object id=\"1\" type=\"model\"><mesh><vertices><vertex x=\"0\" y=\"0\" z=\"0\"/><vertex x=\"1\" y=\"0\" z=\"0\"/>\
+         <vertex x=\"0\" y=\"1\" z=\"0\"/></vertices><triangles><triangle v1=\"0\" v2=\"1\" v3=\"2\"/></triangles></mesh></object>\
+         <object id=\"2\"><components><component objectid=\"1\" p:path=\"/3D/3dmodel.model\" \
+         transform=\"0 1 0 -1 0 0 0 0 1 10 0 0\"/></components></object></resources><build><item objectid=\"2\"/></build></model>",
+    ])
+}
+
+/// Two cubes with every kind of polygon and of node.
+pub fn mesh_dae() -> Vec<Vec<u8>> {
+    seeds(&[include_str!("../../crates/formats/tests/seeds/cubes.dae")])
+}
+
 /// Properties, arguments, conditions, blocks, nested macros.
 pub fn xacro() -> Vec<Vec<u8>> {
     [macros(), urdf()].concat()

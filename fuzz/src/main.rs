@@ -19,6 +19,7 @@ mod corpus;
 mod dictionaries;
 mod edited;
 mod fixtures;
+mod meshes;
 mod signal_stack;
 mod targets;
 mod tracked;

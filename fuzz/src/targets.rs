@@ -5,7 +5,7 @@ use armill_study::file::format::StudyFile;
 
 use crate::dictionaries as words;
 use crate::fixtures;
-use crate::{edited, tracked, verdicts};
+use crate::{edited, meshes, tracked, verdicts};
 
 /// One parser.
 pub struct Target {
@@ -84,5 +84,11 @@ pub const TARGETS: &[Target] = &[
     target("ballbar-results", verdicts::ballbar_results, fixtures::ballbar_results, &["b5r"], words::BALLBAR),
     target("poses", tracked::poses, fixtures::poses, &[], words::POSES),
     target("trace", tracked::trace, fixtures::traces, &[], words::TRACE),
+    target("mesh-stl", meshes::stl, fixtures::mesh_stl, &["stl"], words::MESH_STL),
+    target("mesh-obj", meshes::obj, fixtures::mesh_obj, &["obj"], words::MESH_OBJ),
+    target("mesh-ply", meshes::ply, fixtures::mesh_ply, &["ply"], words::MESH_PLY),
+    target("mesh-3mf", meshes::three_mf, fixtures::mesh_3mf, &["3mf"], words::MESH_3MF),
+    target("mesh-3mf-model", meshes::three_mf_model, fixtures::mesh_3mf_model, &["model"], words::MESH_3MF),
+    target("mesh-dae", meshes::dae, fixtures::mesh_dae, &["dae"], words::MESH_DAE),
     target("material", verdicts::material, fixtures::materials, &[], words::MATERIAL),
 ];

@@ -10,6 +10,7 @@
 //! - [`table`]: columns of results as CSV, Parquet and VTK.
 //! - [`toolpath`]: tool path programs in.
 //! - [`language`]: the languages of robot controllers, and how to recognise them.
+//! - [`mesh`]: triangle meshes in, of five formats.
 //! - [`measurement`]: records of forces, tables of load tests, points of round profiles and circular tests in.
 //! - [`file`](mod@file): files that are written: whole or not at all, never over what is not ours.
 //! - [`input`]: files that are read: which ones, how far.
@@ -28,6 +29,7 @@ pub mod input;
 pub mod language;
 pub mod material;
 pub mod measurement;
+pub mod mesh;
 pub mod robot;
 pub mod sources;
 pub mod table;
