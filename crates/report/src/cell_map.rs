@@ -41,6 +41,8 @@ pub enum Cell {
     OutsideJointLimits,
     /// It is too near a singularity.
     Singular,
+    /// Two bodies are nearer to each other than demanded.
+    InCollision,
     /// It is out of reach, or has no force equilibrium under the load.
     OutOfReach,
     /// Some points have no posture.
@@ -77,9 +79,10 @@ pub struct CellMap {
 }
 
 /// Colours and legend entries of cells without a value.
-const REASONS: [(Cell, &str, &str); 4] = [
+const REASONS: [(Cell, &str, &str); 5] = [
     (Cell::OutsideJointLimits, "#9a9a9a", "outside the joint limits"),
     (Cell::Singular, "#c9c9c9", "near a singularity"),
+    (Cell::InCollision, "#b3a1c4", "without the demanded clearance"),
     (Cell::OutOfReach, "#f0f0f0", "out of reach"),
     (Cell::PointsUnreachable, "#dcdcdc", "no posture at some points"),
 ];

@@ -23,6 +23,7 @@ pub mod finished;
 pub mod input;
 pub mod joint_unit;
 pub mod library;
+pub mod link_meshes;
 pub mod live;
 pub mod materials;
 pub mod measured;

@@ -8,6 +8,7 @@
 //!
 //! Joint positions are in deg, of prismatic joints in mm, in the convention of the robot file.
 
+use armill_core::clearance::CellState;
 use armill_core::compliance::{
     by_force, permissible_force_in_worst_direction, principal_compliances, stiffness_at_tool,
 };
@@ -28,8 +29,12 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::StudyError;
+use crate::file::resolve::Study;
+use crate::input::cell::PlacedCell;
+use crate::input::setting::Setting;
 use crate::joint_unit::{JointUnit, joint_positions};
 use crate::model_words::{left_out, parts};
+use crate::number::without_rounding;
 
 /// A query for one pose.
 #[derive(Clone, Debug)]
@@ -140,6 +145,42 @@ pub struct PostureAnswer {
     /// Standard uncertainty of the displacement, from those of the compliances, the repeatability of the arm and the
     /// error of its model; none where it is not known.
     pub deviation_u_um: Option<[f64; 3]>,
+    /// Least distance of two bodies; 0 where they touch; none without bodies in the cell.
+    pub clearance_mm: Option<f64>,
+    /// The two bodies.
+    pub nearest: Option<[String; 2]>,
+    /// Their nearest points, in the frame that positions count from.
+    pub nearest_mm: Option<[[f64; 3]; 2]>,
+}
+
+/// The least distance of the bodies of a cell in a posture.
+struct ClearanceAnswer {
+    distance_mm: f64,
+    bodies: [String; 2],
+    points_mm: [[f64; 3]; 2],
+}
+
+impl ClearanceAnswer {
+    fn of(
+        state: &mut CellState<'_>,
+        placed: &PlacedCell,
+        base_from_reference: &Isometry,
+        posture: &Posture,
+    ) -> Option<ClearanceAnswer> {
+        state.set_joints(&posture.joints);
+        let found = state.clearance(f64::INFINITY)?;
+        let in_reference = |point: &Point3<f64>| base_from_reference.inverse_transform_point(point);
+        Some(ClearanceAnswer {
+            distance_mm: to_mm(found.nearest.distance),
+            bodies: found.bodies.map(|body| placed.cell.name(body).to_owned()),
+            points_mm: found.nearest.points.each_ref().map(|point| {
+                in_reference(point)
+                    .coords
+                    .map(|m| without_rounding(to_mm(m)))
+                    .into()
+            }),
+        })
+    }
 }
 
 /// Pose of the tool.
@@ -197,8 +238,42 @@ pub fn answer(described: &RobotDescription, question: &PoseQuestion) -> Result<P
             model: &model,
             normal: None,
             link_offsets: &|_| None,
+            cell: None,
         },
     )
+}
+
+/// The answer in the cell of a study: with the stiffness model and the bodies of its first analysis.
+///
+/// # Errors
+/// As of [`answer`]; a study without analyses.
+pub fn answer_in_study(study: &Study, question: &PoseQuestion) -> Result<PoseAnswer, StudyError> {
+    let setting = first_setting(study)?;
+    let mut found = answer_in(
+        &study.robot,
+        question,
+        &PoseContext {
+            model: &setting.model,
+            normal: None,
+            link_offsets: &|_| None,
+            cell: setting.cell.as_ref(),
+        },
+    )?;
+    found.notes.extend(study.cell_notes.iter().cloned());
+    Ok(found)
+}
+
+/// What the points of the first analysis share.
+///
+/// # Errors
+/// A study without analyses.
+pub fn first_setting(study: &Study) -> Result<&Setting, StudyError> {
+    study.settings().next().ok_or_else(|| {
+        StudyError::value(
+            "the study has no analysis",
+            "add [[analysis]], or remove `analysis = []`",
+        )
+    })
 }
 
 /// The context of a query in which a posture is evaluated.
@@ -211,6 +286,8 @@ pub(crate) struct PoseContext<'a> {
     /// Offsets of the links within their backlash, kept there by friction, for the posture with these joint positions,
     /// as along a path, rad (m).
     pub link_offsets: &'a dyn Fn(&[f64]) -> Option<&'a [f64]>,
+    /// The bodies of the cell, if there are any.
+    pub cell: Option<&'a PlacedCell>,
 }
 
 /// [`answer`] in this context, which replaces the values of the question.
@@ -257,6 +334,9 @@ pub(crate) fn answer_in(
         }
         At::Pose(base_from_tool) => postures_at(base_from_tool)?,
     };
+    let mut cell_state = situation
+        .cell
+        .map(|placed| CellState::new(&placed.cell, robot, &question.flange_from_tool));
     let mut arm_state = robot.compliance().map(|compliance| {
         ArmState::new(Arm {
             robot,
@@ -281,7 +361,16 @@ pub(crate) fn answer_in(
                 let deflection = arm_state
                     .as_mut()
                     .map(|arm_state| posture_deflection(arm_state, p, situation, question.wrench));
-                posture_answer(robot, deflection, &base_from_reference, p)
+                let clearance = cell_state
+                    .as_mut()
+                    .zip(situation.cell)
+                    .and_then(|(state, placed)| ClearanceAnswer::of(state, placed, &base_from_reference, p));
+                PostureAnswer {
+                    clearance_mm: clearance.as_ref().map(|found| found.distance_mm),
+                    nearest: clearance.as_ref().map(|found| found.bodies.clone()),
+                    nearest_mm: clearance.map(|found| found.points_mm),
+                    ..posture_answer(robot, deflection, &base_from_reference, p)
+                }
             })
             .collect(),
         unreachable,
@@ -404,6 +493,9 @@ fn posture_answer(
             .as_ref()
             .filter(|_| uncertainty_is_known)
             .map(|d| to_um(d.covariance.diagonal().map(|v| v.max(0.0).sqrt())).into()),
+        clearance_mm: None,
+        nearest: None,
+        nearest_mm: None,
     }
 }
 

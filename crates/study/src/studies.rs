@@ -5,6 +5,7 @@
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
+use armill_formats::document::Document;
 use armill_formats::input;
 use armill_formats::toolpath::format::{Format, HEAD_BYTES};
 
@@ -40,6 +41,17 @@ impl FoundStudy {
     pub fn read_changed(&self, change: impl FnOnce(&mut StudyFile)) -> Result<Study, StudyError> {
         read_changed(&self.shown, &self.folder, &self.bytes, change)
     }
+}
+
+/// Whether this is a study on disk: a folder with a `study.toml`, or a TOML file that names a robot.
+pub fn is_study(given: &Path) -> bool {
+    if given.is_dir() {
+        return given.join("study.toml").is_file();
+    }
+    let is_toml = given.extension().is_some_and(|ending| ending == "toml") && given.is_file();
+    let bytes = is_toml.then(|| input::read(given).ok()).flatten();
+    let document = bytes.and_then(|bytes| Document::from_bytes("study", &bytes).ok());
+    document.is_some_and(|document| document.contains("robot"))
 }
 
 /// The study at `given`; an example of the library if there is nothing of that name on disk.

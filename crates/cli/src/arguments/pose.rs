@@ -9,8 +9,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::robots::ROBOT_HELP;
 use super::writing::WritingOptions;
+
+/// What ROBOT may be.
+const ROBOT_OR_STUDY_HELP: &str = "Library robot (see `armill robots`), robot file, or a study: then with its tool, its model and the bodies of its cell";
 
 #[derive(Debug, Args)]
 #[command(
@@ -26,10 +28,11 @@ Examples:
   armill pose yaskawa/mh12 --joints-deg 0,11.6,-27.8,0,39.4,0
   armill pose yaskawa/mh12 --at-mm 1000,0,800 --tilt-deg 90 --tool-mm 0,0,150 --wrench-n 3,5,5
   armill pose arm.urdf --at-mm 900,0,700 --compliance-rad-per-n-m 1e-6,1e-6,2e-6,1e-5,1e-5,3e-5 --wrench-n 0,0,-50 --json
+  armill pose studies/cell --at-mm 1000,0,800 --json          clearance_mm and nearest: the bodies of the study
   armill pose kuka/kr16-2 --at-mm 1000,0,900 --compliance-class light --wrench-n 0,0,-50"
 )]
 pub(crate) struct PoseArguments {
-    #[arg(help = ROBOT_HELP)]
+    #[arg(help = ROBOT_OR_STUDY_HELP)]
     pub robot: String,
     /// Joint positions A,B,... in degrees (mm for prismatic joints)
     #[arg(
@@ -122,9 +125,9 @@ pub(crate) struct PoseArguments {
     /// Write a drawing of the arm to this file (.svg, .png): the first posture within joint limits, others faint
     #[arg(long, value_name = "FILE")]
     pub drawing: Option<PathBuf>,
-    /// Frame to which positions are relative
-    #[arg(long, value_name = "FRAME", default_value = armill_study::BASE_LINK)]
-    pub base: String,
+    /// Frame to which positions are relative [default: base_link, or that of the study]
+    #[arg(long, value_name = "FRAME")]
+    pub base: Option<String>,
     #[command(flatten)]
     pub writing: WritingOptions,
     /// Print the result as JSON on stdout

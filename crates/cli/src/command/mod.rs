@@ -29,6 +29,7 @@ pub(crate) mod path_accuracy;
 pub(crate) mod place;
 pub(crate) mod pose;
 pub(crate) mod pose_accuracy;
+mod pose_subject;
 pub(crate) mod posture;
 pub(crate) mod robots;
 pub(crate) mod roundness;

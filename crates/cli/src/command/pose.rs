@@ -10,6 +10,7 @@
 //! front elbow-up no-flip                                            a posture, named by its branch
 //!   joints      S 0.000  L 11.600 ...   (inside limits, ...)        the signs and zeros of the robot file
 //!   TCP         (x, y, z) mm                                        relative to --base
+//!   clearance   a mm, body and body                                 in the cell of a study: the nearest bodies
 //!   compliance  a, b, c µm/N in its principal directions, softest along (x, y, z)
 //!   deviation   (x, y, z) µm, ... µm long (standard uncertainty (x, y, z) µm)
 //!   by joint    S 1.20  L 3.40 ... µm                               magnitudes of the contributions: they need not add up
@@ -23,13 +24,13 @@ use armill_core::spatial::Wrench;
 use armill_core::units::{from_deg, from_mm};
 use armill_core::workpiece::Plane;
 use armill_formats::robot::RobotDescription;
-use armill_study::input::quantities::pose_mm_deg;
 use armill_study::joint_unit::JointUnit;
 use armill_study::output::posture_drawing;
-use armill_study::pose::{At, PoseAnswer, PoseQuestion, PostureAnswer, answer};
+use armill_study::pose::{At, PoseAnswer, PoseQuestion, PostureAnswer};
 use armill_study::uncertainty_words::NOT_KNOWN;
-use armill_study::{ComplianceClass, StudyError, robots};
+use armill_study::{ComplianceClass, StudyError};
 
+use super::pose_subject::PoseSubject;
 use crate::arguments::PoseArguments;
 use crate::arguments::numbers::{finite, three, three_or_six};
 use crate::outcome::Outcome;
@@ -41,22 +42,22 @@ use crate::terminal::print;
 /// No such robot; an invalid number or count; compliances that do not fit the robot; a drawing that
 /// cannot be written.
 pub(crate) fn run(arguments: &PoseArguments) -> Result<Outcome, StudyError> {
-    let mut found = robots::find(&arguments.robot, ".".as_ref())?;
-    let caution = with_compliances(arguments, &mut found)?;
+    let mut subject = PoseSubject::find(arguments)?;
+    let caution = with_compliances(arguments, subject.robot())?;
     let question = PoseQuestion {
         at: at(arguments)?,
-        flange_from_tool: pose_mm_deg(&three_or_six("--tool-mm", arguments.tool_mm.as_deref())?),
+        flange_from_tool: subject.flange_from_tool(arguments)?,
         wrench: arguments.wrench_n.as_deref().map(wrench).transpose()?,
         load_dependent: arguments.load_dependent,
         reference_joints_deg: reference(arguments)?,
-        base: arguments.base.clone(),
+        base: subject.base(arguments)?,
         caution,
         home_deg: arguments.home_deg.clone(),
     };
     finite("--home-deg", question.home_deg.as_deref().unwrap_or_default())?;
-    let answer = answer(&found, &question)?;
+    let answer = subject.answer(&question)?;
     if let Some(file) = &arguments.drawing {
-        let drawing = posture_drawing(&found.robot, &question.flange_from_tool, &answer);
+        let drawing = posture_drawing(&subject.robot().robot, &question.flange_from_tool, &answer);
         super::drawing::write(&arguments.writing.writer("pose"), file, &drawing)?;
     }
     print(&if arguments.json {
@@ -192,6 +193,12 @@ fn posture_text(answer: &PoseAnswer, posture: &PostureAnswer) -> Vec<String> {
     };
     lines.push(format!("  joints      {joints}   ({limits})"));
     lines.push(format!("  TCP         {} mm", three(&posture.tool.xyz_mm)));
+    if let Some((least, [first, second])) = posture.clearance_mm.zip(posture.nearest.as_ref()) {
+        lines.push(match least > 0.0 {
+            true => format!("  clearance   {least:.2} mm, {first} and {second}"),
+            false => format!("  COLLISION   {first} and {second}"),
+        });
+    }
     lines.extend(posture.singularity.iter().map(|s| format!("  SINGULAR    {s}")));
     if let Some(stiffness) = &posture.stiffness {
         let [a, b, c] = stiffness.principal_um_per_n;

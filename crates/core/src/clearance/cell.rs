@@ -38,7 +38,9 @@ pub struct ArmBody {
     pub name: String,
     /// What it is attached to.
     pub attachment: Attachment,
-    /// Its shape, in the frame of the attachment.
+    /// From the frame of the attachment to that of its shape.
+    pub attachment_from_body: Isometry,
+    /// Its shape, in its own frame.
     pub shape: Shape,
     /// What it is.
     pub role: Role,
@@ -61,6 +63,7 @@ pub struct FixedBody {
 #[derive(Clone, Debug)]
 pub struct Cell {
     arm: Vec<ArmBody>,
+    attachment_from_body: Vec<IsometryMatrix3<f64>>,
     hulls: Vec<Capsule>,
     /// Pairs of bodies of the arm that are checked.
     pairs: Vec<[usize; 2]>,
@@ -129,6 +132,10 @@ impl Cell {
             }
         }
         let mut cell = Cell {
+            attachment_from_body: arm
+                .iter()
+                .map(|body| matrix(&body.attachment_from_body))
+                .collect(),
             hulls: arm.iter().map(|body| body.shape.hull()).collect(),
             arm,
             pairs,
@@ -323,10 +330,11 @@ impl<'a> CellState<'a> {
     pub fn set_joints(&mut self, joints: &[f64]) {
         forward_into(self.robot, joints, &mut self.frames);
         let base_from_tool = matrix(&tool_on(&self.frames, &self.flange_from_tool));
-        let frames = self.base_from_body.iter_mut().zip(&mut self.hulls);
-        for ((body, own), (frame, hull)) in self.cell.arm.iter().zip(&self.cell.hulls).zip(frames) {
-            *frame = attachment_frame(body.attachment, &self.frames, &base_from_tool);
-            *hull = own.moved(frame);
+        for (index, body) in self.cell.arm.iter().enumerate() {
+            let frame = attachment_frame(body.attachment, &self.frames, &base_from_tool)
+                * self.cell.attachment_from_body[index];
+            self.hulls[index] = self.cell.hulls[index].moved(&frame);
+            self.base_from_body[index] = frame;
         }
     }
 

@@ -4,6 +4,7 @@ use nalgebra::{Unit, Vector3};
 use rayon::prelude::*;
 
 use super::question::Question;
+use crate::clearance::{CellState, Clearance};
 use crate::numbers::Float;
 use crate::robot::{PostureName, Singularity, Unreachable};
 use crate::source::Contributor;
@@ -79,6 +80,9 @@ pub struct Answers {
     /// point: its part along the in-plane deviation of the worst case. The shares of a point add up to its `in_plane`;
     /// for a load-dependent model in first order.
     pub shares: Vec<f64>,
+    /// The least distance of the bodies of the cell at each point, `None` where it has no posture; empty unless
+    /// [`Answers::measure_clearances`] was called.
+    pub clearances: Vec<Option<Clearance>>,
     /// Number of joints of the robot.
     pub joint_count: usize,
     /// Number of load cases.
@@ -106,6 +110,7 @@ impl Answers {
             joints: Vec::with_capacity(count * joint_count),
             deviations: Vec::with_capacity(count * case_count),
             shares: Vec::with_capacity(count * share_count),
+            clearances: Vec::new(),
             joint_count,
             case_count,
             share_count,
@@ -129,8 +134,30 @@ impl Answers {
             joined.joints.extend(more.joints);
             joined.deviations.extend(more.deviations);
             joined.shares.extend(more.shares);
+            joined.clearances.extend(more.clearances);
         }
         joined
+    }
+
+    /// Measures the clearance of every point with a posture in the cell of `question`, which has the same arm; nothing if
+    /// it demands none.
+    pub fn measure_clearances(&mut self, question: &Question<'_>) {
+        let Some(demanded) = question.clearance else {
+            return;
+        };
+        let arm = &question.arm;
+        let measured = |state: &mut CellState<'_>, index: usize| {
+            self.points[index].as_ref().ok()?;
+            state.set_joints(self.joints_at(index));
+            state.clearance(f64::INFINITY)
+        };
+        self.clearances = (0..self.points.len())
+            .into_par_iter()
+            .map_init(
+                || CellState::new(demanded.cell, arm.robot, arm.flange_from_tool),
+                measured,
+            )
+            .collect();
     }
 
     /// Adds a displacement of the tool under each load case (m, base) at point `index`, if it is reachable, split on a

@@ -3,6 +3,7 @@
 //! | obstacle | condition |
 //! |---|---|
 //! | unreachable | no posture |
+//! | collision | no posture that keeps the demanded clearance |
 //! | outside limits | a joint is nearer to its limit than the margin, with the whole turns that it has made on the cut |
 //! | jump | a joint turns by half a radian or more between neighbouring points |
 //! | joint speed | a joint would have to move faster than its maximum to keep the feed |
@@ -15,7 +16,7 @@
 use super::turns::continue_turns;
 use crate::kernel::{AT_LIMIT, Answers, Question, evaluate_in_order};
 use crate::path::{Pace, SampledPath, Track};
-use crate::robot::Robot;
+use crate::robot::{Robot, Unreachable};
 use crate::spatial::Wrench;
 use crate::watch::{Cancelled, Watch};
 
@@ -38,6 +39,11 @@ pub struct Obstacle {
 pub enum ObstacleKind {
     /// No posture.
     Unreachable,
+    /// No posture keeps the demanded clearance.
+    InCollision {
+        /// How much of it is missing, m.
+        missing: f64,
+    },
     /// A joint too near to its limit, or outside.
     OutsideLimits {
         /// Joint.
@@ -139,8 +145,12 @@ pub fn turns_along(
 
 /// The obstacle of the point itself.
 fn at_point(answers: &Answers, index: usize, margin: f64) -> Option<ObstacleKind> {
-    let Ok(evaluation) = &answers.points[index] else {
-        return Some(ObstacleKind::Unreachable);
+    let evaluation = match &answers.points[index] {
+        Ok(evaluation) => evaluation,
+        Err(Unreachable::InCollision { missing, .. }) => {
+            return Some(ObstacleKind::InCollision { missing: *missing });
+        }
+        Err(_) => return Some(ObstacleKind::Unreachable),
     };
     (evaluation.limit_margin + AT_LIMIT < margin).then_some(ObstacleKind::OutsideLimits {
         joint: evaluation.limit_joint,
@@ -183,7 +193,7 @@ mod tests {
     use super::*;
     use crate::arms::answers_at;
     use crate::path::Shape;
-    use crate::robot::{Amount, Axis, Joint, Motion, Unreachable};
+    use crate::robot::{Amount, Axis, Joint, Motion};
 
     /// A rail with a revolute joint.
     fn robot() -> Robot {

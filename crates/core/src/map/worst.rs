@@ -73,6 +73,7 @@ mod tests {
             joints: Vec::new(),
             deviations: vec![Vector3::zeros(); track.len()],
             shares: Vec::new(),
+            clearances: Vec::new(),
             joint_count: 0,
             case_count: 1,
             share_count: 0,

@@ -392,6 +392,7 @@ pub fn answers_at(joints: &[[f64; 2]]) -> Answers {
         joints: joints.concat(),
         deviations: Vec::new(),
         shares: Vec::new(),
+        clearances: Vec::new(),
         joint_count: 2,
         case_count: 0,
         share_count: 0,

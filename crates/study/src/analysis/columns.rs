@@ -23,6 +23,7 @@ use armill_formats::table::{Column, ColumnData, Table};
 use rayon::prelude::*;
 
 use crate::analysis::AnalysisData;
+use crate::analysis::clearance::clearance_mm;
 use crate::analysis::numbers::Numbers;
 use crate::analysis::quantity::{self, Quantity};
 use crate::analysis::rows::{MM_DECIMALS, Rows, of_points};
@@ -145,10 +146,16 @@ fn numbers<'a>(robot: &'a Robot, contributors: Vec<String>, answers: &Answers) -
     ];
     columns
         .extend(ENVELOPE.map(|(quantity, of)| Numbers::of(quantity, move |_, _, evaluation| of(evaluation))));
+    if !answers.clearances.is_empty() {
+        columns.push(clearances());
+    }
     let probability = Numbers::of(&quantity::PROBABILITY_WITHIN, |rows, _, evaluation| {
         probability_within(evaluation, rows.setting.tolerance)
     });
-    columns.insert(4, probability);
+    let after_u = columns
+        .iter()
+        .position(|column| column.quantity == &quantity::NORMAL);
+    columns.insert(after_u.unwrap_or(columns.len()), probability);
     if !shared {
         columns.retain(|column| !WITH_SHARES.contains(&column.quantity));
     }
@@ -180,6 +187,17 @@ fn numbers<'a>(robot: &'a Robot, contributors: Vec<String>, answers: &Answers) -
         }
     }
     columns
+}
+
+/// The clearance, which points without a posture may have as well: that of the best posture.
+fn clearances<'a>() -> Numbers<'a> {
+    Numbers {
+        quantity: &quantity::CLEARANCE,
+        name: quantity::CLEARANCE.key.to_owned(),
+        fill: Box::new(|rows, points, values| {
+            values.extend(points.map(|index| clearance_mm(rows.setting, rows.answers, index)));
+        }),
+    }
 }
 
 /// The column with the section of a point.

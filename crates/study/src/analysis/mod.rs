@@ -11,12 +11,13 @@
 //! A file is missing where a kind has nothing of its own. [`map`], [`sections`], [`volume`], [`path`], [`holes`]; this
 //! file is the list of them. What they share: [`table`] `[[analysis]]`, [`study_tables`] what the study gives to each,
 //! [`resolve`] the values of the study and those of the analysis, `sheet` a plane with its grid, [`runner`] the question
-//! to the core, [`point`] a point of an answer, [`quantity`] what is known of a point, [`rows`], [`numbers`] and
+//! to the core, [`point`] a point of an answer, [`quantity`] what is known of a point, [`clearance`] their clearance, [`rows`], [`numbers`] and
 //! [`columns`] the points as a table, [`picture`], [`panels`] and [`arm`] for pictures, [`cells`] for tables of a
 //! report, [`words`] for sentences.
 
 pub mod arm;
 pub mod cells;
+pub mod clearance;
 pub mod columns;
 pub mod holes;
 pub mod map;
@@ -157,12 +158,9 @@ impl Subject {
     pub fn run<'s>(&'s self, runner: &Runner<'_>) -> Result<AnalysisData<'s>, StudyError> {
         let map = |sheet: &Sheet| -> Result<PlaneMap, StudyError> {
             let question = runner.question(&sheet.setting);
-            Ok(plane_map(
-                &question,
-                sheet.setting.plane,
-                sheet.grid,
-                runner.watch,
-            )?)
+            let mut map = plane_map(&question, sheet.setting.plane, sheet.grid, runner.watch)?;
+            map.answers.measure_clearances(&question);
+            Ok(map)
         };
         Ok(match self {
             Subject::Map(sheet) => AnalysisData::Map(sheet, map(sheet)?),
@@ -175,10 +173,9 @@ impl Subject {
             }
             Subject::Volume(setting, grid) => {
                 let question = runner.question(setting);
-                AnalysisData::Volume(
-                    setting,
-                    volume_map(&question, setting.plane, *grid, runner.watch)?,
-                )
+                let mut volume = volume_map(&question, setting.plane, *grid, runner.watch)?;
+                volume.answers.measure_clearances(&question);
+                AnalysisData::Volume(setting, volume)
             }
             Subject::Path(path) => AnalysisData::Path(path, Box::new(runner.path(path)?)),
             Subject::Holes(holes) => {
@@ -187,13 +184,14 @@ impl Subject {
                     track: &path.track,
                     load: &path.load,
                 };
-                let found = hole_postures(
+                let mut found = hole_postures(
                     &question,
                     loaded,
                     &holes.search,
                     &holes.path.setting.least_gain,
                     runner.watch,
                 )?;
+                found.answers.measure_clearances(&question);
                 AnalysisData::Holes(holes, Box::new(found))
             }
         })

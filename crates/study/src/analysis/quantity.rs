@@ -122,6 +122,21 @@ pub const LIMIT_MARGIN: Quantity = angle(
         validation: Some("mh12-readings"),
     },
 );
+/// Distance of the nearest bodies.
+pub const CLEARANCE: Quantity = Quantity {
+    unit: Some("mm"),
+    decimals: 3,
+    ..angle(
+        "clearance_mm",
+        "least distance of two bodies of the cell, 0 where they touch; where no posture keeps the demanded clearance, that of the best one",
+        Origin {
+            file: "core/src/clearance/cell.rs",
+            function: "CellState::clearance",
+            theory: None,
+            validation: None,
+        },
+    )
+};
 /// The load case of the envelope.
 pub const WORST_CASE: Quantity = Quantity {
     unit: None,
@@ -354,7 +369,7 @@ pub const HOLE_Y: Quantity = deviation(
 pub const DEPTH: Quantity = deviation("depth_um", "deviation out of the part: too shallow", IN_HOLE);
 
 /// All quantities, in the order of the tables: of a path, of holes, of every analysis.
-pub const ALL: [&Quantity; 30] = [
+pub const ALL: [&Quantity; 31] = [
     &LINE,
     &DISTANCE,
     &FEED,
@@ -375,6 +390,7 @@ pub const ALL: [&Quantity; 30] = [
     &HOLE_Y,
     &DEPTH,
     &LIMIT_MARGIN,
+    &CLEARANCE,
     &WORST_CASE,
     &IN_PLANE,
     &IN_PLANE_U,

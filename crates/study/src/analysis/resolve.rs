@@ -11,6 +11,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use armill_core::clearance::ArmBody;
 use armill_core::frame::Isometry;
 use armill_core::kernel::BranchChoice;
 use armill_core::load::{InputUncertainty, LoadCases, LoadFrame};
@@ -25,6 +26,9 @@ use crate::analysis::path::LoadSource;
 use crate::analysis::study_tables::StudyTables;
 use crate::analysis::table::{AnalysisKind, AnalysisTable};
 use crate::analysis::{Sheet, Subject};
+use crate::input::cell::bodies::tool_bodies;
+use crate::input::cell::placed::CellFrames;
+use crate::input::cell::{CellBodies, PlacedCell};
 use crate::input::memory::{OF_FIELD, OF_MAP, PointMemory};
 use crate::input::problem_log::ProblemLog;
 use crate::input::quantities::{grid, load_cases, plane_at, pose_mm_deg};
@@ -58,6 +62,8 @@ pub struct Resolver<'a> {
     pub table: &'a AnalysisTable,
     /// Where files of the study are looked for.
     pub folder: &'a Path,
+    /// The bodies of the cell, if the study has any.
+    pub bodies: Option<&'a CellBodies>,
 }
 
 impl Resolver<'_> {
@@ -75,7 +81,11 @@ impl Resolver<'_> {
         LoadSource::refuse_two(log, self.table);
         let plane = self.plane_table();
         let grid = grid(log, &plane);
-        let setting = self.setting(log, &plane, push);
+        let tool = self.tool_bodies(log)?;
+        let setting = self
+            .setting(log, &plane, push)
+            .zip(tool)
+            .map(|(setting, tool)| self.in_cell(setting, tool));
         // Each is checked even if others have problems: all problems are reported at once.
         Ok(match self.table.kind {
             AnalysisKind::Map => setting
@@ -246,7 +256,28 @@ impl Resolver<'_> {
             home,
             open,
             search,
+            cell: None,
         })
+    }
+
+    /// The bodies of the tool; `None` if they have problems.
+    fn tool_bodies(&self, log: &mut ProblemLog<'_>) -> Result<Option<Vec<ArmBody>>, StudyError> {
+        let tool = self.table.tool.as_ref().or(self.common.tool);
+        tool_bodies(log, tool, self.folder)
+    }
+
+    /// The setting with the bodies of the cell, if the study has any.
+    fn in_cell(&self, setting: Setting, tool: Vec<ArmBody>) -> Setting {
+        let of_study = self.robot.zip(self.bodies);
+        let cell = of_study.map(|(robot, bodies)| {
+            let frames = CellFrames {
+                base_from_reference: &setting.base_from_reference,
+                base_from_part: &setting.plane.base_from_part,
+                flange_from_tool: &setting.flange_from_tool,
+            };
+            PlacedCell::of(&robot.robot, bodies, tool, frames)
+        });
+        Setting { cell, ..setting }
     }
 
     /// What is searched for along a path; `None` also where that is wrong.

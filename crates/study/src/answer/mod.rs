@@ -337,6 +337,7 @@ fn warnings(study: &Study, answers: &AnalysisAnswers) -> Vec<String> {
         );
     }
     warnings.extend(study.robot.note.clone());
+    warnings.extend(study.cell_notes.iter().cloned());
     warnings
 }
 
@@ -351,6 +352,10 @@ fn lost_points(name: &str, counts: &CountsAnswer) -> Option<String> {
         (counts.not_found, "where the search found no posture"),
         (counts.unverified, "where the inverse kinematics failed its check"),
         (counts.unstable, "without a stable equilibrium under the load"),
+        (
+            counts.in_collision,
+            "where no posture keeps the demanded clearance",
+        ),
     ];
     let each = reasons.iter().filter(|(count, _)| *count > 0);
     let each: Vec<String> = each.map(|(count, reason)| format!("{count} {reason}")).collect();

@@ -11,6 +11,8 @@ use crate::analysis::path::cut::CutTable;
 use crate::analysis::study_tables::StudyTables;
 use crate::analysis::table::AnalysisTable;
 use crate::compliance_class::ComplianceClass;
+use crate::input::cell::bodies::CellTables;
+use crate::input::cell::tables::{ObstacleTable, PartTable};
 use crate::input::improvement::ImprovementTable;
 use crate::input::stiffness::StiffnessTables;
 use crate::input::tables::{GravityTable, LoadTable, PlaneTable, PostureTable, ThermalTable, ToolTable};
@@ -36,6 +38,16 @@ pub struct StudyFile {
     pub compliance: Option<ComplianceTable>,
     /// The tool; the bare flange if left out.
     pub tool: Option<ToolTable>,
+    /// Bodies that stand in the cell, for the clearance.
+    #[schemars(length(max = 1000))]
+    #[serde(default)]
+    pub obstacle: Vec<ObstacleTable>,
+    /// The part or its stock, for the clearance: only a cutter may touch it.
+    pub part: Option<PartTable>,
+    /// Least distance of the arm and its tool from all bodies, and from themselves; postures that do not keep it are not used. If left out,
+    /// bodies must not touch.
+    #[schemars(range(min = 0.0, max = 1e4))]
+    pub least_clearance_mm: Option<f64>,
     /// A turntable or positioner that carries the part; coordinates may then be relative to its frame `table`.
     pub positioner: Option<PositionerTable>,
     /// Gravity on the masses of robot and tool; neglected without this table.
@@ -82,6 +94,21 @@ pub struct StudyFile {
 }
 
 impl StudyFile {
+    /// What is about the cell, for the analyses of these tables.
+    pub fn cell_tables(&self, analyses: &[AnalysisTable]) -> CellTables<'_> {
+        let mut tools = analyses
+            .iter()
+            .filter_map(|analysis| analysis.tool.as_ref())
+            .chain(&self.tool);
+        CellTables {
+            obstacles: &self.obstacle,
+            part: self.part.as_ref(),
+            least_clearance_mm: self.least_clearance_mm,
+            robot: &self.robot,
+            tool_has_bodies: tools.any(|tool| !tool.body.is_empty()),
+        }
+    }
+
     /// What every analysis has unless it replaces it.
     pub fn common(&self) -> StudyTables<'_> {
         StudyTables {

@@ -26,6 +26,7 @@ use crate::file::format::{StatementTable, StudyFile};
 use crate::file::names::{check_statements, name_of, unfit_names};
 use crate::file::placement::PlaceTable;
 use crate::file::{ResolvedAnalyses, compliance, positioner};
+use crate::input::cell::CellBodies;
 use crate::input::problem_log::ProblemLog;
 use crate::input::setting::Setting;
 use crate::robots;
@@ -53,6 +54,8 @@ pub struct Study {
     pub circles: Vec<MeasuredCircle>,
     /// Published statements by others.
     pub statements: Vec<StatementTable>,
+    /// What a user should know of the bodies of the cell.
+    pub cell_notes: Vec<String>,
 }
 
 impl Study {
@@ -188,6 +191,10 @@ impl Parsed {
             Some(robot) => find_calibrated(&mut log, file, robot, folder)?,
             None => None,
         };
+        let bodies = match &robot {
+            Some(robot) => CellBodies::read(&mut log, &file.cell_tables(&tables), robot, folder)?,
+            None => None,
+        };
         let common = file.common();
         let mut problems = std::mem::take(&mut log.problems);
         let mut analyses = Vec::new();
@@ -203,6 +210,7 @@ impl Parsed {
                 actual: actual.as_ref().map(|actual| &actual.robot),
                 table,
                 folder,
+                bodies: bodies.as_ref(),
             };
             let name = name_of(table, index);
             if let Some(subject) = resolver.subject(&mut log)? {
@@ -254,6 +262,7 @@ impl Parsed {
             experiment,
             circles,
             statements: file.statement.clone(),
+            cell_notes: bodies.map_or_else(Vec::new, |bodies| bodies.notes),
         })
     }
 

@@ -2,8 +2,9 @@
 //!
 //! [`tables`] the tables as written; [`problem_log`] reports problems at their keys; [`quantities`] lengths, planes and
 //! loads in SI; [`stiffness`] the stiffness model; [`posture_search`] the search for spin and branch; [`improvement`]
-//! the least gain that counts; [`memory`] the estimate of what the answers take; [`setting`] all of it for the points of an analysis.
+//! the least gain that counts; [`cell`] the bodies of the cell; [`memory`] the estimate of what the answers take; [`setting`] all of it for the points of an analysis.
 
+pub mod cell;
 pub mod improvement;
 pub mod memory;
 pub mod posture_search;

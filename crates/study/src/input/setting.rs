@@ -10,6 +10,8 @@ use armill_core::source::{Arm, ArmState, StiffnessModel};
 use armill_core::spatial::Wrench;
 use armill_core::workpiece::Plane;
 
+use crate::input::cell::PlacedCell;
+
 /// Everything needed to evaluate a point, SI, base.
 #[derive(Clone, Debug)]
 pub struct Setting {
@@ -47,6 +49,8 @@ pub struct Setting {
     pub open: BranchPattern,
     /// Along a path: which turns and branches are tried.
     pub search: Option<PostureSearch>,
+    /// The bodies of the cell, and the demanded clearance; none where the study has no bodies.
+    pub cell: Option<PlacedCell>,
 }
 
 impl Setting {

@@ -8,6 +8,7 @@ use armill_formats::robot::spring_tables::{MassTable, SpringTable};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use crate::input::cell::tables::ToolBodyTable;
 use crate::input::posture_search::SearchTable;
 
 /// The tool on the flange.
@@ -37,6 +38,10 @@ pub struct ToolTable {
     /// Spindle and payload, if gravity is included.
     #[serde(default)]
     pub mass: Vec<MassTable>,
+    /// Bodies of spindle, holder and cutter, for the clearance.
+    #[schemars(length(max = 100))]
+    #[serde(default)]
+    pub body: Vec<ToolBodyTable>,
 }
 
 /// Material of a cutter.

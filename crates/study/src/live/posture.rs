@@ -228,6 +228,7 @@ pub(super) fn postures_of(
             model: &setting.model,
             normal: Some(requested.normal),
             link_offsets: &|q| requested.pose.as_ref()?.link_offsets_in(q),
+            cell: setting.cell.as_ref(),
         },
     )?;
     let joints = answer
@@ -371,6 +372,7 @@ fn deviations(
             uncertainty: setting.uncertainty,
             normal,
             choice: BranchChoice::Best,
+            clearance: None,
         };
         let answers = evaluate_posture(&question, q, link_offsets);
         let evaluation = answers.points[0].as_ref().ok()?;

@@ -21,6 +21,7 @@ fn link(name: &str, attachment: Attachment, shape: Shape) -> ArmBody {
     ArmBody {
         name: name.to_owned(),
         attachment,
+        attachment_from_body: Isometry::identity(),
         shape,
         role: Role::Link,
     }
@@ -31,6 +32,7 @@ fn bodies() -> Vec<ArmBody> {
     let tool = |name: &str, role: Role, to: f64, from: f64, radius: f64| ArmBody {
         name: name.to_owned(),
         attachment: Attachment::Flange,
+        attachment_from_body: Isometry::identity(),
         shape: Shape::Cylinder(
             Segment {
                 from: Point3::new(0.0, 0.0, from),

@@ -24,6 +24,7 @@ fn answers(points: Vec<Result<Evaluation, Unreachable>>) -> Answers {
         joints: (0..2 * count).map(|k| k as f64).collect(),
         deviations: (0..3 * count).map(|k| Vector3::repeat(k as f64)).collect(),
         shares: (0..4 * count).map(|k| k as f64).collect(),
+        clearances: Vec::new(),
         joint_count: 2,
         case_count: 3,
         share_count: 4,

@@ -66,6 +66,13 @@ impl Mesh {
     }
 }
 
+impl Mesh {
+    /// Names of the joints on the way from the root link to its link.
+    pub fn joints(&self) -> impl Iterator<Item = &str> {
+        self.way.iter().map(|hop| hop.name.as_str())
+    }
+}
+
 /// Every mesh of this URDF text, in the order of its links; `path` is what errors show.
 ///
 /// # Errors

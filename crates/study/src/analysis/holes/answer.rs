@@ -20,6 +20,7 @@ use armill_core::workpiece::Plane;
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::analysis::clearance::LeastClearance;
 use crate::analysis::holes::HolesAnalysis;
 use crate::analysis::map::answer::CountsAnswer;
 use crate::analysis::path::PathSource;
@@ -38,6 +39,10 @@ pub struct HolesAnswer {
     pub holes: usize,
     /// Holes without posture inside joint limits.
     pub unreachable: usize,
+    /// Least distance of two bodies at any hole, 0 where they touch; none without bodies.
+    pub least_clearance_mm: Option<f64>,
+    /// The two bodies.
+    pub nearest: Option<[String; 2]>,
     /// Holes by reason; their sum is the total.
     pub counts: CountsAnswer,
     /// Holes without a usable spin and branch, clear of singularities and inside joint limits; they are evaluated in a
@@ -155,11 +160,14 @@ pub fn answer(robot: &Robot, name: &str, analysis: &HolesAnalysis, found: &Holes
         .map(|(_, evaluation)| evaluation.in_plane)
         .sum::<f64>()
         / evaluation.len().max(1) as f64;
+    let clearance = LeastClearance::of(setting, answers);
     HolesAnswer {
         name: name.to_owned(),
         branch: analysis.branch(),
         holes: count,
         unreachable: count - evaluation.len(),
+        least_clearance_mm: clearance.as_ref().map(|least| least.distance_mm),
+        nearest: clearance.map(|least| least.bodies),
         refused: evaluation.iter().filter(|(index, _)| is_refused(*index)).count(),
         fraction_within: good as f64 / count.max(1) as f64,
         counts: CountsAnswer::of(&counts),

@@ -11,6 +11,7 @@ use armill_core::units::{to_mm, to_mm2, to_um};
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::analysis::clearance::LeastClearance;
 use crate::analysis::point::{PointAnswer, ReachedPoint, SettingAnswer};
 use crate::input::setting::Setting;
 use crate::number::without_rounding;
@@ -35,6 +36,10 @@ pub struct MapAnswer {
     pub max_normal_um: Option<f64>,
     /// Points by reason; their sum is the total.
     pub counts: CountsAnswer,
+    /// Least distance of two bodies at any point, 0 where they touch; none without bodies.
+    pub least_clearance_mm: Option<f64>,
+    /// The two bodies.
+    pub nearest: Option<[String; 2]>,
     /// Points with a posture outside joint limits.
     pub outside_joint_limits: usize,
     /// Points with a posture near a singularity.
@@ -73,6 +78,8 @@ pub struct CountsAnswer {
     pub unverified: usize,
     /// A posture reaches the point, but the arm has no stable equilibrium under the load.
     pub unstable: usize,
+    /// Postures reach the point, but none keeps the demanded clearance.
+    pub in_collision: usize,
 }
 
 impl CountsAnswer {
@@ -86,12 +93,18 @@ impl CountsAnswer {
             not_found: counts.not_found,
             unverified: counts.unverified,
             unstable: counts.unstable,
+            in_collision: counts.in_collision,
         }
     }
 
     /// Points without a result.
     pub fn unreached(&self) -> usize {
-        self.out_of_reach + self.no_posture_inside_limits + self.not_found + self.unverified + self.unstable
+        self.out_of_reach
+            + self.no_posture_inside_limits
+            + self.not_found
+            + self.unverified
+            + self.unstable
+            + self.in_collision
     }
 
     /// All points.
@@ -185,6 +198,7 @@ pub fn answer(robot: &Robot, name: &str, setting: &Setting, map: &PlaneMap) -> M
     };
     let (worst, best) = (map.answers.worst().map(point), map.answers.best().map(point));
     let largest_along_normal = map.answers.largest_along_normal().map(point);
+    let clearance = LeastClearance::of(setting, &map.answers);
     MapAnswer {
         name: name.to_owned(),
         branch: setting.branch(),
@@ -194,6 +208,8 @@ pub fn answer(robot: &Robot, name: &str, setting: &Setting, map: &PlaneMap) -> M
         min_in_plane_um: best.as_ref().map(|p| p.in_plane_um),
         max_normal_um: largest_along_normal.as_ref().map(|p| p.normal_um.abs()),
         counts: CountsAnswer::of(&counts),
+        least_clearance_mm: clearance.as_ref().map(|least| least.distance_mm),
+        nearest: clearance.map(|least| least.bodies),
         outside_joint_limits: counts.outside_joint_limits,
         near_singularity: counts.near_singularity,
         worst,

@@ -130,9 +130,10 @@ impl Runner<'_> {
         let question = self.question(&analysis.setting);
         let Followed {
             turned,
-            along,
+            mut along,
             searched,
         } = self.follow(analysis, load)?;
+        along.answers.measure_clearances(&question);
         let track = turned.as_ref().unwrap_or(&analysis.track);
         let limits = match analysis.reports_limits() {
             true => program_limits(

@@ -32,8 +32,9 @@ pub fn sentence(robot: &Robot, path: &PathAnswer) -> String {
     };
     let limits = limits.in_words();
     let process = path.cut.as_ref().map_or(String::new(), process);
+    let clearance = clearance(path);
     format!(
-        "{}, branch {}: {}the tool deviates by up to {} µm ({}) {where_to}{line}{roundness}; largest contribution: {}; {:.1} % of the path is within {} µm{limits}.{process}",
+        "{}, branch {}: {}the tool deviates by up to {} µm ({}) {where_to}{line}{roundness}; largest contribution: {}; {:.1} % of the path is within {} µm{limits}.{clearance}{process}",
         path.name,
         path.followed_branch.as_ref().unwrap_or(&path.branch),
         unreached(path.unreachable, path.points),
@@ -43,6 +44,17 @@ pub fn sentence(robot: &Robot, path: &PathAnswer) -> String {
         path.fraction_within_and_inside_joint_limits * 100.0,
         micrometres(path.setting.tolerance_um),
     )
+}
+
+/// The least clearance, as a further sentence; empty without bodies.
+fn clearance(path: &PathAnswer) -> String {
+    let Some((least, [first, second])) = path.least_clearance_mm.zip(path.nearest.as_ref()) else {
+        return String::new();
+    };
+    match least > 0.0 {
+        true => format!(" The least clearance is {least:.1} mm, of {first} and {second}."),
+        false => format!(" {first} and {second} touch."),
+    }
 }
 
 /// Force, torque, chip thickness and removal rate of a cut, as a further sentence.

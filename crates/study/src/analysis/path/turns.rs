@@ -24,6 +24,7 @@ pub fn picture(name: &str, subtitle: String, analysis: &PathAnalysis, found: &Pa
         PostureStatus::Usable => Cell::Deviation(to_um(deviation)),
         PostureStatus::OutsideLimits => Cell::OutsideJointLimits,
         PostureStatus::Singular => Cell::Singular,
+        PostureStatus::InCollision => Cell::InCollision,
         PostureStatus::Unstable | PostureStatus::OutOfReach => Cell::OutOfReach,
     };
     let cells = |column: &usize| {

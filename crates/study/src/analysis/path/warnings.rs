@@ -8,19 +8,34 @@ const MOST_STRETCHES: usize = 5;
 
 /// Warnings of a path that a user should know before relying on it.
 ///
-/// In this order: points out of reach with what may be the reason, points outside joint limits, jumps and speeds of
+/// In this order: points without the demanded clearance, points out of reach with what may be the reason, points outside joint limits, jumps and speeds of
 /// joints, points whose deviation is zero only because no force is known there.
 pub fn warnings(path: &PathAnswer) -> Vec<String> {
     let name = &path.name;
     let mut warnings = Vec::new();
-    if path.unreachable > 0 {
+    if path.in_collision > 0 {
+        let collisions = path
+            .obstacles
+            .iter()
+            .find(|obstacle| obstacle.kind == "collision");
+        let worst = collisions.map_or_else(String::new, |found| format!(": {}", found.message));
+        let between = (path.nearest.as_ref()).map_or_else(String::new, |[first, second]| {
+            format!("; nearest are {first} and {second}")
+        });
+        warnings.push(format!(
+            "{name}: no posture keeps the demanded clearance at {} of {} points{worst}{between}.",
+            path.in_collision, path.points
+        ));
+    }
+    if path.unreachable > path.in_collision {
         let hint = match path.program {
             Some(_) => "check the placement of the program (part_from_path_mm_deg)",
             None => "check that its coordinates are in mm, and the placement of the plane",
         };
         warnings.push(format!(
             "{name}: {} of {} points are out of reach; {hint}.",
-            path.unreachable, path.points
+            path.unreachable - path.in_collision,
+            path.points
         ));
     }
     if path.outside_joint_limits > 0 {

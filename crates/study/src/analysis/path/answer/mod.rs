@@ -37,6 +37,7 @@ use armill_core::units::{to_deg, to_mm, to_um};
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::analysis::clearance::{LeastClearance, in_collision};
 use crate::analysis::path::PathAnalysis;
 use crate::analysis::path::run::PathResult;
 use crate::analysis::point::{PointAnswer, SettingAnswer};
@@ -56,6 +57,12 @@ pub struct PathAnswer {
     pub points: usize,
     /// Points without posture.
     pub unreachable: usize,
+    /// Of these, points where no posture keeps the demanded clearance.
+    pub in_collision: usize,
+    /// Least distance of two bodies along the path, 0 where they touch; none without bodies.
+    pub least_clearance_mm: Option<f64>,
+    /// The two bodies.
+    pub nearest: Option<[String; 2]>,
     /// Points with a posture outside joint limits.
     pub outside_joint_limits: usize,
     /// Length of all cuts, or of the shape.
@@ -139,12 +146,16 @@ pub fn answer(robot: &Robot, name: &str, analysis: &PathAnalysis, found: &PathRe
         .map(|radial| to_um(radial.roundness.peak_to_valley));
     let worst_points = worst::worst_points(robot, analysis, found);
     let [along, cross, axial] = largest_parts(analysis, found);
+    let clearance = LeastClearance::of(setting, answers);
     PathAnswer {
         name: name.to_owned(),
         branch: setting.branch(),
         followed_branch: followed(robot, &found.along, setting),
         points,
         unreachable: points - evaluation().count(),
+        in_collision: in_collision(answers),
+        least_clearance_mm: clearance.as_ref().map(|least| least.distance_mm),
+        nearest: clearance.map(|least| least.bodies),
         outside_joint_limits: evaluation()
             .filter(|evaluation| !evaluation.within_limits())
             .count(),

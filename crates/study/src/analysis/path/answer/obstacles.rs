@@ -13,7 +13,7 @@ use crate::joint_unit::JointUnit;
 /// An obstacle of one kind and joint, where it is largest.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ObstacleAnswer {
-    /// `unreachable`, `joint-limit`, `jump` or `joint-speed`.
+    /// `unreachable`, `collision`, `joint-limit`, `jump` or `joint-speed`.
     pub kind: &'static str,
     /// The joint; none where no posture exists.
     pub joint: Option<String>,
@@ -71,6 +71,7 @@ type Key = (&'static str, Option<usize>);
 fn key(kind: &ObstacleKind) -> Key {
     match kind {
         ObstacleKind::Unreachable => ("unreachable", None),
+        ObstacleKind::InCollision { .. } => ("collision", None),
         ObstacleKind::OutsideLimits { joint, .. } => ("joint-limit", Some(*joint)),
         ObstacleKind::Jump { joint, .. } => ("jump", Some(*joint)),
         ObstacleKind::TooSlow { joint, .. } => ("joint-speed", Some(*joint)),
@@ -90,6 +91,7 @@ impl Group {
         self.points += 1;
         let size = |kind: &ObstacleKind| match kind {
             ObstacleKind::Unreachable => 0.0,
+            ObstacleKind::InCollision { missing } => *missing,
             ObstacleKind::OutsideLimits { margin, .. } => -margin,
             ObstacleKind::Jump { by, .. } => by.abs(),
             ObstacleKind::TooSlow { required, .. } => *required,
@@ -101,12 +103,27 @@ impl Group {
 
     fn answer(&self, robot: &Robot, path: &SampledPath, margin: f64) -> ObstacleAnswer {
         let (kind, joint) = self.key;
-        let unit = joint.map_or(JointUnit::TURNING, |joint| JointUnit::of(robot, joint));
+        let unit = joint.map_or(
+            if kind == "collision" {
+                JointUnit::SLIDING
+            } else {
+                JointUnit::TURNING
+            },
+            |joint| JointUnit::of(robot, joint),
+        );
         let [first, largest] = [self.first, self.largest.index].map(|index| &path.points[index]);
         let at = place(largest);
         let name = joint.map_or("", |joint| robot.joints()[joint].name.as_str());
         let (value, limit, per, message) = match self.largest.kind {
             ObstacleKind::Unreachable => (None, None, None, format!("no posture reaches the point {at}")),
+            ObstacleKind::InCollision { missing } => {
+                let missing = to_mm(missing);
+                let message = match missing > 0.0 {
+                    true => format!("{missing:.1} mm of the demanded clearance are missing {at}"),
+                    false => format!("two bodies touch {at}"),
+                };
+                (Some(missing), Some(0.0), Some(""), message)
+            }
             ObstacleKind::OutsideLimits { margin: room, .. } => {
                 let (room, least) = (room * unit.scale, margin * unit.scale);
                 let message = match room < 0.0 {

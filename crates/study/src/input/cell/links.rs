@@ -1,0 +1,110 @@
+//! The bodies of the robot: those of its robot file, or the collision meshes of its URDF.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use armill_core::clearance::{ArmBody, Role, Shape};
+use armill_core::frame::Isometry;
+use armill_core::nalgebra;
+use armill_core::robot::Attachment;
+use armill_core::robot::forward::forward;
+use armill_formats::mesh;
+use armill_formats::robot::RobotDescription;
+use armill_formats::robot::urdf::meshes::Mesh;
+
+use crate::error::StudyError;
+use crate::input::cell::shape::mesh_of;
+use crate::link_meshes::{LinkMesh, LinkMeshes, Preferred};
+
+/// The bodies of the links.
+pub struct LinkBodies {
+    /// The bodies.
+    pub links: Vec<ArmBody>,
+    /// Pairs of them that are apart in every posture.
+    pub apart: Vec<[usize; 2]>,
+    /// Where they come from, or why there are none.
+    pub note: Option<String>,
+}
+
+impl LinkBodies {
+    /// The bodies of this robot, which the study calls `name`.
+    ///
+    /// # Errors
+    /// The problems of a mesh file.
+    pub fn of(robot: &RobotDescription, name: &str, folder: &Path) -> Result<LinkBodies, StudyError> {
+        if !robot.bodies.is_empty() {
+            return Ok(LinkBodies {
+                links: robot.bodies.clone(),
+                apart: robot.apart.clone(),
+                note: None,
+            });
+        }
+        let found = LinkMeshes::of(name, folder, Preferred::Collision);
+        let note = match &found {
+            LinkMeshes::Found(_) => None,
+            LinkMeshes::None => Some(format!(
+                "The shapes of the links of {} are not known: the clearance is that of tool and part alone.",
+                robot.title
+            )),
+            LinkMeshes::Missing(file) => Some(format!(
+                "The mesh `{file}` of {} is not in the folder of its file or of the study: the shapes of its links are not \
+                 known, and the clearance is that of tool and part alone.",
+                robot.title
+            )),
+        };
+        let links = match found {
+            LinkMeshes::Found(meshes) => meshes
+                .iter()
+                .map(|mesh| body_of(robot, mesh))
+                .collect::<Result<_, StudyError>>()?,
+            _ => Vec::new(),
+        };
+        Ok(LinkBodies {
+            links,
+            apart: Vec::new(),
+            note,
+        })
+    }
+}
+
+/// The body of one mesh.
+fn body_of(robot: &RobotDescription, found: &LinkMesh) -> Result<ArmBody, StudyError> {
+    let LinkMesh { mesh, path } = found;
+    let bytes = armill_formats::input::read(path).map_err(|error| {
+        let message = format!("cannot read the mesh `{}`: {error}", path.display());
+        StudyError::value(message, "make it readable, or remove it from the robot file")
+    })?;
+    let read = mesh::read(&path.display().to_string(), &bytes)?;
+    let unit = read.unit.map_or(1.0, mesh::MeshUnit::metres);
+    let scale = mesh.scale.map(|factor| factor * unit);
+    let Some(shape) = mesh_of(&read, scale, read.report().is_closed) else {
+        let message = format!("the mesh `{}` of link `{}` has no triangle", mesh.file, mesh.link);
+        return Err(StudyError::value(message, "another file"));
+    };
+    let (attachment, attachment_from_body) = attachment_of(robot, mesh);
+    Ok(ArmBody {
+        name: mesh.link.clone(),
+        attachment,
+        attachment_from_body,
+        shape: Shape::Mesh(Arc::new(shape)),
+        role: Role::Link,
+    })
+}
+
+/// What a mesh moves with, and its position there.
+fn attachment_of(robot: &RobotDescription, mesh: &Mesh) -> (Attachment, Isometry) {
+    let joints = robot.robot.joints();
+    let index = |name: &str| joints.iter().position(|joint| joint.name == name);
+    let base_from_mesh = mesh.base_from_mesh(|_| None);
+    match mesh.joints().filter_map(index).last() {
+        None => (Attachment::Base, base_from_mesh),
+        Some(joint) => {
+            let zero = forward(&robot.robot, &vec![0.0; joints.len()]);
+            let base_from_joint: Isometry = nalgebra::convert(zero.base_from_joint[joint]);
+            (
+                Attachment::Joint(joint),
+                base_from_joint.inverse() * base_from_mesh,
+            )
+        }
+    }
+}
