@@ -30,7 +30,7 @@ use serde::Serialize;
 
 use crate::StudyError;
 use crate::file::resolve::Study;
-use crate::input::cell::PlacedCell;
+use crate::input::cell::AnalysisCell;
 use crate::input::setting::Setting;
 use crate::joint_unit::{JointUnit, joint_positions};
 use crate::model_words::{left_out, parts};
@@ -163,7 +163,7 @@ struct ClearanceAnswer {
 impl ClearanceAnswer {
     fn of(
         state: &mut CellState<'_>,
-        placed: &PlacedCell,
+        placed: &AnalysisCell,
         base_from_reference: &Isometry,
         posture: &Posture,
     ) -> Option<ClearanceAnswer> {
@@ -287,7 +287,7 @@ pub(crate) struct PoseContext<'a> {
     /// as along a path, rad (m).
     pub link_offsets: &'a dyn Fn(&[f64]) -> Option<&'a [f64]>,
     /// The bodies of the cell, if there are any.
-    pub cell: Option<&'a PlacedCell>,
+    pub cell: Option<&'a AnalysisCell>,
 }
 
 /// [`answer`] in this context, which replaces the values of the question.
@@ -336,7 +336,7 @@ pub(crate) fn answer_in(
     };
     let mut cell_state = situation
         .cell
-        .map(|placed| CellState::new(&placed.cell, robot, &question.flange_from_tool));
+        .map(|placed| CellState::new(placed.placed(), robot, &question.flange_from_tool));
     let mut arm_state = robot.compliance().map(|compliance| {
         ArmState::new(Arm {
             robot,

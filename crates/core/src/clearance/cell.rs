@@ -53,8 +53,8 @@ pub struct FixedBody {
     pub name: String,
     /// Its shape.
     pub shape: Shape,
-    /// Its position in the base of the robot.
-    pub base_from_body: Isometry,
+    /// Its position: in the base of the robot, of the part in the frame of the part.
+    pub frame_from_body: Isometry,
     /// Whether it is the part, or its stock.
     pub is_part: bool,
 }
@@ -73,7 +73,7 @@ pub struct Cell {
     part: Option<Still>,
 }
 
-/// Bodies that stand still.
+/// Bodies that stand still relative to each other, in their common frame.
 #[derive(Clone, Debug)]
 struct Still {
     names: Vec<String>,
@@ -85,7 +85,7 @@ impl Still {
     fn of<'a>(bodies: impl Iterator<Item = &'a FixedBody>) -> Option<Still> {
         let (mut names, mut placed, mut around) = (Vec::new(), Vec::new(), Bounds::EMPTY);
         for body in bodies {
-            let frame = matrix(&body.base_from_body);
+            let frame = matrix(&body.frame_from_body);
             names.push(body.name.clone());
             around = around.joined(&body.shape.bounds().moved(&frame, &frame.rotation.matrix().abs()));
             placed.push(body.shape.placed(&frame));
@@ -95,6 +95,23 @@ impl Still {
             bodies: placed,
             field: Field::around(&around),
         })
+    }
+
+    /// The nearest of the bodies to a body in the same frame, with its index.
+    fn nearest(&self, own: &Placed, limit: f64) -> Option<(Nearest, usize)> {
+        let mut best: Option<(Nearest, usize)> = None;
+        for (index, other) in self.bodies.iter().enumerate() {
+            let limit = best.map_or(limit, |(best, _)| best.distance);
+            if own.hull().bound_of_balls(other.hull()) > limit {
+                continue;
+            }
+            if let Some(nearest) = own.nearest(other, limit)
+                && best.is_none_or(|(best, _)| nearest.distance < best.distance)
+            {
+                best = Some((nearest, index));
+            }
+        }
+        best
     }
 }
 
@@ -149,7 +166,11 @@ impl Cell {
 
     fn leave_out_permanent_contacts(&mut self, robot: &Robot, flange_from_tool: &Isometry) {
         let mut touching = self.pairs.clone();
-        let mut state = CellState::new(self, robot, flange_from_tool);
+        let placed = PlacedCell {
+            cell: self,
+            base_from_part: &Isometry::identity(),
+        };
+        let mut state = CellState::new(placed, robot, flange_from_tool);
         for sample in 1..=SAMPLES {
             if touching.is_empty() {
                 break;
@@ -163,14 +184,6 @@ impl Cell {
         }
         self.pairs.retain(|pair| !touching.contains(pair));
         self.always_in_contact = touching;
-    }
-
-    /// The cell with the part (all bodies with `is_part`) replaced.
-    pub fn with_part(&self, part: &[FixedBody]) -> Cell {
-        Cell {
-            part: Still::of(part.iter()),
-            ..self.clone()
-        }
     }
 
     /// Name of a body of a [`Clearance`]: those of the arm first, then obstacles, then the part.
@@ -238,11 +251,20 @@ fn matrix(isometry: &Isometry) -> IsometryMatrix3<f64> {
     nalgebra::convert(*isometry)
 }
 
+/// A cell with its part at a place.
+#[derive(Clone, Copy, Debug)]
+pub struct PlacedCell<'a> {
+    /// The bodies.
+    pub cell: &'a Cell,
+    /// The frame of the part in base.
+    pub base_from_part: &'a Isometry,
+}
+
 /// A clearance that postures must keep.
 #[derive(Clone, Copy, Debug)]
 pub struct DemandedClearance<'a> {
     /// The bodies.
-    pub cell: &'a Cell,
+    pub placed: PlacedCell<'a>,
     /// The least distance, m; with 0 bodies must not touch.
     pub least: f64,
 }
@@ -271,9 +293,14 @@ impl<'a> ClearanceCheck<'a> {
         flange_from_tool: &Isometry,
     ) -> ClearanceCheck<'a> {
         ClearanceCheck {
-            state: CellState::new(demanded.cell, robot, flange_from_tool),
+            state: CellState::new(demanded.placed, robot, flange_from_tool),
             least: demanded.least,
         }
+    }
+
+    /// Moves the part.
+    pub fn set_part(&mut self, base_from_part: &Isometry) {
+        self.state.set_part(base_from_part);
     }
 
     /// The two bodies that are nearest, if they are nearer than demanded at these joint positions, rad (m).
@@ -294,6 +321,8 @@ pub struct CellState<'a> {
     cell: &'a Cell,
     robot: &'a Robot,
     flange_from_tool: Isometry,
+    base_from_part: IsometryMatrix3<f64>,
+    part_from_base: IsometryMatrix3<f64>,
     frames: Frames,
     /// The frame of each body of the arm.
     base_from_body: Vec<IsometryMatrix3<f64>>,
@@ -312,18 +341,28 @@ enum Check {
 
 impl<'a> CellState<'a> {
     /// The cell with the arm in no posture yet: at zero.
-    pub fn new(cell: &'a Cell, robot: &'a Robot, flange_from_tool: &Isometry) -> CellState<'a> {
+    pub fn new(placed: PlacedCell<'a>, robot: &'a Robot, flange_from_tool: &Isometry) -> CellState<'a> {
+        let PlacedCell { cell, base_from_part } = placed;
         let mut state = CellState {
             cell,
             robot,
             flange_from_tool: *flange_from_tool,
+            base_from_part: IsometryMatrix3::identity(),
+            part_from_base: IsometryMatrix3::identity(),
             frames: Frames::for_robot(robot),
             base_from_body: vec![IsometryMatrix3::identity(); cell.arm.len()],
             hulls: cell.hulls.clone(),
             queue: Vec::new(),
         };
+        state.set_part(base_from_part);
         state.set_joints(&vec![0.0; robot.joints().len()]);
         state
+    }
+
+    /// Moves the part.
+    pub fn set_part(&mut self, base_from_part: &Isometry) {
+        self.base_from_part = matrix(base_from_part);
+        self.part_from_base = self.base_from_part.inverse();
     }
 
     /// Moves the arm to these joint positions, rad (m), in the convention of the robot file.
@@ -387,16 +426,18 @@ impl<'a> CellState<'a> {
             if body.attachment == Attachment::Base {
                 continue;
             }
-            let mut take = |still: &Option<Still>, check: Check| {
-                let Some(still) = still else { return };
+            if let Some(still) = &self.cell.obstacles {
                 let bound = still.field.bound_of(hull, &still.bodies, limit);
                 if bound <= limit {
-                    queue.push((bound, check));
+                    queue.push((bound, Check::Obstacles(index)));
                 }
-            };
-            take(&self.cell.obstacles, Check::Obstacles(index));
-            if body.role != Role::Cutter {
-                take(&self.cell.part, Check::Part(index));
+            }
+            if let Some(still) = self.cell.part.as_ref().filter(|_| body.role != Role::Cutter) {
+                let in_part = hull.moved(&self.part_from_base);
+                let bound = still.field.bound_of(&in_part, &still.bodies, limit);
+                if bound <= limit {
+                    queue.push((bound, Check::Part(index)));
+                }
             }
         }
     }
@@ -409,33 +450,24 @@ impl<'a> CellState<'a> {
                 let nearest = self.nearest_of_arm(bodies, limit)?;
                 Some(Clearance { nearest, bodies })
             }
-            Check::Obstacles(body) => self.nearest_to(body, self.cell.obstacles.as_ref()?, arm, limit),
+            Check::Obstacles(body) => {
+                let (nearest, other) = self.cell.obstacles.as_ref()?.nearest(&self.placed(body), limit)?;
+                Some(Clearance {
+                    nearest,
+                    bodies: [body, arm + other],
+                })
+            }
             Check::Part(body) => {
                 let obstacles = self.cell.obstacles.as_ref().map_or(0, |still| still.bodies.len());
-                self.nearest_to(body, self.cell.part.as_ref()?, arm + obstacles, limit)
+                let frame = self.part_from_base * self.base_from_body[body];
+                let own = self.cell.arm[body].shape.placed(&frame);
+                let (nearest, other) = self.cell.part.as_ref()?.nearest(&own, limit)?;
+                Some(Clearance {
+                    nearest: nearest.moved(&self.base_from_part),
+                    bodies: [body, arm + obstacles + other],
+                })
             }
         }
-    }
-
-    /// The nearest of the bodies that stand still, whose indices begin with `first`.
-    fn nearest_to(&self, body: usize, still: &Still, first: usize, limit: f64) -> Option<Clearance> {
-        let own = self.placed(body);
-        let mut best: Option<Clearance> = None;
-        for (index, other) in still.bodies.iter().enumerate() {
-            let limit = best.map_or(limit, |best| best.nearest.distance);
-            if own.hull().bound_of_balls(other.hull()) > limit {
-                continue;
-            }
-            if let Some(nearest) = own.nearest(other, limit)
-                && best.is_none_or(|best| nearest.distance < best.nearest.distance)
-            {
-                best = Some(Clearance {
-                    nearest,
-                    bodies: [body, first + index],
-                });
-            }
-        }
-        best
     }
 }
 

@@ -17,7 +17,8 @@ pub mod shape;
 
 pub use bounds::{Bounds, Capsule};
 pub use cell::{
-    ArmBody, Cell, CellState, Clearance, ClearanceCheck, Conflict, DemandedClearance, FixedBody, Role,
+    ArmBody, Cell, CellState, Clearance, ClearanceCheck, Conflict, DemandedClearance, FixedBody, PlacedCell,
+    Role,
 };
 pub use mesh::Mesh;
 pub use nearest::{Nearest, Segment, Triangle};

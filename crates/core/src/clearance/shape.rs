@@ -189,7 +189,7 @@ impl Placed {
 
 impl Nearest {
     /// In another frame.
-    fn moved(self, by: &IsometryMatrix3<f64>) -> Nearest {
+    pub(super) fn moved(self, by: &IsometryMatrix3<f64>) -> Nearest {
         Nearest {
             points: self.points.map(|point| by * point),
             ..self

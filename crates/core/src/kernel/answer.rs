@@ -154,7 +154,7 @@ impl Answers {
         self.clearances = (0..self.points.len())
             .into_par_iter()
             .map_init(
-                || CellState::new(demanded.cell, arm.robot, arm.flange_from_tool),
+                || CellState::new(demanded.placed, arm.robot, arm.flange_from_tool),
                 measured,
             )
             .collect();

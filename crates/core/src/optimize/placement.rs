@@ -326,7 +326,13 @@ impl Placeable<'_> {
         };
         let arm = self.question.arm;
         let home = self.question.home;
-        let evaluator = |arm: Arm<'s>| PlacementEvaluator::new(arm, home, margins);
+        // Along a path the clearance is checked of the placements that are good without it.
+        let clearance = || match self.objective.selection {
+            PostureSelection::ForPath => None,
+            PostureSelection::PerPoint(_) => self.question.clearance_check(),
+        };
+        let evaluator =
+            |arm: Arm<'s>| PlacementEvaluator::new(arm, home, margins).keeping_clear(arm, home, clearance());
         Evaluators {
             screen: PlacementScreen::new(arm, margins)
                 .filter(|_| self.objective.selection == PostureSelection::ForPath),

@@ -1,8 +1,9 @@
 //! A placement as the arm follows the path there.
 //!
-//! The score of a placement takes each point by itself, under the forces of the nominal path. Two things are known only
-//! of the path as a whole, and are added here:
+//! The score of a placement takes each point by itself, under the forces of the nominal path. Three things are
+//! left out there, and are added here:
 //!
+//! - the clearance of arm and tool, with the part at its place: a posture that does not keep it loses the point;
 //! - the whole turns of the joints along a cut: a joint that would have to turn past its limit, less the margin, loses
 //!   the points where it does ([`FollowedPath::checked`]; part of the search itself);
 //! - the force-deflection equilibrium of a cut ([`FollowedPath::outcome`]): numbers of the result are those of an
@@ -10,6 +11,7 @@
 //!
 //! Holes are single points; of them the score is the result.
 
+use armill_core::clearance::{DemandedClearance, PlacedCell};
 use armill_core::kernel::{BranchChoice, PartPlacement, PlacedPath, Question};
 use armill_core::map::{along_postures, turns_along};
 use armill_core::optimize::{
@@ -81,6 +83,7 @@ impl FollowedPath<'_> {
             let question = Question {
                 choice: choice_of(&score, objective.branches),
                 home: home.as_deref().or(self.question.home),
+                clearance: self.clearance_at(placement),
                 ..*self.question
             };
             let there = track.moved(placement.base_from_part, placement.spin);
@@ -134,6 +137,7 @@ impl FollowedPath<'_> {
         let home = self.home(placement);
         let question = Question {
             home: home.as_deref().or(self.question.home),
+            clearance: self.clearance_at(&placement),
             ..*self.question
         };
         let there = track.moved(placement.base_from_part, placement.spin);
@@ -195,7 +199,12 @@ impl FollowedPath<'_> {
                 choices: &there.choices,
                 home: there.home.as_deref(),
             });
-            return gain_along(self.question, followed, (component, objective), self.watch);
+            // Both keep their clearance, each with the part at its own place.
+            let question = Question {
+                clearance: None,
+                ..*self.question
+            };
+            return gain_along(&question, followed, (component, objective), self.watch);
         }
         Ok(self.gain_of_scores(before, after))
     }
@@ -221,6 +230,18 @@ impl FollowedPath<'_> {
             after: after.evaluation.score.cost,
             ..gain
         }
+    }
+
+    /// The demanded clearance with the part at this placement.
+    fn clearance_at<'p>(&'p self, placement: &'p PartPlacement) -> Option<DemandedClearance<'p>> {
+        let demanded = self.question.clearance?;
+        Some(DemandedClearance {
+            placed: PlacedCell {
+                base_from_part: &placement.base_from_part,
+                ..demanded.placed
+            },
+            ..demanded
+        })
     }
 
     /// The home positions of the redundant joints at a placement of the rail; `None` where they are those of the study.

@@ -4,7 +4,7 @@ use armill_core::kernel::Answers;
 use armill_core::robot::Unreachable;
 use armill_core::units::to_mm;
 
-use crate::input::cell::PlacedCell;
+use crate::input::cell::AnalysisCell;
 use crate::input::setting::Setting;
 use crate::number::without_rounding;
 
@@ -26,7 +26,7 @@ pub fn clearance_mm(setting: &Setting, answers: &Answers, index: usize) -> Optio
 }
 
 /// Distance (mm) and bodies at a point.
-fn at(placed: &PlacedCell, answers: &Answers, index: usize) -> Option<(f64, [usize; 2])> {
+fn at(placed: &AnalysisCell, answers: &Answers, index: usize) -> Option<(f64, [usize; 2])> {
     let (distance, bodies) = match answers.points[index] {
         Err(Unreachable::InCollision { missing, bodies }) => (placed.least - missing, bodies),
         Err(_) => return None,

@@ -28,7 +28,7 @@ use crate::analysis::table::{AnalysisKind, AnalysisTable};
 use crate::analysis::{Sheet, Subject};
 use crate::input::cell::bodies::tool_bodies;
 use crate::input::cell::placed::CellFrames;
-use crate::input::cell::{CellBodies, PlacedCell};
+use crate::input::cell::{AnalysisCell, CellBodies};
 use crate::input::memory::{OF_FIELD, OF_MAP, PointMemory};
 use crate::input::problem_log::ProblemLog;
 use crate::input::quantities::{grid, load_cases, plane_at, pose_mm_deg};
@@ -275,7 +275,7 @@ impl Resolver<'_> {
                 base_from_part: &setting.plane.base_from_part,
                 flange_from_tool: &setting.flange_from_tool,
             };
-            PlacedCell::of(&robot.robot, bodies, tool, frames)
+            AnalysisCell::of(&robot.robot, bodies, tool, frames)
         });
         Setting { cell, ..setting }
     }

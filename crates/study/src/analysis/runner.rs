@@ -6,7 +6,7 @@ use armill_core::source::Arm;
 use armill_core::watch::Watch;
 
 use crate::error::StudyError;
-use crate::input::cell::PlacedCell;
+use crate::input::cell::AnalysisCell;
 use crate::input::setting::Setting;
 
 /// The robot of the study, and the watch.
@@ -49,7 +49,7 @@ impl<'a> Runner<'a> {
             uncertainty: setting.uncertainty,
             normal: setting.plane.normal(),
             choice: setting.choice,
-            clearance: setting.cell.as_ref().map(PlacedCell::demanded),
+            clearance: setting.cell.as_ref().map(AnalysisCell::demanded),
         }
     }
 }

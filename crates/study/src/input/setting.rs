@@ -10,7 +10,7 @@ use armill_core::source::{Arm, ArmState, StiffnessModel};
 use armill_core::spatial::Wrench;
 use armill_core::workpiece::Plane;
 
-use crate::input::cell::PlacedCell;
+use crate::input::cell::AnalysisCell;
 
 /// Everything needed to evaluate a point, SI, base.
 #[derive(Clone, Debug)]
@@ -50,7 +50,7 @@ pub struct Setting {
     /// Along a path: which turns and branches are tried.
     pub search: Option<PostureSearch>,
     /// The bodies of the cell, and the demanded clearance; none where the study has no bodies.
-    pub cell: Option<PlacedCell>,
+    pub cell: Option<AnalysisCell>,
 }
 
 impl Setting {

@@ -74,6 +74,13 @@ impl<'q> Columns<'q> {
         Columns::one_by_one(arm, home, margins).in_lanes(false)
     }
 
+    /// Moves the part that is checked for.
+    pub(crate) fn set_part(&mut self, base_from_part: &Isometry) {
+        if let Some(clearance) = &mut self.clearance {
+            clearance.set_part(base_from_part);
+        }
+    }
+
     /// In lanes, if these know the arm.
     fn in_lanes(self, unloaded: bool) -> Columns<'q> {
         let Columns {

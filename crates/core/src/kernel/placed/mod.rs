@@ -19,6 +19,7 @@ use super::column::{Column, Columns, PostureStatus, SLOTS};
 use super::lanes::{PlacementPoints, Placer, Precision, Tallied};
 use super::path_on_part::{PartPlacement, PostureMargins, SpunPlacement};
 use super::question::Question;
+use crate::clearance::ClearanceCheck;
 use crate::robot::{Branch, BranchPattern};
 use crate::source::Arm;
 use whole_placer::{Placed, WholePlacer};
@@ -55,6 +56,27 @@ impl<'q> PlacementEvaluator<'q> {
                 Some(form) => PlacementMethod::Lanes(Box::new(Placer::new(&question, form, &margins))),
                 None => PlacementEvaluator::general(arm, home, margins),
             },
+        }
+    }
+
+    /// Without the postures that do not pass this check; [`PlacementEvaluator::evaluate_each`] alone.
+    pub(crate) fn keeping_clear(
+        self,
+        arm: Arm<'q>,
+        home: Option<&'q [f64]>,
+        clearance: Option<ClearanceCheck<'q>>,
+    ) -> PlacementEvaluator<'q> {
+        if clearance.is_none() {
+            return self;
+        }
+        let columns = Columns::whole(arm, home, [self.margins.wrist, self.margins.margin]);
+        PlacementEvaluator {
+            margins: self.margins,
+            method: PlacementMethod::General(Box::new(GeneralPlacer {
+                columns: columns.keeping_clear(clearance),
+                lanes: None,
+                tolerance: self.margins.tolerance,
+            })),
         }
     }
 
@@ -114,6 +136,7 @@ impl PlacementEvaluator<'_> {
                 let named = columns.slots_are_branches();
                 let mut column = Column::default();
                 columns.set_rail(placement.rail);
+                columns.set_part(&placement.base_from_part);
                 for index in 0..path.len() {
                     path.fill_column(columns, index, tried, &mut column);
                     let allowed = |slot: usize| !named || is_open[slot % SLOTS];

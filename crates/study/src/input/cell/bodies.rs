@@ -150,12 +150,12 @@ fn pose_or_none(pose: Option<&[f64; 6]>) -> Isometry {
     pose.map_or_else(Isometry::identity, pose_mm_deg)
 }
 
-/// A body that stands still, in base.
-pub(super) fn fixed(body: &NamedShape, base_from_frame: &Isometry, is_part: bool) -> FixedBody {
+/// A body that stands still, whose frame is at `frame`.
+pub(super) fn fixed(body: &NamedShape, frame: &Isometry, is_part: bool) -> FixedBody {
     FixedBody {
         name: body.name.clone(),
         shape: body.shape.clone(),
-        base_from_body: base_from_frame * body.frame_from_body,
+        frame_from_body: frame * body.frame_from_body,
         is_part,
     }
 }

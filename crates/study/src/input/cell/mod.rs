@@ -18,4 +18,4 @@ mod shape;
 pub mod tables;
 
 pub use bodies::CellBodies;
-pub use placed::PlacedCell;
+pub use placed::AnalysisCell;

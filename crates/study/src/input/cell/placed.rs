@@ -2,23 +2,24 @@
 
 use std::sync::Arc;
 
-use armill_core::clearance::{ArmBody, Cell, DemandedClearance};
+use armill_core::clearance::{ArmBody, Cell, DemandedClearance, PlacedCell};
 use armill_core::frame::Isometry;
 use armill_core::robot::Robot;
 
-use crate::input::cell::bodies::{CellBodies, NamedShape, fixed};
+use crate::input::cell::bodies::{CellBodies, fixed};
 
-/// The bodies of an analysis in base.
+/// The bodies of an analysis, and the clearance that it demands.
 #[derive(Clone, Debug)]
-pub struct PlacedCell {
+pub struct AnalysisCell {
     /// The bodies.
     pub cell: Arc<Cell>,
+    /// The frame of the part in base.
+    pub base_from_part: Isometry,
     /// The demanded clearance, m.
     pub least: f64,
-    part: Option<NamedShape>,
 }
 
-/// Where the frames of a study are, and what is on its flange.
+/// Where the frames of a study are.
 #[derive(Clone, Copy, Debug)]
 pub struct CellFrames<'a> {
     /// The reference frame of the study.
@@ -29,9 +30,14 @@ pub struct CellFrames<'a> {
     pub flange_from_tool: &'a Isometry,
 }
 
-impl PlacedCell {
+impl AnalysisCell {
     /// The cell of an arm with this tool.
-    pub fn of(robot: &Robot, bodies: &CellBodies, tool: Vec<ArmBody>, frames: CellFrames<'_>) -> PlacedCell {
+    pub fn of(
+        robot: &Robot,
+        bodies: &CellBodies,
+        tool: Vec<ArmBody>,
+        frames: CellFrames<'_>,
+    ) -> AnalysisCell {
         let obstacles = bodies
             .obstacles
             .iter()
@@ -39,32 +45,29 @@ impl PlacedCell {
         let part = bodies
             .part
             .iter()
-            .map(|body| fixed(body, frames.base_from_part, true));
+            .map(|body| fixed(body, &Isometry::identity(), true));
         let still: Vec<_> = obstacles.chain(part).collect();
         let arm = bodies.links.iter().cloned().chain(tool).collect();
         let cell = Cell::new(robot, frames.flange_from_tool, arm, &bodies.apart, &still);
-        PlacedCell {
+        AnalysisCell {
             cell: Arc::new(cell),
+            base_from_part: *frames.base_from_part,
             least: bodies.least,
-            part: bodies.part.clone(),
         }
     }
 
-    /// With the part at another place.
-    pub fn with_part_at(&self, base_from_part: &Isometry) -> PlacedCell {
-        let Some(part) = &self.part else {
-            return self.clone();
-        };
+    /// The cell with its part in place.
+    pub fn placed(&self) -> PlacedCell<'_> {
         PlacedCell {
-            cell: Arc::new(self.cell.with_part(&[fixed(part, base_from_part, true)])),
-            ..self.clone()
+            cell: &self.cell,
+            base_from_part: &self.base_from_part,
         }
     }
 
     /// The clearance that postures must keep.
     pub fn demanded(&self) -> DemandedClearance<'_> {
         DemandedClearance {
-            cell: &self.cell,
+            placed: self.placed(),
             least: self.least,
         }
     }
