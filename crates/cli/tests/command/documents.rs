@@ -136,6 +136,8 @@ guide! {
     guide_ballbar_day: "ballbar-day",
     guide_common_mistakes: "common-mistakes",
     guide_how_far_to_trust_it: "how-far-to-trust-it",
+    guide_cell: "cell",
+    guide_meshes: "meshes",
     guide_readme: "README",
 }
 

@@ -132,7 +132,7 @@ pub const CLEARANCE: Quantity = Quantity {
         Origin {
             file: "core/src/clearance/cell.rs",
             function: "CellState::clearance",
-            theory: None,
+            theory: Some("clearance"),
             validation: None,
         },
     )

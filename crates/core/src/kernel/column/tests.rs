@@ -38,7 +38,7 @@ fn lanes_agree_with_one_pose_after_the_other() {
         nalgebra::Translation3::new(0.03, -0.02, 0.25),
         UnitQuaternion::from_scaled_axis(Vector3::new(0.2, 0.4, -0.1)),
     );
-    let mut counts = [0; 5];
+    let mut counts = [0; 6];
     for (robot, model) in subjects() {
         let arm = arm(&robot, &tool, &model);
         let mut lanes = Columns::new(arm, None, WRIST);
