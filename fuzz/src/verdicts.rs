@@ -7,7 +7,7 @@ use armill_core::frame::Isometry;
 use armill_core::load::ActsOn;
 use armill_core::measure::ballbar::{Direction, Run};
 use armill_core::nalgebra::Vector3;
-use armill_core::path::{Course, GivenSpin, Pace, Step};
+use armill_core::path::{Command, Course, GivenSpin, Pace, Step};
 use armill_core::robot::Robot;
 use armill_core::robot::inverse::posture_at;
 use armill_core::roundness::{Plane, Profile};
@@ -273,6 +273,14 @@ fn check_step(step: Step) {
             let lengths = [operation.diameter, operation.corner_radius, operation.spindle];
             let mut numbers = lengths.into_iter().flatten().chain(depths.into_iter().flatten());
             assert!(numbers.all(f64::is_finite), "{operation:?}");
+            return;
+        }
+        Step::Command(command) => {
+            let rests = |seconds: f64| seconds.is_finite() && seconds >= 0.0;
+            assert!(
+                !matches!(command, Command::Dwell(seconds) if !rests(seconds)),
+                "{command:?}"
+            );
             return;
         }
     };

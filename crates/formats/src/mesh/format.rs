@@ -13,7 +13,7 @@ const HEAD_BYTES: usize = 1024;
 
 /// A format of meshes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
+pub enum MeshFormat {
     /// STL, binary or ASCII.
     Stl,
     /// Wavefront OBJ.
@@ -26,37 +26,39 @@ pub enum Format {
     Dae,
 }
 
-impl Format {
+impl MeshFormat {
     /// Every format.
-    pub const ALL: [Format; 5] = [
-        Format::Stl,
-        Format::Obj,
-        Format::Ply,
-        Format::ThreeMf,
-        Format::Dae,
+    pub const ALL: [MeshFormat; 5] = [
+        MeshFormat::Stl,
+        MeshFormat::Obj,
+        MeshFormat::Ply,
+        MeshFormat::ThreeMf,
+        MeshFormat::Dae,
     ];
 
     /// The ending of its files.
     pub fn ending(self) -> &'static str {
         match self {
-            Format::Stl => "stl",
-            Format::Obj => "obj",
-            Format::Ply => "ply",
-            Format::ThreeMf => "3mf",
-            Format::Dae => "dae",
+            MeshFormat::Stl => "stl",
+            MeshFormat::Obj => "obj",
+            MeshFormat::Ply => "ply",
+            MeshFormat::ThreeMf => "3mf",
+            MeshFormat::Dae => "dae",
         }
     }
 
     /// The format of a file by its ending; capitals do not matter.
-    pub fn of_path(path: &Path) -> Option<Format> {
+    pub fn of_path(path: &Path) -> Option<MeshFormat> {
         let ending = path.extension()?.to_str()?.to_lowercase();
-        Format::ALL.into_iter().find(|format| format.ending() == ending)
+        MeshFormat::ALL
+            .into_iter()
+            .find(|format| format.ending() == ending)
     }
 }
 
 /// The endings of mesh files, for people: `.stl, .obj, ...`.
 pub fn endings() -> String {
-    Format::ALL
+    MeshFormat::ALL
         .map(|format| format!(".{}", format.ending()))
         .join(", ")
 }
@@ -69,7 +71,7 @@ pub fn endings() -> String {
 /// file that is cut short, no triangle with an area, more than [`MOST_TRIANGLES`](super::MOST_TRIANGLES).
 pub fn read(shown: &str, bytes: &[u8]) -> Result<TriangleMesh, Problems> {
     let refused = |message: String, hint: String| Problems::from(Problem::of_file(shown, message, &hint));
-    let Some(format) = Format::of_path(Path::new(shown)) else {
+    let Some(format) = MeshFormat::of_path(Path::new(shown)) else {
         let message = "not a mesh by its ending".to_owned();
         return Err(refused(message, format!("supported are {}", endings())));
     };
@@ -84,16 +86,16 @@ pub fn read(shown: &str, bytes: &[u8]) -> Result<TriangleMesh, Problems> {
         return Err(refused(message, hint));
     }
     match format {
-        Format::Stl => stl::read(shown, bytes),
-        Format::Obj => obj::read(shown, bytes),
-        Format::Ply => ply::read(shown, bytes),
-        Format::ThreeMf => three_mf::read(shown, bytes),
-        Format::Dae => dae::read(shown, bytes),
+        MeshFormat::Stl => stl::read(shown, bytes),
+        MeshFormat::Obj => obj::read(shown, bytes),
+        MeshFormat::Ply => ply::read(shown, bytes),
+        MeshFormat::ThreeMf => three_mf::read(shown, bytes),
+        MeshFormat::Dae => dae::read(shown, bytes),
     }
 }
 
 /// The name of the content if it is clearly of another format, and what to do.
-fn other_content(format: Format, bytes: &[u8]) -> Option<(&'static str, String)> {
+fn other_content(format: MeshFormat, bytes: &[u8]) -> Option<(&'static str, String)> {
     let head = &bytes[..bytes.len().min(HEAD_BYTES)];
     let has = |word: &[u8]| head.windows(word.len()).any(|part| part == word);
     if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
@@ -107,13 +109,13 @@ fn other_content(format: Format, bytes: &[u8]) -> Option<(&'static str, String)>
         return Some(("compressed with gzip", "decompress it".to_owned()));
     }
     let (found, name) = if head.starts_with(b"PK\x03\x04") {
-        (Format::ThreeMf, "a zip archive, as 3MF is")
+        (MeshFormat::ThreeMf, "a zip archive, as 3MF is")
     } else if head.starts_with(b"ply\n") || head.starts_with(b"ply\r") {
-        (Format::Ply, "PLY")
+        (MeshFormat::Ply, "PLY")
     } else if has(b"<COLLADA") {
-        (Format::Dae, "COLLADA")
+        (MeshFormat::Dae, "COLLADA")
     } else if stl::is_stl(bytes) {
-        (Format::Stl, "STL")
+        (MeshFormat::Stl, "STL")
     } else {
         return None;
     };
@@ -126,9 +128,9 @@ mod tests {
 
     #[test]
     fn the_ending_gives_the_format_in_small_and_capital_letters() {
-        for format in Format::ALL {
+        for format in MeshFormat::ALL {
             let path = format!("a.b/part.{}", format.ending().to_uppercase());
-            assert_eq!(Format::of_path(Path::new(&path)), Some(format));
+            assert_eq!(MeshFormat::of_path(Path::new(&path)), Some(format));
         }
         assert_eq!(endings(), ".stl, .obj, .ply, .3mf, .dae");
     }

@@ -13,8 +13,10 @@
 //!
 //! Lengths are in the unit of the file. Triangles are counter-clockwise seen from outside, as the formats require.
 //!
+//! `triangle_mesh`, `unit`, `report`: what the readers give, and what can be said of it. `format`: which reader.
 //! `text_lines`: lines and numbers of text formats. `polygon`: triangles of a polygon. `affine`: placement of an
-//! object in the model. `scene`: objects with their placements. `assembly`: joins corners at the same place, drops triangles without area, limits the size.
+//! object in the model. `scene`: objects with their placements. `assembly`: joins corners at the same place, drops
+//! triangles without area, limits the size.
 
 mod affine;
 mod assembly;
@@ -32,7 +34,7 @@ mod triangle_mesh;
 mod unit;
 
 pub use assembly::{LARGEST_COORDINATE, MOST_TRIANGLES};
-pub use format::{Format, endings, read};
+pub use format::{MeshFormat, endings, read};
 pub use report::MeshReport;
 pub use triangle_mesh::TriangleMesh;
 pub use unit::{MeshUnit, likely_unit};

@@ -91,13 +91,13 @@ impl Scene {
             placed.push(point);
         }
         let mut points = Points::new(&placed);
-        let mut polygon = Vec::new();
+        let (mut polygon, mirrors) = (Vec::new(), placement.mirrors());
         let mut start = 0;
         for (index, end) in object.ends.iter().enumerate() {
             polygon.clear();
             let corners = object.corners[start..*end].iter();
             polygon.extend(corners.filter_map(|corner| points.vertex(*corner as usize, &mut self.assembly)));
-            if placement.mirrors() {
+            if mirrors {
                 polygon.reverse();
             }
             let added = self.assembly.polygon(&polygon);

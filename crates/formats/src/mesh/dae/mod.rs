@@ -13,7 +13,7 @@
 //! `up_axis` is not applied since RViz, MoveIt and Drake do not apply it to meshes of a URDF, whose makers adapt their
 //! files to that; the unit is applied by all of them.
 //!
-//! `geometry`: polygons of a geometry. `nodes`: the scene.
+//! `geometry`: polygons of a geometry. `nodes`: the scene. `numbers`: the text of an element as numbers.
 //!
 //! Source: Khronos Group, COLLADA 1.4.1 Digital Asset Schema Specification (2008); RViz, issue 1045 and
 //! `mesh_loader.cpp` (`AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION`).

@@ -12,7 +12,6 @@
 //! ```
 
 use super::super::text_lines::{TextLine, TextLines};
-use super::values::{Encoding, Values};
 use crate::document::{Problem, Problems};
 
 /// No header has more lines.
@@ -23,7 +22,28 @@ const LINES: &str = "header lines are format, comment, obj_info, element, proper
 /// What a PLY file contains.
 #[derive(Debug)]
 pub(super) struct Header {
+    pub encoding: Encoding,
     pub elements: Vec<Element>,
+}
+
+/// How numbers are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Encoding {
+    Ascii,
+    LittleEndian,
+    BigEndian,
+}
+
+impl Encoding {
+    /// The encoding of this name in the line `format`.
+    fn named(name: &[u8]) -> Option<Encoding> {
+        match name {
+            b"ascii" => Some(Encoding::Ascii),
+            b"binary_little_endian" => Some(Encoding::LittleEndian),
+            b"binary_big_endian" => Some(Encoding::BigEndian),
+            _ => None,
+        }
+    }
 }
 
 /// A table of the file.
@@ -85,13 +105,13 @@ impl Scalar {
     }
 }
 
-/// The header of a file, and the values behind it.
+/// The header of a file, and what follows it.
 ///
 /// # Errors
 /// The first line that is wrong: the rest could not be read.
-pub(super) fn read<'a>(name: &str, bytes: &'a [u8]) -> Result<(Header, Values<'a>), Problems> {
+pub(super) fn read<'a>(name: &str, bytes: &'a [u8]) -> Result<(Header, TextLines<'a>), Problems> {
     let mut lines = TextLines::new(bytes);
-    let mut header = Header { elements: Vec::new() };
+    let mut elements = Vec::new();
     let mut encoding = None;
     let mut first = true;
     while let Some(line) = lines.next() {
@@ -116,7 +136,7 @@ pub(super) fn read<'a>(name: &str, bytes: &'a [u8]) -> Result<(Header, Values<'a
                     ))
                 })?);
             }
-            [b"element", of, count] => header.elements.push(element(of, count).ok_or_else(|| {
+            [b"element", of, count] => elements.push(element(of, count).ok_or_else(|| {
                 refused(format!(
                     "`{}` is not a number of elements",
                     String::from_utf8_lossy(count)
@@ -124,7 +144,7 @@ pub(super) fn read<'a>(name: &str, bytes: &'a [u8]) -> Result<(Header, Values<'a
             })?),
             [b"property", ref words @ ..] => {
                 let property = property(words).map_err(refused)?;
-                let element = header.elements.last_mut();
+                let element = elements.last_mut();
                 let element =
                     element.ok_or_else(|| refused("a property before the first element".to_owned()))?;
                 element.properties.push(property);
@@ -132,8 +152,8 @@ pub(super) fn read<'a>(name: &str, bytes: &'a [u8]) -> Result<(Header, Values<'a
             [b"end_header"] => {
                 let encoding =
                     encoding.ok_or_else(|| refused("the header has no line `format`".to_owned()))?;
-                check(name, &line, &mut header)?;
-                return Ok((header, Values::new(bytes, lines, encoding)));
+                check(name, &line, &mut elements)?;
+                return Ok((Header { encoding, elements }, lines));
             }
             _ => return Err(refused("not a line of the header of a PLY file".to_owned())),
         }
@@ -184,16 +204,10 @@ fn property(words: &[&[u8]]) -> Result<Property, String> {
 ///
 /// # Errors
 /// Triangle strips; two elements of one name; no vertices or faces.
-fn check(name: &str, line: &TextLine<'_>, header: &mut Header) -> Result<(), Problems> {
-    header.elements.retain(|element| !element.properties.is_empty());
+fn check(name: &str, line: &TextLine<'_>, elements: &mut Vec<Element>) -> Result<(), Problems> {
+    elements.retain(|element| !element.properties.is_empty());
     let refused = |message: String, hint: &str| Err(line.problem(name, line.bytes, message, hint).into());
-    let with_name = |of: &str| {
-        header
-            .elements
-            .iter()
-            .filter(|element| element.name == of)
-            .count()
-    };
+    let with_name = |of: &str| elements.iter().filter(|element| element.name == of).count();
     if with_name("tristrips") > 0 && with_name("face") == 0 {
         return refused(
             "triangle strips are not read".to_owned(),

@@ -28,7 +28,8 @@ use crate::document::{MOST_PROBLEMS, Problem, Problems};
 /// # Errors
 /// See [`read`](super::format::read).
 pub(super) fn read(name: &str, bytes: &[u8]) -> Result<TriangleMesh, Problems> {
-    let (header, mut values) = header::read(name, bytes)?;
+    let (header, lines) = header::read(name, bytes)?;
+    let mut values = Values::new(bytes, lines, header.encoding);
     let mut problems = Vec::new();
     let mut points = Vec::new();
     let mut faces = None;

@@ -1,28 +1,8 @@
 //! The numbers of a PLY file behind its header, one after the other.
 
 use super::super::text_lines::{TextLine, TextLines};
-use super::header::{Element, Property, Scalar};
+use super::header::{Element, Encoding, Property, Scalar};
 use crate::document::Problem;
-
-/// How numbers are written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Encoding {
-    Ascii,
-    LittleEndian,
-    BigEndian,
-}
-
-impl Encoding {
-    /// The encoding of this name in the line `format`.
-    pub fn named(name: &[u8]) -> Option<Encoding> {
-        match name {
-            b"ascii" => Some(Encoding::Ascii),
-            b"binary_little_endian" => Some(Encoding::LittleEndian),
-            b"binary_big_endian" => Some(Encoding::BigEndian),
-            _ => None,
-        }
-    }
-}
 
 /// Why a value or a row is not accepted.
 #[derive(Debug)]

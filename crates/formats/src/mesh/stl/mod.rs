@@ -6,7 +6,7 @@
 //! | begins with `solid`, and `facet` or `endsolid` follows | ASCII |
 //! | any other | binary that is cut short or has bytes behind its last triangle |
 //!
-//! Normals and attributes of triangles are not used: the order of corners gives the outside.
+//! `ascii`, `binary`: both forms. Normals and attributes of triangles are not used: the order of corners gives the outside.
 //!
 //! Source: 3D Systems, Inc., Stereolithography Interface Specification (1989).
 

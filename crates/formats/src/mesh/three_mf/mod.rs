@@ -39,21 +39,21 @@ pub(super) fn read(name: &str, bytes: &[u8]) -> Result<TriangleMesh, Problems> {
     let mut package = Package::open(name, bytes)?;
     let root = package.model_path(name)?;
     let models = models(name, &mut package, &root)?;
-    let mut assembly = Assembly {
+    let mut build = Build {
         name,
         models: &models,
         scene: Scene::default(),
         left_out: 0,
     };
-    let Some(build) = models.get(&root) else {
+    let Some(model) = models.get(&root) else {
         return Err(Problem::of_file(name, "the archive has no model", "export it again as 3MF").into());
     };
-    for item in &build.items {
-        assembly.place(item, &root, &Affine::IDENTITY, 0)?;
+    for item in &model.items {
+        build.place(item, &root, &Affine::IDENTITY, 0)?;
     }
-    let (left_out, scene) = (assembly.left_out, assembly.scene);
+    let (left_out, scene) = (build.left_out, build.scene);
     let mut mesh = scene.finish(name)?;
-    mesh.unit = Some(build.unit.unwrap_or_else(MeshUnit::millimetre));
+    mesh.unit = Some(model.unit.unwrap_or_else(MeshUnit::millimetre));
     if left_out > 0 {
         mesh.notes
             .push(format!("{left_out} support structures of the file are left out"));
@@ -97,7 +97,7 @@ fn models(name: &str, package: &mut Package<'_>, root: &str) -> Result<BTreeMap<
 }
 
 /// The objects of the build, as far as they are placed.
-struct Assembly<'a> {
+struct Build<'a> {
     name: &'a str,
     models: &'a BTreeMap<String, Model>,
     scene: Scene,
@@ -105,7 +105,7 @@ struct Assembly<'a> {
     left_out: usize,
 }
 
-impl Assembly<'_> {
+impl Build<'_> {
     /// Adds an item or component of the model `path`, which is in an assembly at `outer`, at level `level`.
     fn place(&mut self, placed: &Placed, path: &str, outer: &Affine, level: usize) -> Result<(), Problems> {
         let refused = |(message, hint): (String, &str)| {
