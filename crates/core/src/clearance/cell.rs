@@ -186,6 +186,35 @@ impl Cell {
         self.always_in_contact = touching;
     }
 
+    /// Obstacles that touch a body of the arm in every sampled posture, such as one that encloses the robot: index among the obstacles, and the
+    /// body of the arm.
+    pub fn permanent_obstacles(&self, robot: &Robot, flange_from_tool: &Isometry) -> Vec<[usize; 2]> {
+        let Some(still) = &self.obstacles else {
+            return Vec::new();
+        };
+        let moving = |body: &usize| self.arm[*body].attachment != Attachment::Base;
+        let bodies = (0..self.arm.len()).filter(moving);
+        let mut touching: Vec<[usize; 2]> = bodies
+            .flat_map(|body| (0..still.bodies.len()).map(move |obstacle| [obstacle, body]))
+            .collect();
+        let placed = PlacedCell {
+            cell: self,
+            base_from_part: &Isometry::identity(),
+        };
+        let mut state = CellState::new(placed, robot, flange_from_tool);
+        for sample in 1..=SAMPLES {
+            if touching.is_empty() {
+                break;
+            }
+            state.set_joints(&sampled_joints(robot, sample));
+            touching.retain(|[obstacle, body]| {
+                let found = state.placed(*body).nearest(&still.bodies[*obstacle], 0.0);
+                found.is_some_and(|found| found.distance <= 0.0)
+            });
+        }
+        touching
+    }
+
     /// Name of a body of a [`Clearance`]: those of the arm first, then obstacles, then the part.
     pub fn name(&self, index: usize) -> &str {
         let still = [&self.obstacles, &self.part].into_iter().flatten();

@@ -85,7 +85,7 @@ impl Resolver<'_> {
         let setting = self
             .setting(log, &plane, push)
             .zip(tool)
-            .map(|(setting, tool)| self.in_cell(setting, tool));
+            .map(|(setting, tool)| self.in_cell(log, setting, tool));
         // Each is checked even if others have problems: all problems are reported at once.
         Ok(match self.table.kind {
             AnalysisKind::Map => setting
@@ -267,7 +267,7 @@ impl Resolver<'_> {
     }
 
     /// The setting with the bodies of the cell, if the study has any.
-    fn in_cell(&self, setting: Setting, tool: Vec<ArmBody>) -> Setting {
+    fn in_cell(&self, log: &mut ProblemLog<'_>, setting: Setting, tool: Vec<ArmBody>) -> Setting {
         let of_study = self.robot.zip(self.bodies);
         let cell = of_study.map(|(robot, bodies)| {
             let frames = CellFrames {
@@ -275,7 +275,17 @@ impl Resolver<'_> {
                 base_from_part: &setting.plane.base_from_part,
                 flange_from_tool: &setting.flange_from_tool,
             };
-            AnalysisCell::of(&robot.robot, bodies, tool, frames)
+            let found = AnalysisCell::of(&robot.robot, bodies, tool, frames);
+            for [obstacle, body] in found
+                .cell
+                .permanent_obstacles(&robot.robot, &setting.flange_from_tool)
+            {
+                let (name, body) = (&bodies.obstacles[obstacle].name, found.cell.name(body));
+                let message = format!("obstacle `{name}` touches {body} in every posture of the robot");
+                let hint = "is its position right? A room is given by its walls, not by a body around the robot";
+                log.problem(&format!("obstacle[{obstacle}]"), message, hint);
+            }
+            found
         });
         Setting { cell, ..setting }
     }

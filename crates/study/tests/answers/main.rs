@@ -1,11 +1,12 @@
 //! Small studies through the library: results compared with each other, with counting, and with invariants.
 //!
-//! `counts`: points and the tolerance; `same_points`: one point computed in two ways; `paths`: shapes; `spin_curves`: a spin that changes along a path; `deviations`:
+//! `cell`: clearances; `counts`: points and the tolerance; `same_points`: one point computed in two ways; `paths`: shapes; `spin_curves`: a spin that changes along a path; `deviations`:
 //! what changes them; `statements`: sentences, sources, warnings; `running`: reading, progress, files.
 
 // A panic is how a test says that its claim is false; helper functions too.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+mod cell;
 mod counts;
 mod deviations;
 mod paths;
