@@ -88,7 +88,7 @@ pub const TARGETS: &[Target] = &[
     target("mesh-obj", meshes::obj, fixtures::mesh_obj, &["obj"], words::MESH_OBJ),
     target("mesh-ply", meshes::ply, fixtures::mesh_ply, &["ply"], words::MESH_PLY),
     target("mesh-3mf", meshes::three_mf, fixtures::mesh_3mf, &["3mf"], words::MESH_3MF),
-    target("mesh-3mf-model", meshes::three_mf_model, fixtures::mesh_3mf_model, &["model"], words::MESH_3MF),
+    target("mesh-model", meshes::three_mf_model, fixtures::mesh_3mf_model, &["model"], words::MESH_3MF),
     target("mesh-dae", meshes::dae, fixtures::mesh_dae, &["dae"], words::MESH_DAE),
     target("material", verdicts::material, fixtures::materials, &[], words::MATERIAL),
 ];
