@@ -228,6 +228,13 @@ impl Cell {
         &self.arm
     }
 
+    /// Largest distance of a body of the arm from the origin of its attachment, m.
+    pub(super) fn reach_of_body(&self, body: usize) -> f64 {
+        let hull = self.hulls[body].moved(&self.attachment_from_body[body]);
+        let ends = [hull.axis.from, hull.axis.to].map(|end| end.coords.norm());
+        ends[0].max(ends[1]) + hull.radius
+    }
+
     /// Pairs of bodies of the arm that are in contact in every posture: these are not checked.
     pub fn always_in_contact(&self) -> &[[usize; 2]] {
         &self.always_in_contact
@@ -404,6 +411,26 @@ impl<'a> CellState<'a> {
             self.hulls[index] = self.cell.hulls[index].moved(&frame);
             self.base_from_body[index] = frame;
         }
+    }
+
+    /// The bodies.
+    pub(super) fn cell(&self) -> &'a Cell {
+        self.cell
+    }
+
+    /// The robot.
+    pub(super) fn robot(&self) -> &'a Robot {
+        self.robot
+    }
+
+    /// Distance of the tool centre point from the flange, m.
+    pub(super) fn tool_length(&self) -> f64 {
+        self.flange_from_tool.translation.vector.norm()
+    }
+
+    /// The capsule around each body of the arm, base.
+    pub fn hulls(&self) -> &[Capsule] {
+        &self.hulls
     }
 
     /// Shape of a body of the arm where it is, base.

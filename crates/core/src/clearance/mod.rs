@@ -2,7 +2,7 @@
 //!
 //! Read in this order: [`nearest`] (segments and triangles, in closed form), [`convex`] (boxes and cylinders), [`bounds`] (lower
 //! bounds), [`mesh`], [`shape`] (two shapes of any kind), [`field`] (many capsules against bodies that stand still),
-//! [`cell`] (all bodies of a cell, with the arm in a posture).
+//! [`cell`] (all bodies of a cell, with the arm in a posture), [`swept`] (a joint move).
 //!
 //! Distances are exact but for rounding, well below a micrometre. They are those of the bodies as given: a capsule around a link
 //! is larger than the link.
@@ -14,6 +14,7 @@ pub mod field;
 pub mod mesh;
 pub mod nearest;
 pub mod shape;
+pub mod swept;
 
 pub use bounds::{Bounds, Capsule};
 pub use cell::{

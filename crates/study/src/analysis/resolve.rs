@@ -282,7 +282,8 @@ impl Resolver<'_> {
             {
                 let (name, body) = (&bodies.obstacles[obstacle].name, found.cell.name(body));
                 let message = format!("obstacle `{name}` touches {body} in every posture of the robot");
-                let hint = "is its position right? A room is given by its walls, not by a body around the robot";
+                let hint =
+                    "is its position right? A room is given by its walls, not by a body around the robot";
                 log.problem(&format!("obstacle[{obstacle}]"), message, hint);
             }
             found

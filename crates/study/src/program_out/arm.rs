@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use armill_core::clearance::CellState;
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::Point3;
 use armill_core::robot::inverse::{ToolAt, posture_at, postures};
@@ -122,9 +123,10 @@ impl Arm<'_> {
             .is_none_or(|(_, margin)| margin >= 0.0)
     }
 
-    /// The straight move from `from` to a pose; `None` if it leaves the reach or the joint limits, or changes the
-    /// posture.
+    /// The straight move from `from` to a pose; `None` if it leaves the reach or the joint limits, changes the posture, or does not
+    /// keep the demanded clearance.
     pub fn straight(&self, from: &ArmAt, to: &Isometry) -> Option<Straight> {
+        let mut cell = self.cell_state();
         let (a, b) = (&from.base_from_tool, to);
         let length = (b.translation.vector - a.translation.vector).norm();
         let turn = a.rotation.angle_to(&b.rotation);
@@ -137,6 +139,11 @@ impl Arm<'_> {
                 false => a.try_lerp_slerp(b, part, f64::EPSILON).unwrap_or(*to),
             };
             let next = self.next_to(&pose, &at.joints)?;
+            if let Some((state, least)) = &mut cell
+                && state.conflict_on_move(&at.joints, &next.joints, *least).is_some()
+            {
+                return None;
+            }
             let shortest = self.shortest_time(&at.joints, &next.joints);
             if length > 0.0 && shortest > 0.0 {
                 fastest = fastest.min(PART_OF_SPEED * length / pieces as f64 / shortest);
@@ -144,6 +151,21 @@ impl Arm<'_> {
             at = next;
         }
         Some(Straight { end: at, fastest })
+    }
+
+    /// The bodies of the cell and the demanded clearance, m; none if the study has none.
+    fn cell_state(&self) -> Option<(CellState<'_>, f64)> {
+        let cell = self.setting.cell.as_ref()?;
+        let state = CellState::new(cell.placed(), self.robot, &self.setting.flange_from_tool);
+        Some((state, cell.least))
+    }
+
+    /// What comes nearer than demanded on a joint move, rad (m): two bodies and their distance, m.
+    pub fn conflict_on_move(&self, from: &[f64], to: &[f64]) -> Option<([&str; 2], f64)> {
+        let (mut state, least) = self.cell_state()?;
+        let found = state.conflict_on_move(from, to, least)?;
+        let cell = &self.setting.cell.as_ref()?.cell;
+        Some((found.bodies.map(|body| cell.name(body)), found.nearest.distance))
     }
 
     /// Time that the joints need at least, s.

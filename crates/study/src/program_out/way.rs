@@ -233,7 +233,7 @@ impl<'a> Ways<'a> {
         Ok(Some(DraftStep::Move(self.arm.target(to, None, 0.0))))
     }
 
-    /// A joint move must not pass through the space of the part below its top.
+    /// A joint move must keep the demanded clearance, and not pass through the space of the part below its top.
     fn check_joint_move(
         &self,
         from: Option<&[f64]>,
@@ -243,6 +243,16 @@ impl<'a> Ways<'a> {
         let Some((from, to)) = from.zip(to) else {
             return Ok(());
         };
+        if let Some(([first, second], distance)) = self.arm.conflict_on_move(from, to) {
+            let how = match distance > 0.0 {
+                true => format!("come as near as {:.1} mm", to_mm(distance)),
+                false => "touch".to_owned(),
+            };
+            let message =
+                format!("line {line}: on the joint move to or from the cut there {first} and {second} {how}");
+            let hint = "give a home position that is clear of both ([controller] home_deg), or a larger --retract-mm";
+            return Err(StudyError::value(message, hint));
+        }
         let [low, high] = self.space.corners;
         let is_near = |tip: &Point3<f64>| {
             let part = |axis: usize| (low[axis] - AROUND..=high[axis] + AROUND).contains(&tip[axis]);
@@ -373,7 +383,10 @@ impl<'a> Ways<'a> {
         let lifted = self.lifted(at);
         let straight = self.arm.straight(at, &lifted).ok_or_else(|| {
             let mm = to_mm((lifted.translation.vector - at.base_from_tool.translation.vector).norm());
-            let message = format!("line {line}: the robot cannot retract by {mm:.1} mm here in its posture");
+            let message = match self.arm.setting.cell {
+                Some(_) => format!("line {line}: the robot cannot retract by {mm:.1} mm here in its posture, or not with the demanded clearance"),
+                None => format!("line {line}: the robot cannot retract by {mm:.1} mm here in its posture"),
+            };
             StudyError::value(message, "a shorter --retract-mm")
         })?;
         let mut places = vec![(straight.end, self.rapid.min(straight.fastest))];

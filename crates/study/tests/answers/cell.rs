@@ -57,7 +57,10 @@ fn the_clearance_of_every_point_of_a_map_is_that_by_hand() {
         assert_eq!(collisions.count(), expected.count());
         for (clearance, _, x) in &all {
             // The links of the arm are farther away than its spindle.
-            assert!((clearance.unwrap() - by_hand(*x)).abs() < 1e-3, "{x}: {clearance:?}");
+            assert!(
+                (clearance.unwrap() - by_hand(*x)).abs() < 1e-3,
+                "{x}: {clearance:?}"
+            );
         }
         let map = &done(&text).maps[0];
         assert_eq!(map.nearest, Some(["spindle", "wall"].map(str::to_owned)));
@@ -148,7 +151,14 @@ fn every_wrong_body_is_reported_at_its_place() {
 /// A cube of triangles in STL, from the origin to this edge.
 fn cube_stl(edge: f64, faces: usize) -> String {
     let corner = |bits: usize| [0, 1, 2].map(|axis| if bits >> axis & 1 == 1 { edge } else { 0.0 });
-    let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let quads = [
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+    ];
     let mut text = "solid cube\n".to_owned();
     for [a, b, c, d] in &quads[..faces] {
         for triangle in [[a, b, c], [a, c, d]] {
@@ -183,7 +193,10 @@ fn meshes_are_as_far_as_boxes_and_their_unit_is_asked_for() {
     let boxed = with("box_mm = { from = [0, 0, 0], to = [400, 400, 400] }").unwrap();
     for keys in ["mesh = \"cube.stl\"", "mesh = \"metres.stl\"\nmesh_unit = \"m\""] {
         let meshed = with(keys).unwrap();
-        assert_eq!(meshed.maps[0].counts.in_collision, boxed.maps[0].counts.in_collision);
+        assert_eq!(
+            meshed.maps[0].counts.in_collision,
+            boxed.maps[0].counts.in_collision
+        );
         assert!(meshed.maps[0].counts.in_collision > 0);
     }
     let unknown = with("mesh = \"metres.stl\"").unwrap_err().to_string();
@@ -193,7 +206,9 @@ fn meshes_are_as_far_as_boxes_and_their_unit_is_asked_for() {
     );
     let open = with("mesh = \"open.stl\"").unwrap();
     assert!(
-        open.warnings.iter().any(|warning| warning.contains("open.stl is an open mesh")),
+        open.warnings
+            .iter()
+            .any(|warning| warning.contains("open.stl is an open mesh")),
         "{:?}",
         open.warnings
     );
