@@ -2,6 +2,7 @@
 //!
 //! A revolute joint is reported in deg and rad/(N m), a prismatic one in mm and µm/N, under keys that name the unit.
 
+use armill_core::clearance::{ArmBody, Shape};
 use armill_core::robot::{Amount, Attachment, Axis, Joint, Motion, Robot, TorqueCurve, reach};
 use armill_core::units::{to_deg, to_mm, to_per_mm, to_um};
 use armill_formats::robot::RobotDescription;
@@ -86,6 +87,10 @@ pub struct RobotDetails {
     pub joints: Vec<JointDetails>,
     /// Springs and masses apart from the drives.
     pub structure: StructureDetails,
+    /// Bodies of its links, for clearance.
+    pub bodies: Vec<BodyDetails>,
+    /// Pairs of these bodies that are apart in every posture, by name.
+    pub apart: Vec<[String; 2]>,
     /// The nominal branch, used if none is specified.
     pub nominal_branch: String,
     /// Method of the inverse kinematics: `closed_form`, `polished`, `searched`.
@@ -243,6 +248,21 @@ pub struct CompensatorDetails {
     pub angle_deg: f64,
 }
 
+/// A body of a link.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct BodyDetails {
+    /// Its name.
+    pub name: String,
+    /// Its attachment.
+    pub at: String,
+    /// Its shape: `capsule`, `cylinder`, `box`, `mesh`.
+    pub shape: &'static str,
+    /// Largest distance of its surface from the link; none if not known.
+    pub accuracy_mm: Option<f64>,
+    /// Key of its source; none for a file that has no sources.
+    pub source: Option<String>,
+}
+
 /// A frame in which positions can be given.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct FrameDetails {
@@ -305,6 +325,12 @@ impl RobotDetails {
                 .map(|index| JointDetails::of(found, index))
                 .collect(),
             structure: StructureDetails::of(robot),
+            bodies: (0..found.bodies.len())
+                .map(|index| BodyDetails::of(found, index))
+                .collect(),
+            apart: (found.apart.iter())
+                .map(|pair| pair.map(|index| found.bodies[index].name.clone()))
+                .collect(),
             nominal_branch: robot.nominal_branch().to_string(),
             inverse: robot.inverse().word(),
             frames: frames.collect(),
@@ -357,6 +383,30 @@ impl JointDetails {
             source: note.source.clone(),
             compliance_source: note.compliance_source.clone(),
             compliance_u_source: note.compliance_u_source.clone(),
+        }
+    }
+}
+
+impl BodyDetails {
+    fn of(found: &RobotDescription, index: usize) -> BodyDetails {
+        let ArmBody {
+            name,
+            attachment,
+            shape,
+            ..
+        } = &found.bodies[index];
+        let note = found.body_notes.get(index);
+        BodyDetails {
+            name: name.clone(),
+            at: attachment_name(&found.robot, *attachment),
+            shape: match shape {
+                Shape::Capsule(_) => "capsule",
+                Shape::Cylinder(..) => "cylinder",
+                Shape::Box(_) => "box",
+                Shape::Mesh(_) => "mesh",
+            },
+            accuracy_mm: note.and_then(|note| note.accuracy_mm),
+            source: note.map(|note| note.source.clone()),
         }
     }
 }

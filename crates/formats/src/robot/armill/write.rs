@@ -4,13 +4,14 @@
 //! 1e-15 m and rad, limits and speeds within 1e-9.
 //!
 //! Order: comments on origin, what was assumed and what is missing; `format`, `name`, `nominal_branch`, `note`;
-//! `[chain]`; a `[[joint]]` each; a `[[frame]]` each; `[sources]`. Keys that a user has to fill in are in comments.
+//! `[chain]`; a `[[joint]]` each; a `[[frame]]` each; a `[[body]]` each; `[clearance]`; `[sources]`. Keys that a user has to fill in are in comments.
 
 use armill_core::frame::{Isometry, fixed_angles};
 use armill_core::robot::{Amount, Joint, Motion};
 use armill_core::units::{from_deg, from_mm, to_deg, to_mm};
 
 use super::super::description::RobotDescription;
+use super::write_bodies;
 
 /// How far (m, rad) a number of the chain may be from its decimal.
 const CHAIN: f64 = 1e-15;
@@ -19,7 +20,7 @@ const RANGE: f64 = 1e-9;
 
 /// The text of a robot file, format 1, for a robot that came from one foreign source.
 ///
-/// Not written: compliance, payload and limits by other sources, which no foreign format has.
+/// Not written: compliance, payload and limits by other sources, which no foreign format has; bodies that are meshes.
 ///
 /// Every number names the first source of `found`. Not checked: that `read` takes the text back, which the
 /// tests show for every foreign format.
@@ -38,6 +39,7 @@ pub fn write(found: &RobotDescription) -> String {
         line(&mut text, &format!("rotation_deg = {angles}"));
         line(&mut text, &format!("source = {}", quoted(source(found))));
     }
+    write_bodies::bodies(&mut text, found);
     for source in &found.sources {
         line(&mut text, &format!("\n[sources.{}]", quoted(&source.key)));
         line(&mut text, &format!("what = {}", quoted(&source.what)));
@@ -48,7 +50,7 @@ pub fn write(found: &RobotDescription) -> String {
 }
 
 /// Adds a line; writing to a text cannot fail.
-fn line(text: &mut String, content: &str) {
+pub(super) fn line(text: &mut String, content: &str) {
     text.push_str(content);
     text.push('\n');
 }
@@ -204,7 +206,7 @@ fn joint(text: &mut String, found: &RobotDescription, index: usize) {
 }
 
 /// The key of the one source.
-fn source(found: &RobotDescription) -> &str {
+pub(super) fn source(found: &RobotDescription) -> &str {
     found.sources.first().map_or("", |source| source.key.as_str())
 }
 
@@ -220,7 +222,7 @@ fn pose(base_from_frame: &Isometry) -> (String, String) {
 }
 
 /// A length in m as mm.
-fn millimetres(m: f64, within: f64) -> String {
+pub(super) fn millimetres(m: f64, within: f64) -> String {
     shortest(m, to_mm(m), within, from_mm)
 }
 
@@ -249,7 +251,7 @@ fn shortest(si: f64, shown: f64, within: f64, to_si: fn(f64) -> f64) -> String {
 }
 
 /// A TOML string.
-fn quoted(text: &str) -> String {
+pub(super) fn quoted(text: &str) -> String {
     toml_edit::Value::from(text).to_string()
 }
 
