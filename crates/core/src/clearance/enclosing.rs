@@ -18,19 +18,19 @@ use nalgebra::{Matrix3, Point3, Vector3};
 use super::bounds::{Bounds, Capsule};
 use super::nearest::Segment;
 
-/// Directions in which the outermost points are taken before an axis is searched.
-const OUTERMOST: usize = 400;
 /// Further starts, spread over the half sphere.
 const SPREAD: usize = 20;
 /// First tilt of an axis, rad; the first shift is this part of the radius.
 const FIRST_STEP: f64 = 0.25;
 /// For a capsule that is given out.
 const FINE: Effort = Effort {
+    outermost: 400,
     searched: 8,
     last_step: 1e-3,
 };
 /// To compare cuts.
 const COARSE: Effort = Effort {
+    outermost: 100,
     searched: 2,
     last_step: 0.1,
 };
@@ -44,6 +44,8 @@ const LEAST_SAVING: f64 = 0.03;
 /// How thoroughly an axis is searched.
 #[derive(Clone, Copy)]
 struct Effort {
+    /// Directions in which the outermost points are taken: with these alone the axis is searched.
+    outermost: usize,
     /// Starts from which it is searched, the best ones.
     searched: usize,
     /// The search ends below this step.
@@ -103,6 +105,18 @@ fn volume(capsule: &Capsule) -> f64 {
     r * r * (2.0 * capsule.axis.half_length() + 4.0 / 3.0 * r)
 }
 
+/// The corners of triangles, each once.
+fn corners(surface: &[[Point3<f64>; 3]]) -> Vec<Point3<f64>> {
+    let mut points: Vec<Point3<f64>> = surface.iter().flatten().copied().collect();
+    let order = |a: &Point3<f64>, b: &Point3<f64>| {
+        let parts = a.iter().zip(b.iter());
+        parts.fold(std::cmp::Ordering::Equal, |order, (a, b)| order.then(a.total_cmp(b)))
+    };
+    points.sort_unstable_by(order);
+    points.dedup();
+    points
+}
+
 /// Volume of capsules that may overlap, over pi, m^3: counted in a grid.
 fn volume_together(capsules: &[Capsule; 2]) -> f64 {
     let [first, second] = capsules.map(|capsule| capsule.bounds());
@@ -123,14 +137,13 @@ fn volume_together(capsules: &[Capsule; 2]) -> f64 {
 }
 
 fn enclosed(surface: Vec<[Point3<f64>; 3]>, effort: Effort) -> Option<Enclosed> {
-    let points: Vec<Point3<f64>> = surface.iter().flatten().copied().collect();
-    let capsule = fitted(&points, effort)?;
+    let capsule = fitted(&corners(&surface), effort)?;
     Some(Enclosed { capsule, surface })
 }
 
 /// The capsule around these points.
 fn fitted(points: &[Point3<f64>], effort: Effort) -> Option<Capsule> {
-    let mut outer = outermost(points);
+    let mut outer = outermost(points, effort.outermost);
     let mut best = searched(&outer, points, effort)?;
     // The capsule around the outermost points alone may leave others outside: these join, one at a time.
     for _ in 0..3 {
@@ -301,12 +314,12 @@ fn on_sphere(index: usize, count: usize) -> Vector3<f64> {
 }
 
 /// The outermost points in directions spread over the sphere, each once.
-fn outermost(points: &[Point3<f64>]) -> Vec<Point3<f64>> {
-    if points.len() <= OUTERMOST {
+fn outermost(points: &[Point3<f64>], count: usize) -> Vec<Point3<f64>> {
+    if points.len() <= count {
         return points.to_vec();
     }
     let farthest = |index: usize| {
-        let direction = on_sphere(index, OUTERMOST);
+        let direction = on_sphere(index, count);
         let (mut best, mut reach) = (0, f64::NEG_INFINITY);
         for (index, point) in points.iter().enumerate() {
             let along = point.coords.dot(&direction);
@@ -316,7 +329,7 @@ fn outermost(points: &[Point3<f64>]) -> Vec<Point3<f64>> {
         }
         best
     };
-    let mut chosen: Vec<usize> = (0..OUTERMOST).map(farthest).collect();
+    let mut chosen: Vec<usize> = (0..count).map(farthest).collect();
     chosen.sort_unstable();
     chosen.dedup();
     chosen.into_iter().map(|index| points[index]).collect()
@@ -350,7 +363,7 @@ fn principal_axes(points: &[Point3<f64>]) -> [Vector3<f64>; 3] {
 
 /// The cut of a part that saves the most volume, and how much; `None` where no cut leaves two sides.
 fn best_cut(part: &Enclosed) -> Option<(f64, [Enclosed; 2])> {
-    let points: Vec<Point3<f64>> = part.surface.iter().flatten().copied().collect();
+    let points = corners(&part.surface);
     let whole = volume(&part.capsule);
     let mut normals: Vec<Vector3<f64>> = principal_axes(&points).into();
     normals.extend([Vector3::x(), Vector3::y(), Vector3::z()]);
