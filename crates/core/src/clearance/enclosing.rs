@@ -110,7 +110,9 @@ fn corners(surface: &[[Point3<f64>; 3]]) -> Vec<Point3<f64>> {
     let mut points: Vec<Point3<f64>> = surface.iter().flatten().copied().collect();
     let order = |a: &Point3<f64>, b: &Point3<f64>| {
         let parts = a.iter().zip(b.iter());
-        parts.fold(std::cmp::Ordering::Equal, |order, (a, b)| order.then(a.total_cmp(b)))
+        parts.fold(std::cmp::Ordering::Equal, |order, (a, b)| {
+            order.then(a.total_cmp(b))
+        })
     };
     points.sort_unstable_by(order);
     points.dedup();

@@ -1,0 +1,112 @@
+//! Bodies of the library: are all links enclosed, and is the arm free of itself where it should be?
+
+// A panic is how a test says that its claim is false.
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+use armill_core::clearance::{Cell, CellState, Shape};
+use armill_core::frame::Isometry;
+use armill_core::nalgebra::{IsometryMatrix3, Point3};
+use armill_core::robot::forward::{forward, joint_axis};
+use armill_core::robot::{Attachment, Robot};
+use armill_formats::robot::RobotDescription;
+use armill_study::library;
+
+fn arm(name: &str) -> RobotDescription {
+    library::robot(name).unwrap().unwrap()
+}
+
+/// The bodies of an arm alone.
+fn cell_of(found: &RobotDescription) -> Cell {
+    Cell::new(
+        &found.robot,
+        &Isometry::identity(),
+        found.bodies.clone(),
+        &found.apart,
+        &[],
+    )
+}
+
+/// Name of the pair in contact at these joint positions, rad.
+fn contact(found: &RobotDescription, joints: &[f64]) -> Option<String> {
+    let cell = cell_of(found);
+    let mut state = CellState::new(&cell, &found.robot, &Isometry::identity());
+    state.set_joints(joints);
+    let [first, second] = state.clearance(0.0)?.bodies;
+    Some(format!("{} and {}", cell.name(first), cell.name(second)))
+}
+
+#[test]
+fn the_base_and_every_moving_link_have_bodies_with_an_accuracy() {
+    for entry in library::ROBOTS {
+        let found = arm(entry.name);
+        let has = |at: Attachment| found.bodies.iter().any(|body| body.attachment == at);
+        assert!(has(Attachment::Base), "{}: base", entry.name);
+        for (index, joint) in found.robot.joints().iter().enumerate() {
+            assert!(has(Attachment::Joint(index)), "{}: {}", entry.name, joint.name);
+        }
+        assert!(
+            found.body_notes.iter().all(|note| note.accuracy_mm.is_some()),
+            "{}",
+            entry.name
+        );
+    }
+}
+
+#[test]
+fn no_arm_touches_itself_with_all_joints_at_zero() {
+    for entry in library::ROBOTS {
+        let found = arm(entry.name);
+        let zero = vec![0.0; found.robot.joints().len()];
+        assert_eq!(contact(&found, &zero), None, "{}", entry.name);
+    }
+}
+
+/// Distance of a point from the nearest body of this link, m.
+fn distance_from_link(found: &RobotDescription, at: Attachment, point: Point3<f64>) -> f64 {
+    let own = found.bodies.iter().filter(|body| body.attachment == at);
+    let identity = IsometryMatrix3::identity();
+    own.map(|body| body.shape.placed(&identity).distance_of(&point))
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// The axis of a joint passes through the links on both sides of it: its frame is on the axis, so that bodies in a wrong frame
+/// would be far from it.
+#[test]
+fn bodies_reach_the_axis_of_the_next_joint() {
+    for entry in library::ROBOTS {
+        let found = arm(entry.name);
+        let robot: &Robot = &found.robot;
+        let frames = forward(robot, &vec![0.0; robot.joints().len()]);
+        for next in 1..robot.joints().len() {
+            let to_link = frames.base_from_joint[next - 1].inverse();
+            let axis = joint_axis(robot, &frames, next);
+            let origin = frames.origin(next);
+            // Somewhere along the axis, within 300 mm of the origin of the frame.
+            let nearest = (-6..=6)
+                .map(|step| to_link * (origin + axis * (0.05 * f64::from(step))))
+                .map(|point| distance_from_link(&found, Attachment::Joint(next - 1), point))
+                .fold(f64::INFINITY, f64::min);
+            assert!(
+                nearest < 0.02,
+                "{}: joint {} is {nearest} m off the link before it",
+                entry.name,
+                next + 1
+            );
+        }
+    }
+}
+
+#[test]
+fn a_folded_arm_touches_itself() {
+    // The forearm of the MH12 folded back against its base: what a wrong frame or an empty pair would miss.
+    let found = arm("yaskawa/mh12");
+    let upper = |index: usize| found.robot.joints()[index].limits.unwrap();
+    let joints = [0.0, upper(1).upper, upper(2).lower, 0.0, 0.0, 0.0];
+    assert!(contact(&found, &joints).is_some());
+    assert!(
+        found
+            .bodies
+            .iter()
+            .all(|body| !matches!(body.shape, Shape::Mesh(_)))
+    );
+}
