@@ -2,7 +2,6 @@
 //!
 //! A revolute joint is reported in deg and rad/(N m), a prismatic one in mm and µm/N, under keys that name the unit.
 
-use armill_core::clearance::{ArmBody, Shape};
 use armill_core::robot::{Amount, Attachment, Axis, Joint, Motion, Robot, TorqueCurve, reach};
 use armill_core::units::{to_deg, to_mm, to_per_mm, to_um};
 use armill_formats::robot::RobotDescription;
@@ -10,6 +9,7 @@ use armill_formats::sources::Source;
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::body_answers::BodyDetails;
 use crate::compliance_class::ComplianceClass;
 use crate::error::StudyError;
 use crate::joint_unit::JointUnit;
@@ -248,21 +248,6 @@ pub struct CompensatorDetails {
     pub angle_deg: f64,
 }
 
-/// A body of a link.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
-pub struct BodyDetails {
-    /// Its name.
-    pub name: String,
-    /// Its attachment.
-    pub at: String,
-    /// Its shape: `capsule`, `cylinder`, `box`, `mesh`.
-    pub shape: &'static str,
-    /// Largest distance of its surface from the link; none if not known.
-    pub accuracy_mm: Option<f64>,
-    /// Key of its source; none for a file that has no sources.
-    pub source: Option<String>,
-}
-
 /// A frame in which positions can be given.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct FrameDetails {
@@ -326,7 +311,13 @@ impl RobotDetails {
                 .collect(),
             structure: StructureDetails::of(robot),
             bodies: (0..found.bodies.len())
-                .map(|index| BodyDetails::of(found, index))
+                .map(|index| {
+                    BodyDetails::of(
+                        found,
+                        index,
+                        attachment_name(robot, found.bodies[index].attachment),
+                    )
+                })
                 .collect(),
             apart: (found.apart.iter())
                 .map(|pair| pair.map(|index| found.bodies[index].name.clone()))
@@ -383,30 +374,6 @@ impl JointDetails {
             source: note.source.clone(),
             compliance_source: note.compliance_source.clone(),
             compliance_u_source: note.compliance_u_source.clone(),
-        }
-    }
-}
-
-impl BodyDetails {
-    fn of(found: &RobotDescription, index: usize) -> BodyDetails {
-        let ArmBody {
-            name,
-            attachment,
-            shape,
-            ..
-        } = &found.bodies[index];
-        let note = found.body_notes.get(index);
-        BodyDetails {
-            name: name.clone(),
-            at: attachment_name(&found.robot, *attachment),
-            shape: match shape {
-                Shape::Capsule(_) => "capsule",
-                Shape::Cylinder(..) => "cylinder",
-                Shape::Box(_) => "box",
-                Shape::Mesh(_) => "mesh",
-            },
-            accuracy_mm: note.and_then(|note| note.accuracy_mm),
-            source: note.map(|note| note.source.clone()),
         }
     }
 }

@@ -391,7 +391,7 @@ fn best_cut(part: &Enclosed) -> Option<(f64, [Enclosed; 2])> {
 }
 
 /// A surface below and above the plane at this height along its normal; triangles that it meets are cut.
-pub fn sides(surface: &[[Point3<f64>; 3]], normal: &Vector3<f64>, at: f64) -> [Vec<[Point3<f64>; 3]>; 2] {
+fn sides(surface: &[[Point3<f64>; 3]], normal: &Vector3<f64>, at: f64) -> [Vec<[Point3<f64>; 3]>; 2] {
     let mut sides = [Vec::new(), Vec::new()];
     for triangle in surface {
         let heights = triangle.map(|corner| corner.coords.dot(normal) - at);

@@ -29,8 +29,8 @@ fn is_inside(capsule: &Capsule, point: &Point3<f64>) -> bool {
 /// The smallest capsule of all lines of a fine grid: directions over a half sphere, and shifts about the middle.
 fn smallest_of_a_grid(points: &[Point3<f64>]) -> f64 {
     let mut best = f64::INFINITY;
-    for index in 0..1500 {
-        let direction = on_sphere(index, 3000);
+    for index in 0..700 {
+        let direction = on_sphere(index, 1400);
         let (u, v) = across(&direction);
         let along = |axis: &Vector3<f64>| {
             let reach = points.iter().map(|point| point.coords.dot(axis));
@@ -39,10 +39,10 @@ fn smallest_of_a_grid(points: &[Point3<f64>]) -> f64 {
             })
         };
         let (in_u, in_v) = (along(&u), along(&v));
-        for i in 0..9 {
-            for j in 0..9 {
+        for i in 0..7 {
+            for j in 0..7 {
                 let at = |[least, greatest]: [f64; 2], k: i32| {
-                    0.5 * (least + greatest) + 0.02 * f64::from(k - 4) * (greatest - least)
+                    0.5 * (least + greatest) + 0.03 * f64::from(k - 3) * (greatest - least)
                 };
                 let from = Point3::from(u * at(in_u, i) + v * at(in_v, j));
                 let to = from + direction;

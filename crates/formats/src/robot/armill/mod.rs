@@ -4,8 +4,8 @@
 //! deflects and has mass in addition to the drives (springs, masses, compensator, torque curves, covariance) is read by
 //! `structure`.
 //!
-//! In reading order: `file` (the tables as written), `checks` (what no schema can say, and SI), `structure`, `bodies`; `write` (a
-//! robot of another format as such a file) with `write_bodies`, `identified` (such a file with compliances that were identified),
+//! In reading order: `file` (the tables as written), `checks` (what no schema can say, and SI), `structure`, `bodies`; `spelling`,
+//! `write_bodies`, `write` (a robot of another format as such a file), `identified` (such a file with compliances that were identified),
 //! `calibrated` (with small motions that were).
 //!
 //! ```text
@@ -25,6 +25,7 @@ mod calibrated;
 mod checks;
 mod file;
 mod identified;
+mod spelling;
 mod structure;
 mod write;
 mod write_bodies;

@@ -7,7 +7,7 @@ use armill_core::nalgebra::Point3;
 use armill_core::robot::Attachment;
 
 use super::super::description::RobotDescription;
-use super::write::{line, millimetres, quoted, source};
+use super::spelling::{line, millimetres, quoted, source};
 
 /// How far a length may be from its decimal, m.
 const WITHIN: f64 = 1e-9;
