@@ -4,10 +4,11 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use armill_core::clearance::{Cell, CellState, Shape};
-use armill_core::frame::Isometry;
-use armill_core::nalgebra::{IsometryMatrix3, Point3};
+use armill_core::frame::{Isometry, tool_orientation};
+use armill_core::nalgebra::{IsometryMatrix3, Point3, Translation3, Vector3};
 use armill_core::robot::forward::{forward, joint_axis};
-use armill_core::robot::{Attachment, Robot};
+use armill_core::robot::inverse::{ToolAt, postures};
+use armill_core::robot::{Attachment, Robot, reach};
 use armill_formats::robot::RobotDescription;
 use armill_study::library;
 
@@ -58,6 +59,38 @@ fn no_arm_touches_itself_with_all_joints_at_zero() {
         let found = arm(entry.name);
         let zero = vec![0.0; found.robot.joints().len()];
         assert_eq!(contact(&found, &zero), None, "{}", entry.name);
+    }
+}
+
+#[test]
+fn no_arm_touches_itself_in_its_nominal_branch_before_the_robot() {
+    for entry in library::ROBOTS {
+        let found = arm(entry.name);
+        let robot = &found.robot;
+        let (Some(_), Some(reach)) = (robot.ortho_parallel(), reach(robot)) else {
+            continue;
+        };
+        // A tool that points down, at a few places in front of the robot, where parts are milled.
+        for [x, y, z] in [[0.65, 0.0, 0.4], [0.6, 0.25, 0.3], [0.75, -0.2, 0.5]] {
+            let tool = ToolAt {
+                flange_from_tool: &Isometry::identity(),
+                near: None,
+                home: None,
+            };
+            let down = tool_orientation(-Vector3::z_axis(), 0.0);
+            let pose = Isometry::from_parts(Translation3::new(x * reach, y * reach, z * reach), down);
+            for posture in postures(robot, &pose, tool).unwrap_or_default() {
+                let is_nominal =
+                    (posture.name.branch()).is_some_and(|branch| robot.nominal_branch().matches(branch));
+                let is_inside = robot
+                    .limit_margin(&posture.joints)
+                    .is_none_or(|(_, margin)| margin > 0.0);
+                if is_nominal && is_inside {
+                    let at = format!("{} at {x} {y} {z} of its reach", entry.name);
+                    assert_eq!(contact(&found, &posture.joints), None, "{at}");
+                }
+            }
+        }
     }
 }
 
