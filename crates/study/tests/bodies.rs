@@ -114,8 +114,8 @@ fn bodies_reach_the_axis_of_the_next_joint() {
             let to_link = frames.base_from_joint[next - 1].inverse();
             let axis = joint_axis(robot, &frames, next);
             let origin = frames.origin(next);
-            // Somewhere along the axis, within 300 mm of the origin of the frame.
-            let nearest = (-6..=6)
+            // Somewhere along the axis: the frame of a wrist joint may be at the other end of the forearm.
+            let nearest = (-30..=30)
                 .map(|step| to_link * (origin + axis * (0.05 * f64::from(step))))
                 .map(|point| distance_from_link(&found, Attachment::Joint(next - 1), point))
                 .fold(f64::INFINITY, f64::min);
