@@ -14,6 +14,7 @@
 
 pub mod analysis;
 pub mod answer;
+pub mod body_answers;
 pub mod budget;
 pub mod compliance_class;
 pub mod error;

@@ -2,13 +2,15 @@
 //!
 //! A revolute joint is reported in deg and rad/(N m), a prismatic one in mm and µm/N, under keys that name the unit.
 
-use armill_core::robot::{Amount, Attachment, Axis, Joint, Motion, Robot, TorqueCurve, reach};
+use armill_core::robot::{Amount, Axis, Joint, Motion, Robot, TorqueCurve, reach};
 use armill_core::units::{to_deg, to_mm, to_per_mm, to_um};
 use armill_formats::robot::RobotDescription;
 use armill_formats::sources::Source;
 use schemars::JsonSchema;
 use serde::Serialize;
 
+pub use crate::body_answers::attachment_name;
+use crate::body_answers::{BodyDetails, pairs_apart};
 use crate::compliance_class::ComplianceClass;
 use crate::error::StudyError;
 use crate::joint_unit::JointUnit;
@@ -86,6 +88,10 @@ pub struct RobotDetails {
     pub joints: Vec<JointDetails>,
     /// Springs and masses apart from the drives.
     pub structure: StructureDetails,
+    /// Bodies of its links, for clearance.
+    pub bodies: Vec<BodyDetails>,
+    /// Pairs of these bodies that are apart in every posture, by name.
+    pub apart: Vec<[String; 2]>,
     /// The nominal branch, used if none is specified.
     pub nominal_branch: String,
     /// Method of the inverse kinematics: `closed_form`, `polished`, `searched`.
@@ -305,6 +311,8 @@ impl RobotDetails {
                 .map(|index| JointDetails::of(found, index))
                 .collect(),
             structure: StructureDetails::of(robot),
+            bodies: BodyDetails::all_of(found),
+            apart: pairs_apart(found),
             nominal_branch: robot.nominal_branch().to_string(),
             inverse: robot.inverse().word(),
             frames: frames.collect(),
@@ -416,16 +424,6 @@ impl StructureDetails {
             scatter_um: given(structure.repeatability).map(to_um),
             model_error_percent: given(structure.model_error).map(|part| without_rounding(part * 100.0)),
         }
-    }
-}
-
-/// Name of an attachment in files and results.
-pub fn attachment_name(robot: &Robot, attachment: Attachment) -> String {
-    match attachment {
-        Attachment::Base => "base".to_owned(),
-        Attachment::Joint(joint) => robot.joints()[joint].name.clone(),
-        Attachment::Flange => "flange".to_owned(),
-        Attachment::Tool => "tool".to_owned(),
     }
 }
 

@@ -1,7 +1,7 @@
 //! Clearance: how near the arm and its tool come to what is in the way, and to themselves.
 //!
 //! Read in this order: [`nearest`] (segments and triangles, in closed form), [`convex`] (boxes and cylinders), [`bounds`] (lower
-//! bounds), [`mesh`], [`shape`] (two shapes of any kind), [`field`] (many capsules against bodies that stand still),
+//! bounds), [`enclosing`] (capsules around points), [`mesh`], [`shape`] (two shapes of any kind), [`field`] (many capsules against bodies that stand still),
 //! [`cell`] (all bodies of a cell, with the arm in a posture), [`swept`] (a joint move).
 //!
 //! Distances are exact but for rounding, well below a micrometre. They are those of the bodies as given: a capsule around a link
@@ -10,6 +10,7 @@
 pub mod bounds;
 pub mod cell;
 pub mod convex;
+pub mod enclosing;
 pub mod field;
 pub mod mesh;
 pub mod nearest;

@@ -30,6 +30,8 @@ pub struct RobotDescription {
     pub joint_notes: Vec<JointNote>,
     /// Bodies of its links.
     pub bodies: Vec<ArmBody>,
+    /// What else is known of each of these bodies, in their order; empty where nothing is.
+    pub body_notes: Vec<BodyNote>,
     /// Pairs of these bodies that are apart in every posture, by index.
     pub apart: Vec<[usize; 2]>,
     /// Every source, in the order of their keys.
@@ -50,6 +52,15 @@ pub struct JointNote {
     pub compliance_u_source: Option<String>,
     /// Limits by other sources.
     pub other_limits: Vec<OtherLimits>,
+}
+
+/// What a robot file says of a body apart from its shape.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BodyNote {
+    /// Largest distance of its surface from the link, mm; `None` if not known.
+    pub accuracy_mm: Option<f64>,
+    /// Key of the source.
+    pub source: String,
 }
 
 /// Limits that another source gives for a joint; reported, never enforced.
@@ -81,6 +92,7 @@ impl RobotDescription {
             symbols: vec![None; robot.chain().motions().len()],
             joint_notes: vec![note; robot.joints().len()],
             bodies: Vec::new(),
+            body_notes: Vec::new(),
             apart: Vec::new(),
             sources: vec![Source {
                 key: key.to_owned(),

@@ -37,4 +37,4 @@ const MOST_JOINTS: usize = 64;
 /// An angle in rad beyond two turns is one in degrees under the wrong name.
 const TWO_TURNS: f64 = 4.0 * std::f64::consts::PI;
 
-pub use description::{JointNote, OtherLimits, RobotDescription, Symbol};
+pub use description::{BodyNote, JointNote, OtherLimits, RobotDescription, Symbol};

@@ -22,9 +22,11 @@ const LEAST_MM: f64 = 1e-3;
 #[serde(deny_unknown_fields)]
 pub struct BoxTable {
     /// One corner.
+    // unit: mm
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub from: [f64; 3],
     /// The opposite corner.
+    // unit: mm
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub to: [f64; 3],
 }
@@ -34,12 +36,15 @@ pub struct BoxTable {
 #[serde(deny_unknown_fields)]
 pub struct RoundTable {
     /// One end of its axis.
+    // unit: mm
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub from: [f64; 3],
     /// The other end.
+    // unit: mm
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub to: [f64; 3],
     /// Its diameter.
+    // unit: mm
     #[schemars(range(min = 0.001, max = 1e6))]
     pub diameter: f64,
 }

@@ -6,7 +6,7 @@ use armill_formats::robot::RobotDescription;
 use armill_study::joint_unit::JointUnit;
 use armill_study::number::without_rounding;
 use armill_study::output::arm_drawing;
-use armill_study::robot_answers::{RobotDetails, chain};
+use armill_study::robot_answers::{RobotDetails, attachment_name, chain};
 use armill_study::{StudyError, robots};
 
 use super::structure;
@@ -36,7 +36,7 @@ pub(super) fn run(name: &str, arguments: &RobotsArguments) -> Result<Outcome, St
     Ok(Outcome::Fine)
 }
 
-/// Chain, joints, compliance apart from the drives, inverse kinematics, frames, assumptions and sources, each with a
+/// Chain, joints, compliance apart from the drives, bodies, inverse kinematics, frames, assumptions and sources, each with a
 /// heading. Numbers are those of the file.
 fn as_text(found: &RobotDescription) -> String {
     let robot = &found.robot;
@@ -52,6 +52,7 @@ fn as_text(found: &RobotDescription) -> String {
     lines.push("Joints with the signs and zeros of the controller:".to_owned());
     lines.extend((0..robot.joints().len()).flat_map(|index| joint_text(found, index)));
     lines.extend(structure::as_text(robot));
+    lines.extend(bodies_text(found));
     lines.push(String::new());
     if robot.inverse().has_branches() {
         lines.push(format!("Nominal branch: {}", robot.nominal_branch()));
@@ -79,6 +80,42 @@ fn as_text(found: &RobotDescription) -> String {
             .map(|s| format!("  {}: {}; {}; {}", s.key, s.what, s.place, s.licence)),
     );
     lines.join("\n")
+}
+
+/// One line for the bodies of the links; none without bodies.
+fn bodies_text(found: &RobotDescription) -> Option<String> {
+    let mut places: Vec<(String, usize)> = Vec::new();
+    for body in &found.bodies {
+        let at = attachment_name(&found.robot, body.attachment);
+        match places.last_mut() {
+            Some((last, count)) if *last == at => *count += 1,
+            _ => places.push((at, 1)),
+        }
+    }
+    if places.is_empty() {
+        return None;
+    }
+    let places: Vec<String> = places
+        .iter()
+        .map(|(at, count)| format!("{count} at {at}"))
+        .collect();
+    let known: Option<Vec<f64>> = found.body_notes.iter().map(|note| note.accuracy_mm).collect();
+    let accuracy = match known.filter(|known| known.len() == found.bodies.len()) {
+        Some(known) => {
+            let largest = known.into_iter().fold(0.0, f64::max);
+            format!("their surfaces are at most {largest} mm from the links")
+        }
+        None => "their accuracy is not known".to_owned(),
+    };
+    let apart = match found.apart.len() {
+        0 => String::new(),
+        1 => "; 1 pair is apart in every posture".to_owned(),
+        count => format!("; {count} pairs are apart in every posture"),
+    };
+    Some(format!(
+        "\nBodies of the links: {}; {accuracy}{apart}",
+        places.join(", ")
+    ))
 }
 
 /// One line for the joint, and one for each other source of its limits.

@@ -5,6 +5,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::controller::ControllerTable;
+use crate::robot::shape_tables::{BoxTable, RoundTable};
 use crate::robot::spring_tables::{AxisName, MassTable, SpringTable};
 use crate::sources::SourceTable;
 
@@ -39,6 +40,12 @@ pub(super) struct RobotFile {
     #[schemars(length(max = 1000))]
     #[serde(default)]
     pub mass: Vec<MassTable>,
+    /// Bodies of the links, for clearance.
+    #[schemars(length(max = 1000))]
+    #[serde(default)]
+    pub body: Vec<BodyEntry>,
+    /// Which of these bodies are apart.
+    pub clearance: Option<ClearanceTable>,
     /// Spring that compensates gravity at a joint.
     pub compensator: Option<CompensatorTable>,
     /// Covariance of compliances that were identified together.
@@ -226,6 +233,39 @@ pub(super) struct FrameEntry {
     /// Its description.
     #[serde(rename = "note")]
     pub _note: Option<String>,
+}
+
+/// A body of a link: all of the link is inside of its bodies.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct BodyEntry {
+    /// Attachment: `base`, a joint's name (the link after it), or `flange`.
+    pub at: String,
+    /// Its name; after its attachment if left out.
+    pub name: Option<String>,
+    /// All within half the diameter of a segment, in the frame of the attachment.
+    pub capsule_mm: Option<RoundTable>,
+    /// A cylinder with flat ends, in the frame of the attachment.
+    pub cylinder_mm: Option<RoundTable>,
+    /// A box along the axes of the frame of the attachment.
+    pub box_mm: Option<BoxTable>,
+    /// Largest distance of its surface from the link.
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub accuracy_mm: Option<f64>,
+    /// Key of the source.
+    pub source: String,
+}
+
+/// What is known of the clearance of the bodies.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ClearanceTable {
+    /// Pairs of bodies that are apart in every posture, by name: these are not checked.
+    #[schemars(length(max = 1000))]
+    pub apart: Vec<[String; 2]>,
+    /// Key of the source.
+    #[serde(rename = "source")]
+    pub _source: String,
 }
 
 /// A spring between a fixed point and a point of the arm.

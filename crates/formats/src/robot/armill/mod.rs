@@ -4,8 +4,8 @@
 //! deflects and has mass in addition to the drives (springs, masses, compensator, torque curves, covariance) is read by
 //! `structure`.
 //!
-//! In reading order: `file` (the tables as written), `checks` (what no schema can say, and SI), `structure`; `write` (a
-//! robot of another format as such a file), `identified` (such a file with compliances that were identified),
+//! In reading order: `file` (the tables as written), `checks` (what no schema can say, and SI), `structure`, `bodies`; `spelling`,
+//! `write_bodies`, `write` (a robot of another format as such a file), `identified` (such a file with compliances that were identified),
 //! `calibrated` (with small motions that were).
 //!
 //! ```text
@@ -13,18 +13,22 @@
 //! name = "Maker Type"
 //! [chain]       source, motions = [{ about = "z", joint = "S" }, { along = "z", length_mm = 450 }, ...]
 //! [[joint]]     name, sign, zero_offset_deg, limits_deg, max_speed_deg_per_s, compliance_rad_per_n_m, ...
+//! [[body]]      at, name, capsule_mm, accuracy_mm, source: the outline of a link; [clearance] apart
 //! [[frame]] [[spring]] [[mass]] [compensator] [covariance] [repeatability] [model_error] [payload] [controller]    each may be left out
 //! [sources.KEY] what, where, licence: every KEY that a `source` names, and no other
 //! ```
 //!
 //! All keys with their meaning: `docs/guide/robot-file.md`.
 
+mod bodies;
 mod calibrated;
 mod checks;
 mod file;
 mod identified;
+mod spelling;
 mod structure;
 mod write;
+mod write_bodies;
 
 use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
 use armill_core::nalgebra::Vector3;
@@ -60,6 +64,7 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
     let joints = checks.joints(&file);
     let compliance = checks.compliance(&file);
     let structure = checks.structure(&file);
+    let bodies = checks.bodies(&file);
     let nominal = checks.nominal(&file);
     let of_controller = file.controller.iter();
     let of_controller = of_controller.flat_map(|table| table.problems(&document, file.joint.len()));
@@ -92,8 +97,9 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
             .into_iter()
             .map(|motion| motion.symbol)
             .collect(),
-        bodies: Vec::new(),
-        apart: Vec::new(),
+        bodies: bodies.bodies,
+        body_notes: bodies.notes,
+        apart: bodies.apart,
         joint_notes: file.joint.into_iter().map(joint_note).collect(),
         sources: sources::listed(file.sources),
     })

@@ -4,13 +4,15 @@
 //! 1e-15 m and rad, limits and speeds within 1e-9.
 //!
 //! Order: comments on origin, what was assumed and what is missing; `format`, `name`, `nominal_branch`, `note`;
-//! `[chain]`; a `[[joint]]` each; a `[[frame]]` each; `[sources]`. Keys that a user has to fill in are in comments.
+//! `[chain]`; a `[[joint]]` each; a `[[frame]]` each; a `[[body]]` each; `[clearance]`; `[sources]`. Keys that a user has to
+//! fill in are in comments.
 
 use armill_core::frame::{Isometry, fixed_angles};
 use armill_core::robot::{Amount, Joint, Motion};
-use armill_core::units::{from_deg, from_mm, to_deg, to_mm};
 
 use super::super::description::RobotDescription;
+use super::spelling::{degrees, line, millimetres, quoted, source};
+use super::write_bodies;
 
 /// How far (m, rad) a number of the chain may be from its decimal.
 const CHAIN: f64 = 1e-15;
@@ -19,7 +21,7 @@ const RANGE: f64 = 1e-9;
 
 /// The text of a robot file, format 1, for a robot that came from one foreign source.
 ///
-/// Not written: compliance, payload and limits by other sources, which no foreign format has.
+/// Not written: compliance, payload and limits by other sources, which no foreign format has; bodies that are meshes.
 ///
 /// Every number names the first source of `found`. Not checked: that `read` takes the text back, which the
 /// tests show for every foreign format.
@@ -38,6 +40,7 @@ pub fn write(found: &RobotDescription) -> String {
         line(&mut text, &format!("rotation_deg = {angles}"));
         line(&mut text, &format!("source = {}", quoted(source(found))));
     }
+    write_bodies::bodies(&mut text, found);
     for source in &found.sources {
         line(&mut text, &format!("\n[sources.{}]", quoted(&source.key)));
         line(&mut text, &format!("what = {}", quoted(&source.what)));
@@ -45,12 +48,6 @@ pub fn write(found: &RobotDescription) -> String {
         line(&mut text, &format!("licence = {}", quoted(&source.licence)));
     }
     text
-}
-
-/// Adds a line; writing to a text cannot fail.
-fn line(text: &mut String, content: &str) {
-    text.push_str(content);
-    text.push('\n');
 }
 
 /// Comments on what was assumed and what is missing, and the fields of the file as a whole.
@@ -203,11 +200,6 @@ fn joint(text: &mut String, found: &RobotDescription, index: usize) {
     line(text, "# compliance_source = \"...\"");
 }
 
-/// The key of the one source.
-fn source(found: &RobotDescription) -> &str {
-    found.sources.first().map_or("", |source| source.key.as_str())
-}
-
 /// Origin and turns about the fixed axes x, y, z, as the file has them.
 fn pose(base_from_frame: &Isometry) -> (String, String) {
     let at = base_from_frame.translation.vector;
@@ -217,40 +209,6 @@ fn pose(base_from_frame: &Isometry) -> (String, String) {
         three([at.x, at.y, at.z].map(|m| millimetres(m, CHAIN))),
         three(angles.map(|rad| degrees(rad, CHAIN))),
     )
-}
-
-/// A length in m as mm.
-fn millimetres(m: f64, within: f64) -> String {
-    shortest(m, to_mm(m), within, from_mm)
-}
-
-/// An angle in rad as deg.
-fn degrees(rad: f64, within: f64) -> String {
-    shortest(rad, to_deg(rad), within, from_deg)
-}
-
-/// The shortest decimal of `shown` that `to_si` takes back to `si`.
-///
-/// Up to 15 digits behind the point; where none of these is near enough, all digits that distinguish the number from
-/// its neighbours.
-fn shortest(si: f64, shown: f64, within: f64, to_si: fn(f64) -> f64) -> String {
-    // Of the decimals that come back near enough the shortest has the fewest digits.
-    let decimals = (0..=15).map(|digits| format!("{shown:.digits$}"));
-    let found = decimals
-        .filter(|text| {
-            text.parse::<f64>()
-                .is_ok_and(|value| (to_si(value) - si).abs() <= within)
-        })
-        .min_by_key(String::len);
-    match found.unwrap_or_else(|| format!("{shown:?}")) {
-        text if text == "-0" => "0".to_owned(),
-        text => text,
-    }
-}
-
-/// A TOML string.
-fn quoted(text: &str) -> String {
-    toml_edit::Value::from(text).to_string()
 }
 
 /// A text that fits into a comment.
