@@ -100,7 +100,7 @@ fn named(robot: &str, folder: &Path) -> Option<(Vec<Mesh>, Places)> {
     let text = String::from_utf8_lossy(&bytes);
     let urdf = match format(&text)? {
         Format::Urdf => text.into_owned(),
-        Format::Xacro => xacro::expand(&path, &text).ok()?.urdf,
+        Format::Xacro => xacro::expand_with_meshes(&path, &text).ok()?.urdf,
         _ => return None,
     };
     Some((meshes(robot, &urdf).ok()?, Places::of(&path, folder)?))

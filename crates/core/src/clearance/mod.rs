@@ -2,7 +2,7 @@
 //!
 //! Read in this order: [`nearest`] (segments and triangles, in closed form), [`convex`] (boxes and cylinders), [`bounds`] (lower
 //! bounds), [`enclosing`] (capsules around points), [`mesh`], [`shape`] (two shapes of any kind), [`field`] (many capsules against bodies that stand still),
-//! [`cell`] (all bodies of a cell, with the arm in a posture), [`swept`] (a joint move).
+//! [`cell`] (all bodies of a cell, with the arm in a posture), [`demanded`] (the check of a posture), [`swept`] (a joint move).
 //!
 //! Distances are exact but for rounding, well below a micrometre. They are those of the bodies as given: a capsule around a link
 //! is larger than the link.
@@ -10,6 +10,7 @@
 pub mod bounds;
 pub mod cell;
 pub mod convex;
+pub mod demanded;
 pub mod enclosing;
 pub mod field;
 pub mod mesh;
@@ -18,10 +19,8 @@ pub mod shape;
 pub mod swept;
 
 pub use bounds::{Bounds, Capsule};
-pub use cell::{
-    ArmBody, Cell, CellState, Clearance, ClearanceCheck, Conflict, DemandedClearance, FixedBody, PlacedCell,
-    Role,
-};
+pub use cell::{ArmBody, Cell, CellState, Clearance, FixedBody, PlacedCell, Role};
+pub use demanded::{ClearanceCheck, Conflict, DemandedClearance};
 pub use mesh::Mesh;
 pub use nearest::{Nearest, Segment, Triangle};
 pub use shape::Shape;

@@ -139,6 +139,17 @@ impl Answers {
         joined
     }
 
+    /// The largest part of the demanded clearance that is missing at those points that are `usable`, m; `None` where all keep
+    /// it.
+    pub(crate) fn missing_clearance(&self, usable: impl Fn(usize) -> bool) -> Option<f64> {
+        let points = self.points.iter().enumerate();
+        let missing = points.filter_map(|(index, point)| match point {
+            Err(Unreachable::InCollision { missing, .. }) if usable(index) => Some(*missing),
+            _ => None,
+        });
+        missing.max_by(f64::total_cmp)
+    }
+
     /// Measures the clearance of every point with a posture in the cell of `question`, which has the same arm; nothing if
     /// it demands none.
     pub fn measure_clearances(&mut self, question: &Question<'_>) {

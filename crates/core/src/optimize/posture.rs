@@ -11,7 +11,8 @@
 //! | joint speed at the feed | from point to point, and for the turn of the tool |
 //! | a jump | no joint turns by half a radian between neighbouring points |
 //! | whole turns | a joint that turns more than once stays within its range over a whole cut |
-//! | turn of the tool | limited per metre of the path, in steps; then smoothed, at most half a step away. Where a smoothed turn is nearer to a limit than the margin, the search is repeated with a greater margin |
+//! | turn of the tool | limited per metre of the path, in steps; then smoothed, at most half a step away. Where a smoothed turn is nearer to a limit than the margin, or a body nearer to another than demanded, the search is repeated with a greater margin or clearance |
+//! | clearance | a posture in which two bodies are nearer than demanded is not usable |
 //!
 //! Where a joint reverses, its backlash leaves a mark on the part. With a price on reversals
 //! ([`PostureSearch::back_price`]) a second chain with fewer reversals is computed. The one with the lower sum of
@@ -107,6 +108,8 @@ pub struct PostureFound {
 const CHUNK: usize = 256;
 /// Points of the lattice that are kept.
 const KEPT: usize = 800;
+/// Least increase of a clearance that was not kept after smoothing, m.
+const LEAST_MORE: f64 = 1e-3;
 /// Weight of deviations within the tolerance, so that of chains within it the better one is selected.
 pub(super) const WITHIN: f64 = 1e-3;
 
@@ -131,8 +134,10 @@ pub fn postures_along(
     assert!(search.spins.count > 0, "at least one spin");
     let mut search = *search;
     let margin = search.margin;
-    for last in [false, false, true] {
-        let found = searched(question, path, &search, watch)?;
+    let mut of_lattice = *question;
+    let rounds = if question.clearance.is_some() { 5 } else { 3 };
+    for round in 1..=rounds {
+        let found = searched(&of_lattice, path, &search, watch)?;
         let turned = found.turned(track);
         let along = along_postures(question, &turned, load.clone(), found.choices(), watch)?;
         let rooms = along
@@ -149,11 +154,15 @@ pub fn postures_along(
             .filter(|(index, _)| usable(*index))
             .map(|(_, room)| room)
             .fold(f64::INFINITY, f64::min);
-        if last || least >= margin - AT_LIMIT {
+        let missing = along.answers.missing_clearance(usable);
+        if round == rounds || (least >= margin - AT_LIMIT && missing.is_none()) {
             return Ok(found);
         }
-        // By smoothing a joint is this much nearer to a limit than in the lattice.
-        search.margin += 1.5 * (margin - least);
+        // By smoothing a joint is this much nearer to a limit, and a body to another, than in the lattice.
+        search.margin += 1.5 * (margin - least).max(0.0);
+        if let (Some(demanded), Some(missing)) = (&mut of_lattice.clearance, missing) {
+            demanded.least += 1.5 * missing + LEAST_MORE;
+        }
     }
     unreachable!("the last round returns")
 }

@@ -4,6 +4,7 @@ use nalgebra::Point3;
 
 use super::*;
 use crate::arms::{self, Stream};
+use crate::clearance::demanded::{ClearanceCheck, DemandedClearance};
 use crate::clearance::mesh::Mesh;
 use crate::clearance::nearest::Segment;
 

@@ -5,7 +5,7 @@
 //! |---|---|
 //! | `<xacro:include>` | the contents of that file, or nothing where it is not needed |
 //! | any other `xacro:` element | itself, with the prefix `xacro` |
-//! | `<link>` | its name alone |
+//! | `<link>` | its name alone; on request also the meshes of `<visual>` and `<collision>` with their origins |
 //! | `<joint>` | itself, with origin, parent, child, axis, limit and mimic |
 //! | `<material>`, `<gazebo>`, `<transmission>`, `<ros2_control>`, `<sensor>` | nothing |
 //! | comments, attributes with a namespace | nothing |
@@ -43,6 +43,18 @@ const OF_JOINTS: [&str; 6] = ["origin", "parent", "child", "axis", "limit", "mim
 /// What is dropped anywhere outside a link.
 const DROPPED: [&str; 5] = ["material", "gazebo", "transmission", "ros2_control", "sensor"];
 
+/// What is kept of the shapes of links: these elements, within one another.
+const OF_SHAPES: [&str; 5] = ["visual", "collision", "origin", "geometry", "mesh"];
+
+/// What is kept of a link.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum OfLinks {
+    /// Its name: nothing of its shapes can then fail.
+    Names,
+    /// Its name and its meshes.
+    Meshes,
+}
+
 /// Everything of a xacro file in one text.
 pub(super) struct Flat {
     /// One `<robot>` with the contents of all files.
@@ -59,6 +71,7 @@ pub(super) struct Flat {
 struct Writer<'a> {
     /// The file that was requested.
     main: &'a Source,
+    of_links: OfLinks,
     /// What was written so far, without the root element.
     xml: String,
     /// The files included so far.
@@ -97,7 +110,7 @@ struct Macro {
 ///
 /// # Errors
 /// What is not XML, files that are missing, no robot or several.
-pub(super) fn flatten(main: &Source, path: &Path) -> Result<Flat, Problems> {
+pub(super) fn flatten(main: &Source, path: &Path, of_links: OfLinks) -> Result<Flat, Problems> {
     let document = xml::parse(main)?;
     let root = document.root_element();
     if root.tag_name().name() != "robot" {
@@ -109,6 +122,7 @@ pub(super) fn flatten(main: &Source, path: &Path) -> Result<Flat, Problems> {
     }
     let mut writer = Writer {
         main,
+        of_links,
         xml: String::new(),
         sources: Vec::new(),
         remarks: Vec::new(),
@@ -199,12 +213,39 @@ impl Writer<'_> {
                 .push_str(&format!(" {}=\"{}\"", attribute.name(), escaped(&value)));
         }
         self.xml.push('>');
-        if !is_plain(node, "link") {
-            for child in node.children() {
+        let is_link = is_plain(node, "link");
+        for child in node.children() {
+            if !is_link {
                 self.node(file, child);
+            } else if self.of_links == OfLinks::Meshes {
+                self.shape(file, child);
             }
         }
         self.xml.push_str(&format!("</{prefix}{name}>"));
+    }
+
+    /// An element of the shape of a link, if a mesh needs it.
+    fn shape(&mut self, file: &Source, node: Node<'_, '_>) {
+        let name = node.tag_name().name();
+        if !node.is_element() || is_xacro(node) || !OF_SHAPES.contains(&name) {
+            return;
+        }
+        self.xml.push_str(&format!("<{name}"));
+        for attribute in node
+            .attributes()
+            .filter(|attribute| attribute.namespace().is_none())
+        {
+            self.xml.push_str(&format!(
+                " {}=\"{}\"",
+                attribute.name(),
+                escaped(attribute.value())
+            ));
+        }
+        self.xml.push('>');
+        for child in node.children() {
+            self.shape(file, child);
+        }
+        self.xml.push_str(&format!("</{name}>"));
     }
 
     /// The folder of the file at hand.

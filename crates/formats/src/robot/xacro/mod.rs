@@ -5,7 +5,7 @@
 //! simulation are remarks. `$(env ...)` is not evaluated.
 //!
 //! In reading order: `packages` (where included files may be), `elements` (which elements are of xacro), `flatten` (one
-//! text of all files; what links look like and weigh is dropped, so that nothing of it can fail), `values` (what each
+//! text of all files; what links look like and weigh is dropped, so that nothing of it can fail, except for meshes on request), `values` (what each
 //! name is given anywhere), `load_yaml` (data of YAML files, checked before it is used), `growth` (refuses macros that
 //! could grow without bound), `expand` (macros and expressions, evaluated by the crate `xacro-rs`).
 
@@ -20,6 +20,7 @@ mod values;
 use std::path::Path;
 
 pub use self::expand::EXPANDER;
+use self::flatten::OfLinks;
 use super::description::RobotDescription;
 use super::urdf;
 use crate::document::{Problems, Source};
@@ -60,7 +61,7 @@ pub fn read_to_tip(
 /// What a xacro file comes to.
 #[derive(Clone, Debug)]
 pub struct Expanded {
-    /// The text of a URDF: links by name alone, joints with what moves them.
+    /// The text of a URDF: links by name, on request with their meshes, joints with what moves them.
     pub urdf: String,
     /// Files that were not found and are not needed.
     pub remarks: Vec<String>,
@@ -74,8 +75,20 @@ pub struct Expanded {
 /// What is not XML, a file that is missing, a file without robot or with several, an expression that cannot be
 /// evaluated.
 pub fn expand(path: &Path, text: &str) -> Result<Expanded, Problems> {
+    expanded(path, text, OfLinks::Names)
+}
+
+/// [`expand`] with the meshes of the links and their origins: expressions in these can fail as well.
+///
+/// # Errors
+/// As of [`expand`].
+pub fn expand_with_meshes(path: &Path, text: &str) -> Result<Expanded, Problems> {
+    expanded(path, text, OfLinks::Meshes)
+}
+
+fn expanded(path: &Path, text: &str, of_links: OfLinks) -> Result<Expanded, Problems> {
     let main = Source::new(&path.display().to_string(), text);
-    let flat = flatten::flatten(&main, path)?;
+    let flat = flatten::flatten(&main, path, of_links)?;
     let urdf = expand::expand(&main, path, &flat)?;
     Ok(Expanded {
         urdf,

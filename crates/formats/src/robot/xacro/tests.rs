@@ -62,6 +62,20 @@ fn one_macro_becomes_the_robot_with_an_empty_prefix() {
 }
 
 #[test]
+fn meshes_are_kept_on_request_and_nothing_else_of_a_shape() {
+    let path = Path::new("/nowhere/arm.xacro");
+    let expanded = expand_with_meshes(path, MACRO).unwrap().urdf;
+    let meshes = urdf::meshes::meshes("arm.xacro", &expanded).unwrap();
+    assert_eq!(meshes.len(), 1);
+    assert_eq!(
+        (meshes[0].link.as_str(), meshes[0].file.as_str()),
+        ("base_link", "package://maker/meshes/base.stl")
+    );
+    assert!(!expanded.contains("orange") && !expanded.contains("inertial"));
+    assert!(!expand(path, MACRO).unwrap().urdf.contains("mesh"));
+}
+
+#[test]
 fn files_are_found_next_to_it_and_in_the_packages_around() {
     let folder = tempfile::tempdir().unwrap();
     let urdf = folder.path().join("maker_support/urdf");

@@ -49,6 +49,8 @@ pub struct CellBodies {
     pub links: Vec<ArmBody>,
     /// Pairs of links that are apart in every posture.
     pub apart: Vec<[usize; 2]>,
+    /// Of each link whether the tool is not checked against it, since its body is too coarse.
+    pub is_coarse: Vec<bool>,
     /// What stands in the cell, in the reference frame.
     pub obstacles: Vec<NamedShape>,
     /// The part, in its own frame.
@@ -103,11 +105,17 @@ impl CellBodies {
                 frame_from_body: pose_or_none(table.part_from_body_mm_deg.as_ref()),
             });
         }
-        let LinkBodies { links, apart, note } = LinkBodies::of(robot, tables.robot, folder)?;
-        notes.extend(note);
+        let LinkBodies {
+            links,
+            apart,
+            is_coarse,
+            notes: of_links,
+        } = LinkBodies::of(robot, tables.robot, folder)?;
+        notes.extend(of_links);
         Ok((log.problems.len() == before).then_some(CellBodies {
             links,
             apart,
+            is_coarse,
             obstacles,
             part,
             least: from_mm(tables.least_clearance_mm.unwrap_or(0.0)),

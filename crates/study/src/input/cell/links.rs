@@ -22,9 +22,16 @@ pub struct LinkBodies {
     pub links: Vec<ArmBody>,
     /// Pairs of them that are apart in every posture.
     pub apart: Vec<[usize; 2]>,
-    /// Where they come from, or why there are none.
-    pub note: Option<String>,
+    /// Of each whether it is so much larger than its link that a tool on the wrist would touch it without touching the link.
+    pub is_coarse: Vec<bool>,
+    /// What a user should know of them.
+    pub notes: Vec<String>,
 }
+
+/// A body of a link of the wrist that may be larger than the link by more than this is not checked against the tool, mm.
+const COARSE_MM: f64 = 20.0;
+/// Joints of a wrist.
+const WRIST: usize = 3;
 
 impl LinkBodies {
     /// The bodies of this robot, which the study calls `name`.
@@ -33,26 +40,22 @@ impl LinkBodies {
     /// The problems of a mesh file.
     pub fn of(robot: &RobotDescription, name: &str, folder: &Path) -> Result<LinkBodies, StudyError> {
         if !robot.bodies.is_empty() {
-            return Ok(LinkBodies {
-                links: robot.bodies.clone(),
-                apart: robot.apart.clone(),
-                note: None,
-            });
+            return Ok(LinkBodies::of_file(robot));
         }
         let found = LinkMeshes::of(name, folder, Preferred::Collision);
-        let note = match &found {
-            LinkMeshes::Found(_) => None,
-            LinkMeshes::None => Some(format!(
+        let notes = match &found {
+            LinkMeshes::Found(_) => Vec::new(),
+            LinkMeshes::None => vec![format!(
                 "The shapes of the links of {} are not known: the clearance is that of tool and part alone.",
                 robot.title
-            )),
-            LinkMeshes::Missing(file) => Some(format!(
+            )],
+            LinkMeshes::Missing(file) => vec![format!(
                 "The mesh `{file}` of {} is not in the folder of its file or of the study: the shapes of its links are not \
                  known, and the clearance is that of tool and part alone.",
                 robot.title
-            )),
+            )],
         };
-        let links = match found {
+        let links: Vec<ArmBody> = match found {
             LinkMeshes::Found(meshes) => meshes
                 .iter()
                 .map(|mesh| body_of(robot, mesh))
@@ -60,10 +63,43 @@ impl LinkBodies {
             _ => Vec::new(),
         };
         Ok(LinkBodies {
+            is_coarse: vec![false; links.len()],
             links,
             apart: Vec::new(),
-            note,
+            notes,
         })
+    }
+
+    /// Those of the robot file.
+    fn of_file(robot: &RobotDescription) -> LinkBodies {
+        let joints = robot.robot.joints();
+        let is_coarse: Vec<bool> = robot
+            .bodies
+            .iter()
+            .zip(&robot.body_notes)
+            .map(|(body, note)| {
+                let in_wrist = match body.attachment {
+                    Attachment::Joint(joint) => joint + WRIST >= joints.len(),
+                    Attachment::Flange | Attachment::Tool => true,
+                    Attachment::Base => false,
+                };
+                in_wrist && note.accuracy_mm.is_none_or(|accuracy| accuracy > COARSE_MM)
+            })
+            .collect();
+        let mut notes = Vec::new();
+        if is_coarse.contains(&true) {
+            notes.push(format!(
+                "The tool is not checked against the wrist of {}: its bodies may be larger than its links by more than \
+                 {COARSE_MM} mm. A URDF with collision meshes has exact ones.",
+                robot.title
+            ));
+        }
+        LinkBodies {
+            links: robot.bodies.clone(),
+            apart: robot.apart.clone(),
+            is_coarse,
+            notes,
+        }
     }
 }
 

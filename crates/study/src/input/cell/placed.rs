@@ -47,8 +47,16 @@ impl AnalysisCell {
             .iter()
             .map(|body| fixed(body, &Isometry::identity(), true));
         let still: Vec<_> = obstacles.chain(part).collect();
+        let coarse = bodies
+            .is_coarse
+            .iter()
+            .enumerate()
+            .filter(|(_, is_coarse)| **is_coarse);
+        let of_tool = bodies.links.len()..bodies.links.len() + tool.len();
+        let unchecked = coarse.flat_map(|(link, _)| of_tool.clone().map(move |body| [link, body]));
+        let apart: Vec<[usize; 2]> = bodies.apart.iter().copied().chain(unchecked).collect();
         let arm = bodies.links.iter().cloned().chain(tool).collect();
-        let cell = Cell::new(robot, frames.flange_from_tool, arm, &bodies.apart, &still);
+        let cell = Cell::new(robot, frames.flange_from_tool, arm, &apart, &still);
         AnalysisCell {
             cell: Arc::new(cell),
             base_from_part: *frames.base_from_part,
