@@ -7,7 +7,7 @@
 use std::path::{Component, Path, PathBuf};
 
 use armill_formats::input;
-use armill_formats::mesh::Format as MeshFormat;
+use armill_formats::mesh::MeshFormat;
 use armill_formats::robot::format::Format;
 use armill_formats::robot::urdf::meshes::{Mesh, meshes};
 use armill_formats::robot::xacro;
