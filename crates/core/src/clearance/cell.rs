@@ -377,6 +377,11 @@ impl<'a> CellState<'a> {
         }
     }
 
+    /// The frames of the bodies of the arm in base, in the order of [`Cell::arm`].
+    pub fn base_from_body(&self) -> &[IsometryMatrix3<f64>] {
+        &self.base_from_body
+    }
+
     /// Shape of a body of the arm where it is, base.
     fn placed(&self, body: usize) -> Placed {
         self.cell.arm[body].shape.placed(&self.base_from_body[body])

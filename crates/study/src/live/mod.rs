@@ -40,6 +40,8 @@
 mod along;
 mod answered;
 mod arm;
+mod bodies;
+mod body_mesh;
 mod file_kind;
 mod layer;
 mod lines;
@@ -61,6 +63,8 @@ pub use answered::{
     PictureAnswer, PicturesAnswer, answer_json, measured_csv, picture_svg, pictures, table_csv,
 };
 pub use arm::{ExtremesAnswer, Follow, PoseAtTarget, PoseRequest};
+pub use bodies::{BodyInScene, BodyPose, BodyRole, CellInScene, DrawnCell, ShapeInScene, StillBodyInScene};
+pub use body_mesh::body_mesh;
 pub use file_kind::{FileKind, kind_of};
 pub use layer::{LayerAnswer, LayerKey, LayerLine, LayerRequest};
 pub use lines::{LevelAnswer, LinesAnswer};
