@@ -26,9 +26,10 @@ export interface LostHole {
 export function headline(answer: Answer, map: MapAnswer | null): Headline {
   if (map) {
     const { certainty, counts, grid } = map;
-    const unreached = grid.points - counts.within - counts.above_tolerance;
+    const unreached = grid.points - counts.within - counts.above_tolerance - counts.in_collision;
     return of("plate", map.fraction_within_and_inside_joint_limits, map.setting.tolerance_um, map.worst !== null, [
       outside(map.outside_joint_limits, grid.points, "hatched"),
+      inCollision(counts.in_collision),
       unreached > 0 ? `${unreached} without posture` : null,
       certainty ? `robustly ${percent(certainty.fraction_robustly_within)}, possibly ${percent(certainty.fraction_possibly_within)}` : null,
     ], map.outside_joint_limits);
@@ -37,7 +38,8 @@ export function headline(answer: Answer, map: MapAnswer | null): Headline {
   if (path)
     return of("path", path.fraction_within_and_inside_joint_limits, path.setting.tolerance_um, path.worst !== null, [
       outside(path.outside_joint_limits, path.points, "dashed"),
-      path.unreachable > 0 ? `${path.unreachable} unreachable` : null,
+      inCollision(path.in_collision),
+      path.unreachable > path.in_collision ? `${path.unreachable - path.in_collision} unreachable` : null,
       `${path.points} points`,
       path.roundness_um !== null ? `roundness ${um(path.roundness_um)} µm` : null,
     ], path.outside_joint_limits);
@@ -65,6 +67,8 @@ function of(what: string, share: number, tolerance_um: number, reached: boolean,
 
 const stateOf = (share: number): Headline["state"] => (share >= 1 ? "good" : share > 0 ? "part" : "none");
 const outside = (count: number, points: number, how: string): string | null => (count > 0 ? `${count} of ${points} points outside joint limits (${how})` : null);
+
+const inCollision = (count: number): string | null => (count > 0 ? `${count} in collision` : null);
 
 function ofHoles(answer: Answer): Headline {
   const set = answer.holes[0];

@@ -69,7 +69,7 @@ export class Shapes {
     this.known.set(file, "coming");
     let found: THREE.BufferGeometry | "none" = "none";
     try {
-      found = shape(await this.fetched(file));
+      found = meshOf(await this.fetched(file));
     } catch {
       // Not there, or not a mesh: the arm is drawn from its chain.
     }
@@ -80,7 +80,7 @@ export class Shapes {
 }
 
 /** The mesh in these bytes, STL as text or in binary. */
-function shape(bytes: ArrayBuffer): THREE.BufferGeometry {
+export function meshOf(bytes: ArrayBuffer): THREE.BufferGeometry {
   const geometry = new STLLoader().parse(bytes);
   geometry.computeBoundingSphere();
   const count = geometry.getAttribute("position")?.count ?? 0;
