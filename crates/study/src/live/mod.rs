@@ -13,6 +13,7 @@
 //! | `answered` | the results of `armill run`: answer, table, pictures |
 //! | `posture` | the postures of the arm at one target, and the deviation under each load case |
 //! | `along` | the pose and the load at a point of a path, or at a hole |
+//! | `bodies`, `body_mesh` | the bodies of the cell as they are drawn, and their meshes |
 //! | `arm` | the worst and best points, and the arm there |
 //! | `reachable` | the nearest placement that the robot reaches |
 //! | `scene` | what can be drawn in space |

@@ -132,6 +132,12 @@ fn a_posture_below_the_demanded_clearance_is_marked() {
     let keys = json!({ "text": text, "analysis": "rim", "keys": ["in_collision"] });
     let column = served.post("/api/path-columns", keys);
     assert_eq!(column.body, 1.0_f32.to_le_bytes().repeat(points));
+    // At spins beyond the limits of the joints, too, the robot reaches the points.
+    let map = served
+        .post("/api/spin-map", json!({ "text": text, "analysis": "rim" }))
+        .json();
+    let states: Vec<Vec<u8>> = serde_json::from_value(map["state"].clone()).unwrap();
+    assert!(!states.is_empty() && states.iter().flatten().all(|state| *state == 32));
 }
 
 #[test]
