@@ -59,7 +59,9 @@ export function overlay(view: SceneView, live: Live): HTMLElement {
       // There to be chosen where the robot has one.
       if (key === "shape") live.listen(["pose"], () => (label.hidden = !live.pose?.drawings.some((d) => d.meshes.length > 0)));
       if (key === "pinned") live.listen(["view"], () => (label.hidden = live.pinned === null));
-      if (key === "bodies" || key === "link_bodies" || key === "nearest") live.listen(["answer", "view"], () => (label.hidden = !live.scene?.cell));
+      const cell = () => live.scene?.cell;
+      if (key === "bodies" || key === "nearest") live.listen(["answer"], () => (label.hidden = !cell()));
+      if (key === "link_bodies") live.listen(["answer"], () => (label.hidden = !cell()?.arm.some(({ role }) => role === "link")));
       label.hidden = key === "pinned";
       return label;
     }),
