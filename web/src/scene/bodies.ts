@@ -58,11 +58,11 @@ export class Bodies {
   /** The bodies of the arm in a posture, those of links only if `links`; `near`: names of two that are too near. */
   drawArm(drawn: DrawnCell | null, links: boolean, near: string[]): void {
     const bodies = drawn && this.cell?.arm.length === drawn.bodies.length ? this.cell.arm : [];
-    this.arm = this.made(this.arm, bodies);
+    const seen = ({ role, name }: Body) => role !== "link" || links || near.includes(name);
+    this.arm = this.made(this.arm, bodies, seen);
     this.arm.forEach((each, i) => {
       place(each, drawn!.bodies[i]!);
-      const red = near.includes(each.body.name);
-      each.solid.visible = each.edges.visible = each.body.role !== "link" || links || red;
+      each.solid.visible = each.edges.visible = seen(each.body);
     });
     for (const each of [...this.arm, ...this.still]) paint(each, near.includes(each.body.name));
   }
@@ -96,11 +96,12 @@ export class Bodies {
     return box;
   }
 
-  private made(before: Drawn[], bodies: Body[]): Drawn[] {
+  /** Meshes are requested only if they are seen. */
+  private made(before: Drawn[], bodies: Body[], seen: (body: Body) => boolean = () => true): Drawn[] {
     for (const gone of before.splice(bodies.length)) this.remove(gone);
     return bodies.map((body, i) => {
       const key = JSON.stringify(body);
-      const triangles = body.shape.kind === "mesh" ? this.meshes.of(body.shape.key) : null;
+      const triangles = body.shape.kind === "mesh" && seen(body) ? this.meshes.of(body.shape.key) : null;
       const old = before[i];
       if (old && old.shape === key && old.triangles === triangles) return old;
       if (old) this.remove(old);

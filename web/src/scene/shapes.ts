@@ -41,6 +41,11 @@ export class Shapes {
     return true;
   }
 
+  /** Whether a mesh is still to come. */
+  get loading(): boolean {
+    return [...this.known.values()].includes("coming");
+  }
+
   ghost(on: boolean): void {
     for (const material of [MATERIAL, FOOT]) {
       if (material.transparent === on) continue;

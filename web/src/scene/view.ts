@@ -265,7 +265,7 @@ export class SceneView {
     const answer = pose?.answer.postures[posture] ?? null;
     const near = cell && !cell.keeps_clearance ? (answer?.nearest ?? []) : [];
     this.bodies.group.visible = this.show.bodies;
-    this.bodies.drawArm(this.show.arm ? cell : null, this.show.link_bodies && !this.shapes.group.visible, near);
+    this.bodies.drawArm(this.show.arm ? cell : null, this.show.link_bodies && !this.shapes.group.visible && !(this.show.shape && this.shapes.loading), near);
     this.bodies.ghost(this.ghost);
     this.nearest.draw(this.show.nearest ? cell : null, answer, Math.max(4, 0.005 * this.reach()));
   }
