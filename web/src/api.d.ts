@@ -417,6 +417,55 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/body-mesh": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** The mesh of a body of the cell */
+        post: {
+            parameters: {
+                query?: never;
+                header?: never;
+                path?: never;
+                cookie?: never;
+            };
+            requestBody: {
+                content: {
+                    "application/json": components["schemas"]["BodyMeshRequest"];
+                };
+            };
+            responses: {
+                /** @description success */
+                200: {
+                    headers: {
+                        [name: string]: unknown;
+                    };
+                    content: {
+                        "model/stl": string;
+                    };
+                };
+                /** @description error */
+                default: {
+                    headers: {
+                        [name: string]: unknown;
+                    };
+                    content: {
+                        "application/json": components["schemas"]["ErrorBody"];
+                    };
+                };
+            };
+        };
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/answer": {
         parameters: {
             query?: never;
@@ -1598,6 +1647,15 @@ export interface components {
             /** @description The file, as the robot's file names it. */
             file: string;
         };
+        /** @description The mesh of a body of the cell. */
+        BodyMeshRequest: {
+            /** @description The text of the study. */
+            text: string;
+            /** @description Name of its analysis; the first if left out. */
+            analysis?: string | null;
+            /** @description The key of the mesh, from the scene. */
+            key: string;
+        };
         /** @description An analysis of a text. */
         AnalysisRequest: {
             /** @description The text of the study. */
@@ -2262,6 +2320,8 @@ export interface components {
             points: components["schemas"]["PointsInScene"] | null;
             /** @description The box of a volume. */
             box: components["schemas"]["BoxInScene"] | null;
+            /** @description The bodies of its cell; `null` without any. */
+            cell: components["schemas"]["CellInScene"] | null;
         };
         /** @description A plane with its sides. */
         PlateInScene: {
@@ -2319,6 +2379,24 @@ export interface components {
             label: string;
             /** @description Its plane. */
             plate: components["schemas"]["PlateInScene"];
+            /** @description Where the part is that the cell has; `null` without one. */
+            part: components["schemas"]["BodyPose"] | null;
+        };
+        /** @description The frame of a body, base. */
+        BodyPose: {
+            /** @description Its origin. */
+            xyz_mm: [
+                number,
+                number,
+                number
+            ];
+            /** @description Its orientation, unit quaternion. */
+            quaternion_wxyz: [
+                number,
+                number,
+                number,
+                number
+            ];
         };
         /** @description Points with some columns of their table: each column has as many values as there are points, `null` if one has none. */
         PointsInScene: {
@@ -2376,6 +2454,110 @@ export interface components {
                 number,
                 number
             ];
+        };
+        /** @description The bodies of a cell. */
+        CellInScene: {
+            /** @description Bodies of the arm and of the tool; their poses are in the drawing of each posture, in this order. */
+            arm: components["schemas"]["BodyInScene"][];
+            /** @description What stands still: obstacles, then the part. */
+            still: components["schemas"]["StillBodyInScene"][];
+            /**
+             * Format: double
+             * @description The demanded clearance.
+             */
+            least_clearance_mm: number;
+        };
+        /** @description A body. */
+        BodyInScene: {
+            /** @description Its name. */
+            name: string;
+            /** @description What it is. */
+            role: components["schemas"]["BodyRole"];
+            /** @description Its shape, in its own frame. */
+            shape: components["schemas"]["ShapeInScene"];
+        };
+        /** @description What a body is. */
+        BodyRole: "link" | "holder" | "cutter" | "obstacle" | "part";
+        /** @description A shape in the frame of its body. */
+        ShapeInScene: {
+            /** @constant */
+            kind: "box";
+            /** @description The corner with the least coordinates. */
+            from_mm: [
+                number,
+                number,
+                number
+            ];
+            /** @description The opposite one. */
+            to_mm: [
+                number,
+                number,
+                number
+            ];
+        } | {
+            /** @constant */
+            kind: "cylinder";
+            /** @description Centre of one end. */
+            from_mm: [
+                number,
+                number,
+                number
+            ];
+            /** @description Centre of the other end. */
+            to_mm: [
+                number,
+                number,
+                number
+            ];
+            /**
+             * Format: double
+             * @description Its radius.
+             */
+            radius_mm: number;
+        } | {
+            /** @constant */
+            kind: "capsule";
+            /** @description One end of the segment. */
+            from_mm: [
+                number,
+                number,
+                number
+            ];
+            /** @description The other end. */
+            to_mm: [
+                number,
+                number,
+                number
+            ];
+            /**
+             * Format: double
+             * @description The radius.
+             */
+            radius_mm: number;
+        } | {
+            /** @constant */
+            kind: "mesh";
+            /** @description The key: the same for the same triangles. */
+            key: string;
+            /** @description The corner of the box around it with the least coordinates. */
+            from_mm: [
+                number,
+                number,
+                number
+            ];
+            /** @description The opposite one. */
+            to_mm: [
+                number,
+                number,
+                number
+            ];
+        };
+        /** @description A body that stands still. */
+        StillBodyInScene: {
+            /** @description The body. */
+            body: components["schemas"]["BodyInScene"];
+            /** @description Where it is. Of sections each has a part of its own. */
+            pose: components["schemas"]["BodyPose"];
         };
         /** @description A path whose points are requested as columns. */
         PathInView: {
@@ -2552,6 +2734,16 @@ export interface components {
             /** @description Points by reason; their sum is the total. */
             counts: components["schemas"]["CountsAnswer"];
             /**
+             * Format: double
+             * @description Least distance of two bodies at any point, 0 where they touch; none without bodies.
+             */
+            least_clearance_mm: number | null;
+            /** @description The two bodies. */
+            nearest: [
+                string,
+                string
+            ] | null;
+            /**
              * Format: uint
              * @description Points with a posture outside joint limits.
              */
@@ -2616,6 +2808,11 @@ export interface components {
              * @description A posture reaches the point, but the arm has no stable equilibrium under the load.
              */
             unstable: number;
+            /**
+             * Format: uint
+             * @description Postures reach the point, but none keeps the demanded clearance.
+             */
+            in_collision: number;
         };
         /** @description A reached point. */
         PointAnswer: {
@@ -2907,6 +3104,21 @@ export interface components {
             unreachable: number;
             /**
              * Format: uint
+             * @description Of these, points where no posture keeps the demanded clearance.
+             */
+            in_collision: number;
+            /**
+             * Format: double
+             * @description Least distance of two bodies along the path, 0 where they touch; none without bodies.
+             */
+            least_clearance_mm: number | null;
+            /** @description The two bodies. */
+            nearest: [
+                string,
+                string
+            ] | null;
+            /**
+             * Format: uint
              * @description Points with a posture outside joint limits.
              */
             outside_joint_limits: number;
@@ -3113,7 +3325,7 @@ export interface components {
         };
         /** @description An obstacle of one kind and joint, where it is largest. */
         ObstacleAnswer: {
-            /** @description `unreachable`, `joint-limit`, `jump` or `joint-speed`. */
+            /** @description `unreachable`, `collision`, `joint-limit`, `jump` or `joint-speed`. */
             kind: string;
             /** @description The joint; none where no posture exists. */
             joint: string | null;
@@ -3627,6 +3839,16 @@ export interface components {
              * @description Holes without posture inside joint limits.
              */
             unreachable: number;
+            /**
+             * Format: double
+             * @description Least distance of two bodies at any hole, 0 where they touch; none without bodies.
+             */
+            least_clearance_mm: number | null;
+            /** @description The two bodies. */
+            nearest: [
+                string,
+                string
+            ] | null;
             /** @description Holes by reason; their sum is the total. */
             counts: components["schemas"]["CountsAnswer"];
             /**
@@ -4431,6 +4653,29 @@ export interface components {
                 number,
                 number
             ] | null;
+            /**
+             * Format: double
+             * @description Least distance of two bodies; 0 where they touch; none without bodies in the cell.
+             */
+            clearance_mm: number | null;
+            /** @description The two bodies. */
+            nearest: [
+                string,
+                string
+            ] | null;
+            /** @description Their nearest points, in the frame that positions count from. */
+            nearest_mm: [
+                [
+                    number,
+                    number,
+                    number
+                ][],
+                [
+                    number,
+                    number,
+                    number
+                ][]
+            ] | null;
         };
         /** @description Pose of the tool. */
         ToolAnswer: {
@@ -4606,6 +4851,8 @@ export interface components {
             ][];
             /** @description The meshes of its links, if the robot file names them and all exist. */
             meshes: components["schemas"]["DrawnMesh"][];
+            /** @description The bodies of the cell; `null` without any. */
+            cell: components["schemas"]["DrawnCell"] | null;
         };
         /** @description A joint in a drawing. */
         DrawnJoint: {
@@ -4651,6 +4898,26 @@ export interface components {
                 number,
                 number
             ];
+        };
+        /** @description The bodies of a cell with the arm in a posture, base. */
+        DrawnCell: {
+            /** @description Bodies of the arm and of the tool, in the order of the scene. */
+            bodies: components["schemas"]["BodyPose"][];
+            /** @description The nearest points of two bodies; `null` where no two are checked. */
+            nearest_mm: [
+                [
+                    number,
+                    number,
+                    number
+                ][],
+                [
+                    number,
+                    number,
+                    number
+                ][]
+            ] | null;
+            /** @description Whether the posture keeps the demanded clearance, without contact. */
+            keeps_clearance: boolean;
         };
         /** @description Limits of a joint in the convention of the robot file; `null` if they are not known. */
         JointLimits: {
@@ -4783,7 +5050,8 @@ export interface components {
             limit_joint: number[][];
             /**
              * @description State of each cell, row after row: sum of 1 (outside joint limits), 2 (singular), 4 (out of reach), 8 (a joint jumps
-             *     since the column before), 16 (a joint is too slow for the feed since the column before).
+             *     since the column before), 16 (a joint is too slow for the feed since the column before), 32 (no posture keeps the demanded
+             *     clearance).
              */
             state: number[][];
             /** @description The joint that jumps or is too slow: its index among the names; 0 for other cells. */

@@ -12,7 +12,7 @@ export interface Headline {
   line: string;
   /** Further facts, in the order of their weight. */
   extra: string[];
-  /** Whether the robot reaches any point. */
+  /** Whether the robot reaches any point, in collision or not. */
   reached: boolean;
 }
 
@@ -26,45 +26,53 @@ export interface LostHole {
 export function headline(answer: Answer, map: MapAnswer | null): Headline {
   if (map) {
     const { certainty, counts, grid } = map;
-    const unreached = grid.points - counts.within - counts.above_tolerance;
+    const unreached = grid.points - counts.within - counts.above_tolerance - counts.in_collision;
     return of("plate", map.fraction_within_and_inside_joint_limits, map.setting.tolerance_um, map.worst !== null, [
       outside(map.outside_joint_limits, grid.points, "hatched"),
+      inCollision(counts.in_collision),
       unreached > 0 ? `${unreached} without posture` : null,
       certainty ? `robustly ${percent(certainty.fraction_robustly_within)}, possibly ${percent(certainty.fraction_possibly_within)}` : null,
-    ], map.outside_joint_limits);
+    ], map.outside_joint_limits, counts.in_collision);
   }
   const path = answer.paths[0];
   if (path)
     return of("path", path.fraction_within_and_inside_joint_limits, path.setting.tolerance_um, path.worst !== null, [
       outside(path.outside_joint_limits, path.points, "dashed"),
-      path.unreachable > 0 ? `${path.unreachable} unreachable` : null,
+      inCollision(path.in_collision),
+      path.unreachable > path.in_collision ? `${path.unreachable - path.in_collision} unreachable` : null,
       `${path.points} points`,
       path.roundness_um !== null ? `roundness ${um(path.roundness_um)} µm` : null,
-    ], path.outside_joint_limits);
+    ], path.outside_joint_limits, path.in_collision);
   const volume = answer.volumes[0];
   if (volume)
     return of("box", volume.fraction_within_and_inside_joint_limits, volume.setting.tolerance_um, volume.worst !== null, [
+      inCollision(volume.counts.in_collision),
       volume.outside_joint_limits > 0 ? `${volume.outside_joint_limits} points outside joint limits` : null,
       `${(volume.volume_within_mm3 / 1e6).toFixed(1)} litres (dm³) within the tolerance${volume.outside_joint_limits > 0 ? ", limits neglected" : ""}`,
-    ], volume.outside_joint_limits);
+    ], volume.outside_joint_limits, volume.counts.in_collision);
   return ofHoles(answer);
 }
 
-function of(what: string, share: number, tolerance_um: number, reached: boolean, extra: (string | null)[], outside_limits: number): Headline {
+function of(what: string, share: number, tolerance_um: number, evaluated: boolean, extra: (string | null)[], outside_limits: number, in_collision: number): Headline {
+  const reached = evaluated || in_collision > 0;
   const tolerance = `${trimmed(tolerance_um, 1)}\u00a0µm`;
   const inside = outside_limits > 0 ? " and inside joint limits" : "";
   const line = !reached
     ? `The robot does not reach the ${what}`
-    : share <= 0
-      ? `No point of the ${what} is within ${tolerance}${inside}`
-      : share >= 1
-        ? `The whole ${what} is within ${tolerance}`
-        : `${percent(share)} of the ${what} is within ${tolerance}${inside}`;
+    : !evaluated
+      ? `No point of the ${what} is reached without collision`
+      : share <= 0
+        ? `No point of the ${what} is within ${tolerance}${inside}`
+        : share >= 1
+          ? `The whole ${what} is within ${tolerance}`
+          : `${percent(share)} of the ${what} is within ${tolerance}${inside}`;
   return { share, state: stateOf(share), line, extra: extra.filter((e) => e !== null), reached };
 }
 
 const stateOf = (share: number): Headline["state"] => (share >= 1 ? "good" : share > 0 ? "part" : "none");
 const outside = (count: number, points: number, how: string): string | null => (count > 0 ? `${count} of ${points} points outside joint limits (${how})` : null);
+
+const inCollision = (count: number): string | null => (count > 0 ? `${count} in collision` : null);
 
 function ofHoles(answer: Answer): Headline {
   const set = answer.holes[0];
@@ -74,7 +82,7 @@ function ofHoles(answer: Answer): Headline {
   const lost = lostHoles(answer);
   const drilled = set.holes - lost.length;
   const state = stateOf(set.fraction_within);
-  const reached = set.unreachable < set.holes;
+  const reached = set.unreachable < set.holes || set.each.some((row) => row.state === "in_collision");
   if (lost.length === 0) {
     const line = within === set.holes ? `All ${set.holes} holes are within ${tolerance}` : within === 0 ? `No hole is within ${tolerance}` : `${within} of ${set.holes} holes ${within === 1 ? "is" : "are"} within ${tolerance}`;
     return { share: set.fraction_within, state, line, extra: [`${set.holes} holes, all can be drilled`], reached };

@@ -96,6 +96,7 @@ export const api = {
   /** Columns of a path, one after the other. */
   pathColumns: async (text: string, analysis: string | null, keys: string[], signal?: AbortSignal) => (await raw("POST", "/api/path-columns", { text, analysis, keys }, signal)).arrayBuffer(),
   mesh: async (text: string, file: string) => (await raw("POST", "/api/mesh", { text, file })).arrayBuffer(),
+  bodyMesh: async (text: string, analysis: string | null, key: string) => (await raw("POST", "/api/body-mesh", { text, analysis, key })).arrayBuffer(),
   pose: (text: string, analysis: string | null, at: At, load_case: number, signal?: AbortSignal) => json<Pose>("POST", "/api/pose", { text, analysis, at, case: load_case }, signal),
   reachable: (text: string, analysis: string | null, signal?: AbortSignal) => json<Reachable>("POST", "/api/reachable", { text, analysis }, signal),
   spinMap: (text: string, analysis: string | null, signal?: AbortSignal) => json<SpinMap>("POST", "/api/spin-map", { text, analysis }, signal),

@@ -52,7 +52,15 @@ export type PoseRequest = Schemas["PoseRequest"];
 export type Follow = Schemas["Follow"];
 export type Extremes = Schemas["ExtremesAnswer"];
 export type Axes = [Vec3, Vec3, Vec3];
-export type ArmDrawing = Omit<Schemas["DrawnPosture"], "flange_axes"> & { flange_axes: Axes };
+export type ArmDrawing = Omit<Schemas["DrawnPosture"], "flange_axes" | "cell"> & { flange_axes: Axes; cell: DrawnCell | null };
+/** The cell with the arm in a posture. */
+export type DrawnCell = Omit<Schemas["DrawnCell"], "nearest_mm"> & { nearest_mm: [Vec3, Vec3] | null };
+/** The bodies of the cell. */
+export type CellScene = Schemas["CellInScene"];
+export type Body = Schemas["BodyInScene"];
+export type BodyRole = Schemas["BodyRole"];
+export type BodyShape = Schemas["ShapeInScene"];
+export type BodyPose = Schemas["BodyPose"];
 export type DrawnMesh = Schemas["DrawnMesh"];
 export type CaseValues = Schemas["CaseAnswer"] & {
   permissible_along_load_n?: number | null;
@@ -76,12 +84,14 @@ export type ScenePoints = Omit<Schemas["PointsInScene"], "columns"> & {
     distance_mm?: (number | null)[];
     /** With a search or a curve: in addition to the constant spin. */
     turn_deg?: (number | null)[];
+    /** Why a point has no posture. */
+    state?: string[];
   };
 };
 type SceneAs<P> = Omit<Schemas["SceneAnswer"], "points" | "plate" | "sections" | "box" | "base_axes"> & {
   base_axes: Axes;
   plate: Plate;
-  sections: { label: string; plate: Plate }[];
+  sections: { label: string; plate: Plate; part: BodyPose | null }[];
   points: P | null;
   box: Box | null;
 };

@@ -12,6 +12,7 @@
 //! | `POST /api/spin-map` | a path over its length and the spin of the tool |
 //! | `POST /api/spin-search` | the spins that a search finds |
 //! | `POST /api/mesh` | the shape of a link, where the robot's file names one |
+//! | `POST /api/body-mesh` | the mesh of a body of the cell |
 //! | `POST /api/table` | the table of an analysis |
 //! | `POST /api/pictures`, `POST /api/picture.png` | its pictures, and one in pixels |
 //! | `GET /api/robots` | as `armill robots --json` |
@@ -22,8 +23,8 @@ use std::sync::{Arc, OnceLock};
 use armill_core::watch::Watch;
 use armill_study::live::{
     ChangedValue, LayerRequest, PoseRequest, PoseTarget, PostureQuestion, StudyText, ViewQuestion,
-    answer_json, measured_csv, mesh_bytes, picture_svg, pictures, reachable, scene, spin_map, spin_search,
-    table_csv, values, view,
+    answer_json, body_mesh, measured_csv, mesh_bytes, picture_svg, pictures, reachable, scene, spin_map,
+    spin_search, table_csv, values, view,
 };
 use armill_study::materials::MaterialRow;
 use armill_study::robot_answers::library_rows;
@@ -95,6 +96,18 @@ pub(crate) struct MeshRequest {
     pub text: String,
     /// The file, as the robot's file names it.
     pub file: String,
+}
+
+/// The mesh of a body of the cell.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct BodyMeshRequest {
+    /// The text of the study.
+    pub text: String,
+    /// Name of its analysis; the first if left out.
+    pub analysis: Option<String>,
+    /// The key of the mesh, from the scene.
+    pub key: String,
 }
 
 /// A place of an analysis.
@@ -208,6 +221,16 @@ pub(crate) async fn of_view(
 pub(crate) async fn mesh(Shared(state): Shared<Arc<State>>, JsonBody(of): JsonBody<MeshRequest>) -> Answered {
     answered(state, (of.text, HeaderMap::new(), "model/stl"), move |text, _| {
         mesh_bytes(text, &of.file)
+    })
+    .await
+}
+
+pub(crate) async fn mesh_of_body(
+    Shared(state): Shared<Arc<State>>,
+    JsonBody(of): JsonBody<BodyMeshRequest>,
+) -> Answered {
+    answered(state, (of.text, HeaderMap::new(), "model/stl"), move |text, _| {
+        body_mesh(text, of.analysis.as_deref(), &of.key)
     })
     .await
 }

@@ -18,8 +18,8 @@ use axum::response::Response;
 use serde_json::Value;
 
 use crate::answers::{
-    AnalysisRequest, MeshRequest, PathColumnsRequest, PictureRequest, PosturesRequest, TableRequest,
-    ViewRequest,
+    AnalysisRequest, BodyMeshRequest, MeshRequest, PathColumnsRequest, PictureRequest, PosturesRequest,
+    TableRequest, ViewRequest,
 };
 use crate::files::{Files, TicketAnswer, TicketRequest, UploadedFile};
 use crate::job::JobAnswer;
@@ -66,6 +66,14 @@ fn operations() -> Vec<Operation> {
         Operation::new(POST, "/mesh", "A shape of the robot", answers::mesh)
             .takes::<MeshRequest>()
             .sends("model/stl"),
+        Operation::new(
+            POST,
+            "/body-mesh",
+            "The mesh of a body of the cell",
+            answers::mesh_of_body,
+        )
+        .takes::<BodyMeshRequest>()
+        .sends("model/stl"),
         Operation::new(POST, "/answer", "The answer to an analysis", answers::answer)
             .takes::<AnalysisRequest>()
             .answers::<StudyAnswer>(),

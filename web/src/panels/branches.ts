@@ -4,7 +4,7 @@
 import { h } from "../dom";
 import { um } from "../format";
 import type { Live } from "../live";
-import { envelope } from "../posture";
+import { envelope, tooNear } from "../posture";
 import { panel } from "./panel";
 
 export function branches(live: Live): HTMLElement {
@@ -16,7 +16,7 @@ export function branches(live: Live): HTMLElement {
     const worst = pose.in_plane.map((c) => envelope(c)?.in_plane_um ?? null);
     const top = Math.max(tolerance * 1.15, ...worst.map((w) => w ?? 0));
     // Possible postures first, the one with the smallest deviation first.
-    const key = (i: number) => (pose.answer.postures[i]!.within_limits ? 0 : 1e9) + (worst[i] ?? 1e8);
+    const key = (i: number) => (pose.answer.postures[i]!.within_limits ? 0 : 1e9) + (tooNear(pose, i) ? 1e9 : 0) + (worst[i] ?? 1e8);
     const order = pose.answer.postures.map((_, i) => i).sort((a, b) => key(a) - key(b));
     show(
       h(
@@ -26,7 +26,8 @@ export function branches(live: Live): HTMLElement {
           const posture = pose.answer.postures[i]!;
           const name = posture.branch ?? `posture ${i + 1}`;
           const value = worst[i] ?? 0;
-          const possible = posture.within_limits;
+          const why = [posture.within_limits ? null : `${posture.limit_joint ?? "a joint"} outside its limits`, tooNear(pose, i)].filter((each) => each !== null);
+          const possible = why.length === 0;
           const within = possible && value <= tolerance;
           return h(
             "li",
@@ -34,7 +35,7 @@ export function branches(live: Live): HTMLElement {
             h(
               "button",
               { type: "button", class: "branch", "data-key": `show ${name}`, "aria-pressed": String(i === live.posture), title: "Show this posture", onclick: () => live.choosePosture(i) },
-              h("span", { class: "branch-name" }, name, possible ? null : h("em", {}, ` · ${posture.limit_joint ?? "a joint"} outside its limits`)),
+              h("span", { class: "branch-name" }, name, why.map((each) => h("em", {}, ` · ${each}`))),
               h("span", { class: "branch-track", "aria-hidden": "true" }, h("i", { class: `bar ${within ? "good" : possible ? "above" : "out"}`, style: `width:${(100 * value) / top}%` }), h("i", { class: "limit-mark", style: `left:${(100 * tolerance) / top}%` })),
               h("span", { class: "branch-value" }, um(worst[i]), h("small", {}, " µm")),
             ),
@@ -44,7 +45,7 @@ export function branches(live: Live): HTMLElement {
           );
         }),
       ),
-      h("p", { class: "note branch-key" }, h("i", { class: "key good" }), "within the tolerance", h("i", { class: "key above" }), "above it", h("i", { class: "key out" }), "outside joint limits"),
+      h("p", { class: "note branch-key" }, h("i", { class: "key good" }), "within the tolerance", h("i", { class: "key above" }), "above it", h("i", { class: "key out" }), pose.drawings.some((drawing) => drawing.cell) ? "outside joint limits or too near" : "outside joint limits"),
       h("p", { class: "note" }, "In-plane deviation, largest of all load cases; the mark is the tolerance."),
       pose.answered !== null && pose.answered !== live.posture
         ? h("p", { class: "note warn" }, "This is not the posture of the answer. ", h("button", { type: "button", class: "link", "data-key": "answered", onclick: () => live.choosePosture(pose.answered!) }, "Show the posture of the answer"))

@@ -4,6 +4,7 @@ import { h, type Child } from "../dom";
 import { DASH, fixed, mm, newton, plusMinus, um } from "../format";
 import { lostHoles } from "../headline";
 import type { Live } from "../live";
+import { tooNear } from "../posture";
 import { panel } from "./panel";
 
 export function point(live: Live): HTMLElement {
@@ -19,6 +20,7 @@ export function point(live: Live): HTMLElement {
     const tolerance = live.setting?.tolerance_um ?? Infinity;
     const hole = typeof live.at?.point === "number" ? live.at.point + 1 : null;
     const lost = live.answer ? lostHoles(live.answer).find((row) => row.hole === hole) : undefined;
+    const near = tooNear(live.pose!, live.posture);
     const over = values.in_plane_um > tolerance;
     show(
       h(
@@ -36,9 +38,11 @@ export function point(live: Live): HTMLElement {
         fact("Turns by", posture.rotation_urad?.map((v) => fixed(v, 0)).join(", ") ?? DASH, "µrad"),
         along ? fact("Largest force within tolerance", newton(along), "N along this load") : null,
         any ? fact("", newton(any), "N in any direction") : null,
+        posture.clearance_mm !== null && posture.nearest ? fact("Clearance", fixed(posture.clearance_mm, 1), `mm, ${posture.nearest.join(" – ")}`) : null,
       ),
       lost ? h("p", { class: "note warn" }, `Hole ${lost.hole} cannot be drilled: ${lost.why}.`) : null,
       posture.within_limits ? null : h("p", { class: "note warn" }, `${posture.limit_joint ?? "A joint"} is outside its limits: the robot cannot take this posture.`),
+      near ? h("p", { class: "note warn" }, `${near[0]!.toUpperCase()}${near.slice(1)}.`) : null,
       posture.singularity ? h("p", { class: "note warn" }, `Near a singularity: ${posture.singularity.replaceAll("_", " ")}.`) : null,
     );
   };

@@ -35,6 +35,12 @@ export interface CutterShape {
   corner: number;
 }
 
+/** What of a tool the study gives as bodies: that is not indicated. */
+export interface OwnTool {
+  holder: boolean;
+  cutter: boolean;
+}
+
 export class Arm {
   readonly group = new THREE.Group();
   /** Of each joint: its name and where its housing sits. */
@@ -58,7 +64,7 @@ export class Arm {
   }
 
   /** `shares`: of each joint, 0 to 1; `accent`: the colour of a joint that does it all. */
-  draw(drawing: ArmDrawing, shares: number[], quiet: THREE.Color, accent: THREE.Color, cutter: CutterShape | null = null): void {
+  draw(drawing: ArmDrawing, shares: number[], quiet: THREE.Color, accent: THREE.Color, cutter: CutterShape | null = null, own: OwnTool = { holder: false, cutter: false }): void {
     this.drawn = 0;
     // The line ends at the tip; the arm itself ends at the flange.
     const tip = vector(drawing.tool_mm);
@@ -95,7 +101,7 @@ export class Arm {
       for (const side of on_link ? [0] : [-1, 1]) this.add(ring(wide * (on_link ? 1 : 0.8), wide * 0.11), at.clone().addScaledVector(axis, side * long * 0.97), axis, colour);
       return { name: joint.name, at: at.clone() };
     });
-    this.tool(vector(drawing.flange_mm), vector(drawing.tool_mm), vector(drawing.tool_axis).normalize(), radius(total), cutter);
+    this.tool(vector(drawing.flange_mm), vector(drawing.tool_mm), vector(drawing.tool_axis).normalize(), radius(total), cutter, own);
     for (const { mesh } of this.parts.splice(this.drawn)) {
       mesh.removeFromParent();
       mesh.geometry.dispose();
@@ -163,7 +169,7 @@ export class Arm {
   }
 
   /** Cutter, holder and spindle along the axis of the tool; where that is not the way to the flange, on a bracket. */
-  private tool(flange: THREE.Vector3, tip: THREE.Vector3, axis: THREE.Vector3, thick: number, cutter: CutterShape | null): void {
+  private tool(flange: THREE.Vector3, tip: THREE.Vector3, axis: THREE.Vector3, thick: number, cutter: CutterShape | null, own: OwnTool): void {
     this.add(drum(thick * 1.05, thick * 0.28), flange.clone().addScaledVector(axis, -thick * 0.25), axis, this.paints.steel, this.tooling);
     const length = tip.distanceTo(flange);
     this.limbs.push({ from: flange, to: tip, radius: thick * 0.7 });
@@ -176,17 +182,17 @@ export class Arm {
       const spindle = straight ? length - cuts - holder : Math.max(0.45 * length, 2.2 * thick);
       const at = (along: number) => tip.clone().addScaledVector(back, along);
       const round = cutter !== null && cutter.corner > 0.98 * radius;
-      this.add(limb(cuts - (round ? radius : 0), radius, radius), at(round ? radius : 0), back, this.paints.tip, this.tooling);
-      if (round) this.add(ball(radius), at(radius), UP, this.paints.tip, this.tooling);
-      this.add(limb(holder, Math.max(1.6 * radius, 0.34 * thick), 0.62 * thick), at(cuts), back, this.paints.housing, this.tooling);
-      this.add(limb(spindle, 0.72 * thick, 0.72 * thick), at(cuts + holder), back, this.paints.steel, this.tooling);
-      if (!straight) {
+      if (!own.cutter) this.add(limb(cuts - (round ? radius : 0), radius, radius), at(round ? radius : 0), back, this.paints.tip, this.tooling);
+      if (round && !own.cutter) this.add(ball(radius), at(radius), UP, this.paints.tip, this.tooling);
+      if (!own.holder) this.add(limb(holder, Math.max(1.6 * radius, 0.34 * thick), 0.62 * thick), at(cuts), back, this.paints.housing, this.tooling);
+      if (!own.holder) this.add(limb(spindle, 0.72 * thick, 0.72 * thick), at(cuts + holder), back, this.paints.steel, this.tooling);
+      if (!straight && !own.holder) {
         const held = at(cuts + holder + 0.6 * spindle);
         this.add(limb(held.distanceTo(flange), 0.8 * thick, 0.5 * thick), flange, held.clone().sub(flange).normalize(), this.paints.steel, this.tooling);
       }
     }
     // The tip is seen also where the cutter is thin.
-    if (!cutter) this.add(ball(Math.max(6, thick * 0.24)), tip, UP, this.paints.tip, this.tooling);
+    if (!cutter && !own.cutter) this.add(ball(Math.max(6, thick * 0.24)), tip, UP, this.paints.tip, this.tooling);
   }
 }
 

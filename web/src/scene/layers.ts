@@ -40,6 +40,8 @@ export const FIRST: LayerKey = "in_plane_um";
 /** The colours of names: Okabe and Ito 2008, safe for the colour-blind. */
 const NAMED = [0xe69f00, 0x56b4e9, 0x009e73, 0xf0e442, 0x0072b2, 0xd55e00, 0xcc79a7, 0x7f7f7f, 0x3b3b98, 0x9acd32];
 const NONE: Rgb = [0.55, 0.58, 0.62];
+/** Of a point where no posture keeps the demanded clearance. */
+export const COLLISION: Rgb = [0.8, 0.15, 0.18];
 
 /** A layer with its values. */
 export interface ShownLayer {
@@ -81,9 +83,9 @@ export function presentLayer(live: Live): ShownLayer {
   };
 }
 
-/** The colour of a value of this layer; grey where it is not known. */
-export function colourOf({ layer, scale, names }: Pick<ShownLayer, "layer" | "scale" | "names">, value: number | null): Rgb {
-  if (value === null) return NONE;
+/** The colour of a value of this layer; without one, red where the point is in collision, and grey elsewhere. */
+export function colourOf({ layer, scale, names }: Pick<ShownLayer, "layer" | "scale" | "names">, value: number | null, collides = false): Rgb {
+  if (value === null) return collides ? COLLISION : NONE;
   if (layer.named) return value < names.length ? namedColour(value) : NONE;
   return scale ? (layer.diverging ? diverging : viridis)(along(scale, value)) : NONE;
 }

@@ -4,7 +4,7 @@ import { fill, h, renew, s } from "../dom";
 import { fixed, mm, percent, plusMinus, trimmed, um } from "../format";
 import { headline, lostHoles } from "../headline";
 import type { Live } from "../live";
-import type { LayerKey } from "../types";
+import type { BodyRole, LayerKey, MapAnswer } from "../types";
 import { along, css, ends, type Scale } from "./colour";
 import { handleBar } from "./handle-bar";
 import { colourOf, FIRST, LAYERS, levelText, namedColour, shownLayer, textOf, type ShownLayer } from "./layers";
@@ -14,7 +14,7 @@ import type { View } from "./stage";
 import { ELLIPSOID, type SceneView, type Show, type Under } from "./view";
 
 const VIEWS: [View, string, string][] = [["overview", "Overview", "1"], ["front", "Front", "2"], ["side", "Side", "3"], ["top", "Top", "4"], ["plate", "Plate", "5"]];
-const SWITCHES: [keyof Show | keyof Live["wanted"], string][] = [["arm", "Arm"], ["shape", "CAD meshes"], ["forces", "Force arrow"], ["deviation", "Deviation arrow"], ["parts", "Components: in plane, normal"], ["ellipsoid", "Compliance ellipsoid"], ["lines", "Lines of equal deviation"], ["pinned", "Pinned arm"], ["certainty", "Robustly within (dashed)"], ["rectangle", "Largest rectangle within"], ["fix_scale", "Fix the colour scale"]];
+const SWITCHES: [keyof Show | keyof Live["wanted"], string][] = [["arm", "Arm"], ["shape", "CAD meshes"], ["bodies", "Bodies of the cell"], ["link_bodies", "Bodies of the links"], ["nearest", "Nearest bodies"], ["forces", "Force arrow"], ["deviation", "Deviation arrow"], ["parts", "Components: in plane, normal"], ["ellipsoid", "Compliance ellipsoid"], ["lines", "Lines of equal deviation"], ["pinned", "Pinned arm"], ["certainty", "Robustly within (dashed)"], ["rectangle", "Largest rectangle within"], ["fix_scale", "Fix the colour scale"]];
 
 export function overlay(view: SceneView, live: Live): HTMLElement {
   const legendBox = h("div", { class: "legend", role: "img" });
@@ -59,6 +59,9 @@ export function overlay(view: SceneView, live: Live): HTMLElement {
       // There to be chosen where the robot has one.
       if (key === "shape") live.listen(["pose"], () => (label.hidden = !live.pose?.drawings.some((d) => d.meshes.length > 0)));
       if (key === "pinned") live.listen(["view"], () => (label.hidden = live.pinned === null));
+      const cell = () => live.scene?.cell;
+      if (key === "bodies" || key === "nearest") live.listen(["answer"], () => (label.hidden = !cell()));
+      if (key === "link_bodies") live.listen(["answer"], () => (label.hidden = !cell()?.arm.some(({ role }) => role === "link")));
       label.hidden = key === "pinned";
       return label;
     }),
@@ -166,15 +169,31 @@ function marks(live: Live): HTMLElement | null {
     [map === null && answer!.paths.length > 0 && scene!.points!.any_outside, "dashed", "outside joint limits"],
     [lostHoles(answer!).length > 0, "crossed", "cannot be drilled"],
     [answer!.volumes.length > 0, "surface", "surface: tolerance"],
-    [scene?.points?.any_empty ?? map?.grid.in_plane_um.includes(null) ?? false, "empty", "no posture"],
+    [scene?.points?.any_in_collision ?? (map !== null && collisions(map) > 0), "collision", "in collision"],
+    [scene?.points?.any_empty ?? (map !== null && map.grid.in_plane_um.filter((v) => v === null).length > collisions(map)), "empty", "no posture"],
   ];
   const list = shown.filter(([there]) => there);
   return list.length === 0 ? null : h("p", { class: "marks" }, list.map(([, kind, text]) => h("span", {}, h("i", { class: `mark ${kind}` }, kind === "crossed" ? "✕" : ""), text)));
 }
 
+const collisions = (map: MapAnswer): number => map.counts.in_collision;
+
+/** What a body is, in words. */
+const ROLES: Record<BodyRole, string> = { link: "Link of the robot", holder: "Tool: must not touch the part", cutter: "Cutter: may touch the part", obstacle: "Obstacle", part: "Part" };
+
 function hover(tip: HTMLElement, live: Live, under: Under, x: number, y: number, host: HTMLElement): void {
   tip.hidden = under === null;
   if (under === null) return;
+  if (under.kind === "body") fill(tip, h("b", {}, under.body.name), h("p", {}, ROLES[under.body.role]));
+  else fill(tip, ...valuesAt(live, under));
+  const box = host.getBoundingClientRect();
+  const left = x - box.left + (x - box.left > box.width - 230 ? -225 : 16);
+  const top = Math.min(y - box.top + 12, box.height - 170);
+  tip.style.transform = `translate(${left}px, ${Math.max(4, top)}px)`;
+}
+
+/** The values of a point. */
+function valuesAt(live: Live, under: Exclude<NonNullable<Under>, { kind: "body" }>): HTMLElement[] {
   const rows: [string, string][] = [];
   if (under.kind === "map") {
     const grid = live.map!.grid;
@@ -186,6 +205,7 @@ function hover(tip: HTMLElement, live: Live, under: Under, x: number, y: number,
     const points = live.scene!.points!;
     const i = under.index;
     rows.push(["Point", String(i + 1)], ["x, y, z", `${points.at(i).map((v) => fixed(v, 1)).join(", ")} mm`]);
+    if (points.in_collision[i] === 1) rows.push(["", "in collision"]);
     for (const [name, key] of SHOWN) {
       const list = points.column(key);
       if (list) rows.push([name, `${um(list[i])} µm`]);
@@ -194,9 +214,5 @@ function hover(tip: HTMLElement, live: Live, under: Under, x: number, y: number,
   const chosen = shownLayer(live);
   // Deviations are in every tooltip.
   if (chosen.layer.diverging || !["in_plane_um", "normal_um", "full_um"].includes(chosen.key)) rows.push([chosen.layer.title, textOf(chosen, chosen.values(live.section)[under.index])]);
-  fill(tip, h("dl", {}, rows.map(([name, value]) => [h("dt", {}, name), h("dd", {}, value)])), h("p", {}, "Click: the robot goes there"));
-  const box = host.getBoundingClientRect();
-  const left = x - box.left + (x - box.left > box.width - 230 ? -225 : 16);
-  const top = Math.min(y - box.top + 12, box.height - 170);
-  tip.style.transform = `translate(${left}px, ${Math.max(4, top)}px)`;
+  return [h("dl", {}, rows.map(([name, value]) => [h("dt", {}, name), h("dd", {}, value)])), h("p", {}, "Click: the robot goes there")];
 }

@@ -68,7 +68,7 @@ export class PathView {
       const colour = new THREE.Color();
       for (let i = 0; i < n; i++) {
         this.beads.setMatrixAt(i, matrix.makeTranslation(...points.at(i)));
-        this.beads.setColorAt(i, colour.setRGB(...colourOf(shown, known(values, i)), THREE.SRGBColorSpace));
+        this.beads.setColorAt(i, colour.setRGB(...colourOf(shown, known(values, i), points.in_collision[i] === 1), THREE.SRGBColorSpace));
       }
       this.beads.computeBoundingSphere();
       this.kept.add(this.beads);
@@ -124,7 +124,7 @@ export class PathView {
     const { xyz, deviation } = points;
     const values = shown.values(0);
     const colour = new THREE.Color();
-    const of = (i: number): Rgb => colour.setRGB(...colourOf(shown, known(values, i)), THREE.SRGBColorSpace).toArray() as Rgb;
+    const of = (i: number): Rgb => colour.setRGB(...colourOf(shown, known(values, i), points.in_collision[i] === 1), THREE.SRGBColorSpace).toArray() as Rgb;
     const end = (i: number) => [0, 1, 2].map((k) => xyz[3 * i + k]! + magnified * deviation[3 * i + k]!);
     const rim = magnified > 0 && (points.count <= MOST_BEADS || order.length <= MOST_RIM);
     this.line.begin();

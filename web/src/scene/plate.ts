@@ -8,7 +8,7 @@ import type { Line, MapAnswer, MapGrid, Plate, Vec3 } from "../types";
 import { along, type Rgb } from "./colour";
 import { Hatch } from "./hatch";
 import type { Labels } from "./labels";
-import { colourOf, levelText, type ShownLayer } from "./layers";
+import { COLLISION, colourOf, levelText, type ShownLayer } from "./layers";
 import { Lines } from "./lines";
 
 const vector = (v: Vec3): THREE.Vector3 => new THREE.Vector3(v[0], v[1], v[2]);
@@ -22,6 +22,7 @@ const linear = (colours: Rgb[]): Float32Array => {
   return to;
 };
 const NONE = linear([[0.55, 0.58, 0.62]]);
+const COLLIDES = linear([COLLISION]);
 /** Sizes have one table, since each scale has the same colours; names have one entry each. */
 const SIZES = { layer: { named: false }, scale: [0, 1], names: [] } as unknown as ShownLayer;
 const OF_SIZES = linear(Array.from({ length: STEPS }, (_, i) => colourOf(SIZES, i / (STEPS - 1))));
@@ -56,7 +57,7 @@ export class PlateView {
     this.moveTo(plate);
     this.build(map.grid);
     this.surface.visible = true;
-    this.colour(shown, index);
+    this.colour(shown, index, pointsOf(map.grid, "in_collision"));
     this.hatch.draw(this.surface.geometry, outsideLimits(map.grid), this.size);
     const lines = shown.lines(index);
     const tolerance = shown.layer.tolerance ? tolerance_mm : [];
@@ -139,7 +140,7 @@ export class PlateView {
     this.frame.draw([rectangle([y0, z0], [y1, z1])]);
   }
 
-  private colour(shown: ShownLayer, index: number): void {
+  private colour(shown: ShownLayer, index: number, in_collision: number[]): void {
     const colours = this.surface.geometry.getAttribute("color") as THREE.BufferAttribute;
     const to = colours.array as Float32Array;
     const values = shown.values(index);
@@ -153,6 +154,7 @@ export class PlateView {
       const start = at < 0 ? 0 : 3 * at;
       for (let k = 0; k < 3; k++) to[3 * i + k] = from[start + k]!;
     }
+    for (const i of in_collision) if (values[i] === null) to.set(COLLIDES, 3 * i);
     colours.needsUpdate = true;
   }
 
@@ -165,5 +167,8 @@ export class PlateView {
 
 const rectangle = ([y0, z0]: [number, number], [y1, z1]: [number, number]): Line => [[y0, z0], [y1, z0], [y1, z1], [y0, z1], [y0, z0]];
 
+/** Points with this flag. */
+export const pointsOf = (grid: MapGrid, reason: string): number[] => grid.flags.find((flag) => flag.reason === reason)?.points ?? [];
+
 /** Points with a posture outside joint limits. */
-export const outsideLimits = (grid: MapGrid): number[] => grid.flags.find((flag) => flag.reason === "outside_joint_limits")?.points ?? [];
+export const outsideLimits = (grid: MapGrid): number[] => pointsOf(grid, "outside_joint_limits");

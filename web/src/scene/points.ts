@@ -10,12 +10,13 @@ export type Values = readonly (number | null)[] | Float32Array;
 /** The columns that are shown under the pointer, in this order. */
 export const SHOWN = [["In plane", "in_plane_um"], ["Along", "along_um"], ["Across", "cross_um"], ["Normal", "normal_um"], ["Full", "full_um"]] as const;
 /** The columns of a path that the scene draws. */
-export const DRAWN = ["xyz_mm", "deviation_um", "outside_joint_limits", "distance_mm", "turn_deg", ...SHOWN.map(([, key]) => key)];
+export const DRAWN = ["xyz_mm", "deviation_um", "outside_joint_limits", "in_collision", "distance_mm", "turn_deg", ...SHOWN.map(([, key]) => key)];
 
 export class Points {
   readonly count: number;
   private box_mm: THREE.Box3 | null = null;
   private outside_known: boolean | null = null;
+  private collision_known: boolean | null = null;
   private empty_known: boolean | null = null;
 
   private constructor(
@@ -25,6 +26,8 @@ export class Points {
     readonly deviation: Float32Array,
     /** 1 for a posture outside joint limits. */
     readonly outside: ArrayLike<number>,
+    /** 1 where no posture keeps the demanded clearance; empty without a cell. */
+    readonly in_collision: ArrayLike<number>,
     /** Distance along all cuts, of a path: where it does not rise, a rapid is before the point. */
     readonly distance: Float32Array | null,
     private readonly columns: Record<string, Values | undefined>,
@@ -36,12 +39,14 @@ export class Points {
     const outside = new Uint8Array(xyz_mm.length);
     for (const i of outside_joint_limits) outside[i] = 1;
     const unknown = [NaN, NaN, NaN];
-    return new Points(new Float32Array(xyz_mm.flat()), new Float32Array(deviation_um.flatMap((d) => d ?? unknown)), outside, null, columns);
+    const { state, ...values } = columns;
+    const in_collision = Uint8Array.from(state ?? [], (word) => Number(word === "in_collision"));
+    return new Points(new Float32Array(xyz_mm.flat()), new Float32Array(deviation_um.flatMap((d) => d ?? unknown)), outside, in_collision, null, values);
   }
 
   static ofPath(path: PathColumns): Points {
     const column = (key: string) => path.get(key) ?? new Float32Array(0);
-    return new Points(column("xyz_mm"), column("deviation_um"), column("outside_joint_limits"), path.get("distance_mm"), Object.fromEntries(SHOWN.map(([, key]) => [key, path.get(key) ?? undefined])));
+    return new Points(column("xyz_mm"), column("deviation_um"), column("outside_joint_limits"), column("in_collision"), path.get("distance_mm"), Object.fromEntries(SHOWN.map(([, key]) => [key, path.get(key) ?? undefined])));
   }
 
   at(index: number): Vec3 {
@@ -73,10 +78,14 @@ export class Points {
     return (this.outside_known ??= Array.prototype.includes.call(this.outside, 1));
   }
 
-  /** Whether a point has no posture. */
+  get any_in_collision(): boolean {
+    return (this.collision_known ??= Array.prototype.includes.call(this.in_collision, 1));
+  }
+
+  /** Whether a point has no posture for another reason. */
   get any_empty(): boolean {
     const values = this.columns.in_plane_um ?? [];
-    return (this.empty_known ??= values instanceof Float32Array ? values.includes(NaN) : values.includes(null));
+    return (this.empty_known ??= Array.prototype.some.call(values, (value: number | null, i) => (value === null || Number.isNaN(value)) && this.in_collision[i] !== 1));
   }
 
   private sameAs(a: number, b: number): boolean {

@@ -41,6 +41,11 @@ export class Shapes {
     return true;
   }
 
+  /** Whether a mesh is still to come. */
+  get loading(): boolean {
+    return [...this.known.values()].includes("coming");
+  }
+
   ghost(on: boolean): void {
     for (const material of [MATERIAL, FOOT]) {
       if (material.transparent === on) continue;
@@ -69,7 +74,7 @@ export class Shapes {
     this.known.set(file, "coming");
     let found: THREE.BufferGeometry | "none" = "none";
     try {
-      found = shape(await this.fetched(file));
+      found = meshOf(await this.fetched(file));
     } catch {
       // Not there, or not a mesh: the arm is drawn from its chain.
     }
@@ -80,7 +85,7 @@ export class Shapes {
 }
 
 /** The mesh in these bytes, STL as text or in binary. */
-function shape(bytes: ArrayBuffer): THREE.BufferGeometry {
+export function meshOf(bytes: ArrayBuffer): THREE.BufferGeometry {
   const geometry = new STLLoader().parse(bytes);
   geometry.computeBoundingSphere();
   const count = geometry.getAttribute("position")?.count ?? 0;

@@ -7,9 +7,11 @@ import { api } from "../server";
 import type { Live } from "../live";
 import { measured } from "../measured";
 import { sharesOf } from "../shares";
-import type { At, Line, Plate, Vec3 } from "../types";
+import type { At, Body, Line, Plate, Vec3 } from "../types";
 import { Arm } from "./arm";
 import { Arrow } from "./arrows";
+import { Bodies } from "./bodies";
+import { BodyMeshes } from "./body-meshes";
 import { shade } from "./colour";
 import { isCovered } from "./covered";
 import { Handles } from "./handles";
@@ -18,6 +20,7 @@ import { Ellipsoid } from "./ellipsoid";
 import { GhostArm } from "./ghost";
 import { shownLayer } from "./layers";
 import { Marker } from "./marker";
+import { NearestPair } from "./nearest";
 import { Part } from "./part";
 import { PathView } from "./path";
 import { PlateView } from "./plate";
@@ -31,6 +34,12 @@ export interface Show {
   pinned: boolean;
   /** The robot's own shape, where its file names one. */
   shape: boolean;
+  /** The bodies of the cell, without those of links. */
+  bodies: boolean;
+  /** The bodies of links, where the robot's own shape is not shown. */
+  link_bodies: boolean;
+  /** The two nearest bodies. */
+  nearest: boolean;
   forces: boolean;
   deviation: boolean;
   /** Its parts in the plane and along the normal. */
@@ -46,7 +55,7 @@ export interface Show {
 }
 
 /** The object under the pointer. */
-export type Under = { kind: "map"; index: number; y_mm: number; z_mm: number } | { kind: "point"; index: number } | null;
+export type Under = { kind: "body"; body: Body } | { kind: "map"; index: number; y_mm: number; z_mm: number } | { kind: "point"; index: number } | null;
 
 /** mm in the picture for 1 N, of a small force. */
 const MM_PER_N = 25;
@@ -56,16 +65,21 @@ export const ELLIPSOID = 8;
 /** A robot's own shape is so much stouter than the drawn arm. */
 const STOUT = 1.7;
 
+/** Bodies are in the picture up to this part of the size of robot and part beyond them. */
+const AROUND = 0.2;
+
 /** So near to its tip the pointer takes the tool. */
 const TIP_PX = 12;
 
 export class SceneView {
   readonly stage: Stage;
-  readonly show: Show = { arm: true, pinned: true, shape: true, forces: true, deviation: true, parts: false, ellipsoid: false, certainty: true, rectangle: false, magnified: 1000, magnified_by_hand: false, mm_per_n: MM_PER_N };
+  readonly show: Show = { arm: true, pinned: true, shape: true, bodies: true, link_bodies: true, nearest: true, forces: true, deviation: true, parts: false, ellipsoid: false, certainty: true, rectangle: false, magnified: 1000, magnified_by_hand: false, mm_per_n: MM_PER_N };
   onHover: (under: Under, x: number, y: number) => void = () => {};
   onScale: () => void = () => {};
   private readonly arm = new Arm();
   private readonly shapes: Shapes;
+  private readonly bodies: Bodies;
+  private readonly nearest: NearestPair;
   private readonly pinned_arm = new GhostArm();
   private readonly force = new Arrow(0xd55e00);
   private readonly deviation = new Arrow(0xcc3fa0);
@@ -89,8 +103,10 @@ export class SceneView {
     this.stage = new Stage(host);
     this.crosses = new Crosses(this.stage.labels);
     this.shapes = new Shapes((file) => api.mesh(live.text, file), () => this.drawPose());
-    this.stage.covered = (group, at) => group !== "arm" && this.show.arm && !this.ghost && this.live.pose !== null && isCovered(this.arm.limbs, this.stage.camera.position, at, this.shapes.group.visible ? STOUT : 1);
-    this.stage.scene.add(this.arm.group, this.shapes.group, this.pinned_arm.group, this.force.group, this.deviation.group, this.in_plane.group, this.normal.group, this.ellipsoid.group, this.path.group, this.marker.group, this.volume.group, this.part.group, this.crosses.group);
+    this.bodies = new Bodies(new BodyMeshes((key) => api.bodyMesh(live.text, live.analysis, key), () => this.redraw()));
+    this.nearest = new NearestPair(this.stage.labels);
+    this.stage.covered = (group, at) => group !== "arm" && group !== "nearest" && this.show.arm && !this.ghost && this.live.pose !== null && isCovered(this.arm.limbs, this.stage.camera.position, at, this.shapes.group.visible ? STOUT : 1);
+    this.stage.scene.add(this.arm.group, this.shapes.group, this.pinned_arm.group, this.force.group, this.deviation.group, this.in_plane.group, this.normal.group, this.ellipsoid.group, this.path.group, this.marker.group, this.volume.group, this.part.group, this.crosses.group, this.bodies.group, this.nearest.group);
     live.listen(["answer", "view"], () => this.drawAnswer());
     live.listen(["pose", "view"], () => this.drawPose());
     live.listen(["at", "pose"], () => this.drawMarker());
@@ -110,6 +126,7 @@ export class SceneView {
     this.ghost = view === "plate";
     this.arm.ghost(this.ghost);
     this.shapes.ghost(this.ghost);
+    this.bodies.ghost(this.ghost);
     this.stage.axes(!this.ghost);
     this.stage.look(view, this.subject());
   }
@@ -144,6 +161,7 @@ export class SceneView {
     this.volume.draw(scene, shown, setting.tolerance_um);
     this.drawLost();
     this.part.draw(answer.paths.length + answer.holes.length > 0 ? scene.plate : null);
+    this.bodies.drawStill(scene.cell, scene.sections[this.live.section]?.part ?? null);
     this.stage.floor(0, this.reach());
     const key = `${this.live.analysis} ${scene.robot} ${answer.maps.length}`;
     if (key !== this.looked) {
@@ -197,7 +215,8 @@ export class SceneView {
       const shares = this.shares();
       const process = this.live.values?.process;
       const cutter = process ? { diameter: process.diameter_mm, corner: process.corner_radius_mm ?? 0 } : null;
-      this.arm.draw(drawing, shares, shade("--joint-quiet"), shade("--joint-loud"), cutter);
+      const [holder, own_cutter] = (["holder", "cutter"] as const).map((role) => this.show.bodies && this.bodies.has(role));
+      this.arm.draw(drawing, shares, shade("--joint-quiet"), shade("--joint-loud"), cutter, { holder: holder!, cutter: own_cutter! });
       const own = this.show.arm && this.show.shape && this.shapes.draw(pose!.answer.robot, drawing.meshes);
       this.arm.bare(own);
       this.arm.ghost(this.ghost);
@@ -232,10 +251,23 @@ export class SceneView {
       }
       if (this.show.ellipsoid) this.ellipsoid.draw(tip, answer.stiffness, ELLIPSOID);
     }
+    this.drawCell();
     const pinned = this.pinned_arm.draw(this.show.arm && this.show.pinned && !this.ghost ? (this.live.pinned?.drawing ?? null) : null, drawing ?? null);
     this.stage.labels.group("pinned");
     if (pinned) this.stage.labels.add("pinned", pinned, "pinned", "pinned");
     this.stage.draw();
+  }
+
+  /** The bodies of the arm, and the two nearest. */
+  private drawCell(): void {
+    const { pose, posture } = this.live;
+    const cell = pose?.drawings[posture]?.cell ?? null;
+    const answer = pose?.answer.postures[posture] ?? null;
+    const near = cell && !cell.keeps_clearance ? (answer?.nearest ?? []) : [];
+    this.bodies.group.visible = this.show.bodies;
+    this.bodies.drawArm(this.show.arm ? cell : null, this.show.link_bodies && !this.shapes.group.visible && !(this.show.shape && this.shapes.loading), near);
+    this.bodies.ghost(this.ghost);
+    this.nearest.draw(this.show.nearest ? cell : null, answer, Math.max(4, 0.005 * this.reach()));
   }
 
   /** A large force is drawn at a smaller scale, by a round number, so that its arrow stays in the picture. */
@@ -300,6 +332,8 @@ export class SceneView {
     if (scene?.box) box.union(this.volume.extent(scene.box));
     const plates = this.platesOf();
     for (const plate of plates) plate.corners_mm.forEach((p) => box.expandByPoint(new THREE.Vector3(...p)));
+    // Of a hall around the cell no more than what is near to robot and part.
+    if (this.show.bodies) box.union(this.bodies.extent.intersect(box.clone().expandByScalar(AROUND * box.getSize(new THREE.Vector3()).length())));
     const plate = plates[this.live.section] ?? null;
     if (!plate) return { box, plate: null };
     const [a, b] = [new THREE.Vector3(...plate.corners_mm[0]!), new THREE.Vector3(...plate.corners_mm[2]!)];
@@ -350,6 +384,7 @@ export class SceneView {
   }
 
   private placeOf(under: NonNullable<Under>): At | null {
+    if (under.kind === "body") return null;
     if (under.kind === "point") return { point: under.index };
     return this.live.onPlate(under.y_mm, under.z_mm);
   }
@@ -377,6 +412,7 @@ export class SceneView {
       const grid = this.live.map!.grid;
       return { kind: "map", index, y_mm: grid.y_mm[index % grid.y_mm.length]!, z_mm: grid.z_mm[Math.floor(index / grid.y_mm.length)]! };
     }
-    return null;
+    const body = this.bodies.under(this.caster);
+    return body && { kind: "body", body };
   }
 }

@@ -4,7 +4,7 @@
 import * as THREE from "three";
 import type { Scene, Vec3 } from "../types";
 import { colourOf, type ShownLayer } from "./layers";
-import { known } from "./points";
+import { known, type Points } from "./points";
 import { surfaceBelow } from "./surface";
 
 type Box = NonNullable<Scene["box"]>;
@@ -18,6 +18,7 @@ export class VolumeView {
   );
   private readonly edges = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: 0x6b7683 }));
   private box: Box | null = null;
+  private points: Points | null = null;
   /** From base to the unit cube. */
   private back = new THREE.Matrix4();
   /** Points of the answer by their place in the box, x first; -1 where there is none. */
@@ -35,6 +36,7 @@ export class VolumeView {
   draw({ box, points }: Scene, shown: ShownLayer, tolerance_um: number): void {
     this.group.visible = box !== null;
     this.box = box;
+    this.points = points;
     if (!box) return;
     const place = frame(box);
     this.back.copy(place).invert();
@@ -109,7 +111,7 @@ export class VolumeView {
           corner.set(...(cell.map((c, k) => c / Math.max(1, counts[k]! - 1)) as Vec3)).applyMatrix4(place);
           positions.push(corner.x, corner.y, corner.z);
           const point = this.order[(cell[2] * ny + cell[1]) * nx + cell[0]]!;
-          const [r, g, b] = colourOf(shown, point < 0 ? null : (values[point] ?? null));
+          const [r, g, b] = colourOf(shown, point < 0 ? null : (values[point] ?? null), this.points?.in_collision[point] === 1);
           colours.push(...colour.setRGB(r, g, b, THREE.SRGBColorSpace).toArray());
           if (i + 1 < nu && j + 1 < nv) index.push(j * nu + i, j * nu + i + 1, (j + 1) * nu + i, j * nu + i + 1, (j + 1) * nu + i + 1, (j + 1) * nu + i);
         }

@@ -9,8 +9,9 @@ export const SINGULAR = 2;
 export const OUT_OF_REACH = 4;
 export const JUMPS = 8;
 export const TOO_SLOW = 16;
+export const IN_COLLISION = 32;
 /** Postures that are not usable. */
-export const BLOCKED = OUTSIDE | SINGULAR | OUT_OF_REACH;
+export const BLOCKED = OUTSIDE | SINGULAR | OUT_OF_REACH | IN_COLLISION;
 
 /** A number of the list that is nearest to the value; the list ascends. */
 export function nearest(list: number[], value: number): number {
@@ -37,6 +38,7 @@ export function reasons(map: SpinMap, row: number, column: number): string[] {
   const mover = name(map.move_joint[row]![column]!);
   const found: [number, string][] = [
     [OUT_OF_REACH, "out of reach"],
+    [IN_COLLISION, "in collision"],
     [OUTSIDE, `${name(map.limit_joint[row]![column]!)} outside its limits`],
     [SINGULAR, "near a singularity"],
     [JUMPS, `${mover} jumps here`],

@@ -3,13 +3,15 @@
 
 import { along, viridis } from "../scene/colour";
 import type { SpinMap } from "../types";
-import { BLOCKED, JUMPS, OUT_OF_REACH, OUTSIDE, TOO_SLOW } from "./cells";
+import { BLOCKED, IN_COLLISION, JUMPS, OUT_OF_REACH, OUTSIDE, TOO_SLOW } from "./cells";
 import { edges, plotHeight, plotWidth, ROOM, xOf, yOf, type Frame } from "./frame";
 
 /** Colours of what is not a deviation, by theme. */
 export interface Inks {
   /** Of cells out of reach. */
   empty: string;
+  /** Of cells in collision. */
+  collision: string;
   /** Behind and of the hatching outside joint limits. */
   outside: [string, string];
   /** Behind and of the dots near a singularity. */
@@ -19,8 +21,8 @@ export interface Inks {
   slow: string;
 }
 
-export const LIGHT: Inks = { empty: "#8c949e", outside: ["#dfe3e8", "#5c6570"], singular: ["#f1e3cc", "#8a5a10"], jump: "#c2185b", slow: "#d55e00" };
-export const DARK: Inks = { empty: "#5a636e", outside: ["#2b343f", "#8f9cab"], singular: ["#3a3120", "#e0ac55"], jump: "#ff7fae", slow: "#ff9d5c" };
+export const LIGHT: Inks = { empty: "#8c949e", collision: "#cc262e", outside: ["#dfe3e8", "#5c6570"], singular: ["#f1e3cc", "#8a5a10"], jump: "#c2185b", slow: "#d55e00" };
+export const DARK: Inks = { empty: "#5a636e", collision: "#cc262e", outside: ["#2b343f", "#8f9cab"], singular: ["#3a3120", "#e0ac55"], jump: "#ff7fae", slow: "#ff9d5c" };
 
 export function drawCells(canvas: HTMLCanvasElement, map: SpinMap, frame: Frame, levels_um: number[] | null, inks: Inks): void {
   const ratio = Math.min(2, devicePixelRatio || 1);
@@ -72,8 +74,9 @@ function colours(context: CanvasRenderingContext2D, map: SpinMap, levels_um: num
 function patterns(context: CanvasRenderingContext2D, map: SpinMap, inks: Inks, xs: number[], ys: number[]): void {
   const kinds = [
     { is: (state: number) => (state & OUT_OF_REACH) !== 0, fill: inks.empty },
+    { is: (state: number) => (state & IN_COLLISION) !== 0, fill: inks.collision },
     { is: (state: number) => (state & OUT_OF_REACH) === 0 && (state & OUTSIDE) !== 0, fill: hatched(context, inks.outside) },
-    { is: (state: number) => (state & BLOCKED) !== 0 && (state & (OUT_OF_REACH | OUTSIDE)) === 0, fill: dotted(context, inks.singular) },
+    { is: (state: number) => (state & BLOCKED) !== 0 && (state & (OUT_OF_REACH | IN_COLLISION | OUTSIDE)) === 0, fill: dotted(context, inks.singular) },
   ];
   for (const { is, fill } of kinds) {
     context.beginPath();

@@ -8,7 +8,7 @@ import { panel } from "../panels/panel";
 import { css, viridis } from "../scene/colour";
 import { known } from "../scene/points";
 import { theme } from "../theme";
-import { BLOCKED, cellAt, cellRows, cellText, JUMPS, OUT_OF_REACH, OUTSIDE, TOO_SLOW } from "./cells";
+import { BLOCKED, cellAt, cellRows, cellText, IN_COLLISION, JUMPS, OUT_OF_REACH, OUTSIDE, TOO_SLOW } from "./cells";
 import { DARK, drawCells, LIGHT } from "./draw";
 import { distanceOf, spinOf, type Frame } from "./frame";
 import { knotsOf, written, type Knot, type Range } from "./knots";
@@ -129,7 +129,8 @@ export function spinMap(live: Live): HTMLElement {
     const has = (test: (state: number) => boolean) => states.some(test);
     const entries: [boolean, string, string][] = [
       [has((s) => (s & OUT_OF_REACH) === 0 && (s & OUTSIDE) !== 0), "outside", "outside joint limits"],
-      [has((s) => (s & (OUT_OF_REACH | OUTSIDE)) === 0 && (s & BLOCKED) !== 0), "singular", "near a singularity"],
+      [has((s) => (s & (OUT_OF_REACH | IN_COLLISION | OUTSIDE)) === 0 && (s & BLOCKED) !== 0), "singular", "near a singularity"],
+      [has((s) => (s & IN_COLLISION) !== 0), "collision", "in collision"],
       [has((s) => (s & OUT_OF_REACH) !== 0), "empty", "out of reach"],
       [has((s) => (s & JUMPS) !== 0), "jump", "a joint jumps"],
       [has((s) => (s & TOO_SLOW) !== 0), "slow", "a joint is too slow"],

@@ -4,7 +4,7 @@ import type { Answer, MapAnswer } from "../../src/types";
 
 const point = {} as never;
 const map = (over: object) =>
-  ({ fraction_within: 1, fraction_within_and_inside_joint_limits: 1, outside_joint_limits: 0, counts: { within: 100, above_tolerance: 0 }, grid: { points: 100 }, certainty: null, worst: point, setting: { tolerance_um: 110 }, ...over }) as unknown as MapAnswer;
+  ({ fraction_within: 1, fraction_within_and_inside_joint_limits: 1, outside_joint_limits: 0, counts: { within: 100, above_tolerance: 0, in_collision: 0 }, grid: { points: 100 }, certainty: null, worst: point, setting: { tolerance_um: 110 }, ...over }) as unknown as MapAnswer;
 const none = { maps: [], paths: [], volumes: [], holes: [] };
 const hole = (number: number, over: object = {}) => ({ hole: number, blocked_by: null, branch: "front elbow-up flip", singularity: null, limit_joint: null, state: "within", ...over });
 const holes = (each: object[], fraction_within: number, unreachable = 0) =>
@@ -21,7 +21,14 @@ describe("the headline", () => {
   });
   it("is good only for the whole plate", () => {
     expect(headline(none as never, map({}))).toMatchObject({ state: "good", reached: true, extra: [] });
-    expect(headline(none as never, map({ worst: null, fraction_within_and_inside_joint_limits: 0, counts: { within: 0, above_tolerance: 0 } }))).toMatchObject({ reached: false, line: "The robot does not reach the plate", state: "none" });
+    expect(headline(none as never, map({ worst: null, fraction_within_and_inside_joint_limits: 0, counts: { within: 0, above_tolerance: 0, in_collision: 0 } }))).toMatchObject({ reached: false, line: "The robot does not reach the plate", state: "none" });
+  });
+  it("counts points in collision apart from those without posture", () => {
+    const given = headline(none as never, map({ counts: { within: 60, above_tolerance: 0, in_collision: 30 } }));
+    expect(given.extra).toEqual(["30 in collision", "10 without posture"]);
+    const all = headline(none as never, map({ worst: null, fraction_within_and_inside_joint_limits: 0, counts: { within: 0, above_tolerance: 0, in_collision: 100 } }));
+    expect(all).toMatchObject({ reached: true, line: "No point of the plate is reached without collision", state: "none", extra: ["100 in collision"] });
+    expect(headline(holes([hole(1), hole(2, { branch: null, state: "in_collision" })], 0.5), null).line).toBe("1 of 2 holes can be drilled; 2: in collision");
   });
   it("names the holes that cannot be drilled, and why", () => {
     const singular = { blocked_by: "singular", singularity: "wrist" };

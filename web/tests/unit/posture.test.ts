@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { choosePosture, worstCase, envelope, fits } from "../../src/posture";
+import { choosePosture, worstCase, envelope, fits, tooNear } from "../../src/posture";
 import type { CaseValues, Pose } from "../../src/types";
 
 const values = (...in_plane: number[]): CaseValues[] =>
@@ -44,4 +44,20 @@ test("chosen by name, else specified by the study, else the best; inside limits 
   const answered = { ...here, answered: 2 };
   expect(choosePosture(answered, null, "front elbow-up")).toBe(2);
   expect(choosePosture(answered, "front elbow-up flip", null)).toBe(0);
+});
+
+test("a posture that keeps the clearance before one that does not, and why it does not", () => {
+  const cell = (...keeps: boolean[]): Pose => {
+    const made = pose(...keeps.map((_, i): [string, boolean, number] => ["front", true, 1 + i]));
+    made.drawings = keeps.map((keeps_clearance) => ({ cell: { bodies: [], nearest_mm: null, keeps_clearance } })) as unknown as Pose["drawings"];
+    for (const posture of made.answer.postures) Object.assign(posture, { nearest: ["spindle", "fence"], clearance_mm: 4 });
+    return made;
+  };
+  expect(choosePosture(cell(true, true), null, "best")).toBe(0);
+  expect(choosePosture(cell(false, true), null, "best")).toBe(1);
+  expect(tooNear(cell(true), 0)).toBeNull();
+  expect(tooNear(cell(false), 0)).toBe("too near: spindle and fence");
+  const touching = cell(false);
+  touching.answer.postures[0]!.clearance_mm = 0;
+  expect(tooNear(touching, 0)).toBe("in contact: spindle and fence");
 });

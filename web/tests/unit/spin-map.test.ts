@@ -1,7 +1,7 @@
 // Knots of the spin along a path, and the cells of the map in words.
 
 import { expect, test } from "vitest";
-import { cellAt, cellText, nearest } from "../../src/spin-map/cells";
+import { BLOCKED, cellAt, cellText, IN_COLLISION, nearest } from "../../src/spin-map/cells";
 import { distanceOf, edges, spinOf, spinTicks, ticks, xOf, yOf, type Frame } from "../../src/spin-map/frame";
 import { added, between, knotsOf, moved, removed, spinAt, written, type Knot, type Range } from "../../src/spin-map/knots";
 import type { SpinMap } from "../../src/types";
@@ -64,6 +64,9 @@ test("a cell says why the arm cannot be there", () => {
   expect(cellText(map, 0, 0)).toBe("50.0 µm in plane");
   expect(cellText(map, 0, 1)).toBe("60.0 µm in plane, T outside its limits");
   expect(cellText(map, 0, 2)).toBe("out of reach");
+  map.state[0]![2] = IN_COLLISION;
+  expect(cellText(map, 0, 2)).toBe("in collision");
+  expect(BLOCKED & IN_COLLISION).not.toBe(0);
   expect(cellText(map, 1, 0)).toBe("1.0 µm in plane, near a singularity");
   expect(cellText(map, 1, 1)).toBe("2.0 µm in plane, T jumps here");
   expect(cellText(map, 1, 2)).toBe("3.0 µm in plane, T is too slow for the feed");

@@ -378,6 +378,11 @@ impl<'a> CellState<'a> {
         &self.hulls
     }
 
+    /// The frames of the bodies of the arm in base, in the order of [`Cell::arm`].
+    pub fn base_from_body(&self) -> &[IsometryMatrix3<f64>] {
+        &self.base_from_body
+    }
+
     /// Shape of a body of the arm where it is, base.
     fn placed(&self, body: usize) -> Placed {
         self.cell.arm[body].shape.placed(&self.base_from_body[body])

@@ -13,6 +13,7 @@ use super::along::along_path;
 use super::obstacles::{ObstacleKind, obstacles};
 use crate::kernel::{Evaluation, Question};
 use crate::path::LoadedTrack;
+use crate::robot::Unreachable;
 use crate::watch::{Cancelled, Watch};
 
 /// Points of all rows that are evaluated at most where every point of the path is.
@@ -32,8 +33,10 @@ pub struct SpinMap {
 /// A point of a path at a spin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpinCell {
-    /// The answer; `None` where the point is out of reach.
+    /// The answer; `None` where the point has no posture.
     pub evaluation: Option<Evaluation>,
+    /// Whether no posture there keeps the demanded clearance.
+    pub in_collision: bool,
     /// The first obstacle of the moves since the column before: a joint that jumps, or one too slow for the feed.
     pub on_move: Option<ObstacleKind>,
 }
@@ -80,8 +83,10 @@ pub fn spin_map(
         let along = along_path(question, &turned, load.clone(), quiet)?;
         let at = |point: &usize| {
             let index = evaluated.partition_point(|other| other < point);
+            let found = along.answers.points[index];
             SpinCell {
-                evaluation: along.answers.points[index].ok(),
+                evaluation: found.ok(),
+                in_collision: matches!(found, Err(Unreachable::InCollision { .. })),
                 on_move: None,
             }
         };

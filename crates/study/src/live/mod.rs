@@ -13,6 +13,7 @@
 //! | `answered` | the results of `armill run`: answer, table, pictures |
 //! | `posture` | the postures of the arm at one target, and the deviation under each load case |
 //! | `along` | the pose and the load at a point of a path, or at a hole |
+//! | `bodies`, `body_mesh` | the bodies of the cell as they are drawn, and their meshes |
 //! | `arm` | the worst and best points, and the arm there |
 //! | `reachable` | the nearest placement that the robot reaches |
 //! | `scene` | what can be drawn in space |
@@ -40,6 +41,8 @@
 mod along;
 mod answered;
 mod arm;
+mod bodies;
+mod body_mesh;
 mod file_kind;
 mod layer;
 mod lines;
@@ -61,6 +64,8 @@ pub use answered::{
     PictureAnswer, PicturesAnswer, answer_json, measured_csv, picture_svg, pictures, table_csv,
 };
 pub use arm::{ExtremesAnswer, Follow, PoseAtTarget, PoseRequest};
+pub use bodies::{BodyInScene, BodyPose, BodyRole, CellInScene, DrawnCell, ShapeInScene, StillBodyInScene};
+pub use body_mesh::body_mesh;
 pub use file_kind::{FileKind, kind_of};
 pub use layer::{LayerAnswer, LayerKey, LayerLine, LayerRequest};
 pub use lines::{LevelAnswer, LinesAnswer};

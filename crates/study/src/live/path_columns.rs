@@ -17,6 +17,7 @@ use std::ops::Range;
 use armill_core::kernel::Evaluation;
 use armill_core::nalgebra::Vector3;
 use armill_core::path::{Clock, Speeds};
+use armill_core::robot::Unreachable;
 use armill_core::spatial::Wrench;
 use armill_core::units::{to_mm, to_um};
 use rayon::prelude::*;
@@ -161,6 +162,12 @@ fn columns<'a>(
             }))
         }),
     ];
+    if path.setting.cell.is_some() {
+        columns.push(PathColumn::new("in_collision", None, move |index| {
+            let collides = matches!(answers.points[index], Err(Unreachable::InCollision { .. }));
+            f64::from(u8::from(collides))
+        }));
+    }
     if found.process.is_none() {
         columns.push(PathColumn::new("force_n", Some("N"), move |index| {
             or_nan(evaluation(index).map(|evaluation| force(path, found, index, evaluation.worst_case)))

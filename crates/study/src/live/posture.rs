@@ -27,10 +27,11 @@ use crate::file::resolve::Study;
 use crate::input::setting::Setting;
 use crate::joint_unit::{JointUnit, joint_positions};
 use crate::live::along::{ToolTarget, answered_posture, at_hole, on_path};
+use crate::live::bodies::{DrawnBodies, DrawnCell};
 use crate::live::meshes::{DrawnMesh, Shapes};
 use crate::live::{EditedAnalysis, StudyText};
 use crate::number::without_rounding;
-use crate::pose::{At, PoseAnswer, PoseContext, PoseQuestion, answer_in};
+use crate::pose::{At, PoseAnswer, PoseContext, PoseQuestion, PostureAnswer, answer_in};
 
 /// A target of the tool: one of these.
 #[derive(Clone, Debug, Default, Deserialize, Serialize, JsonSchema)]
@@ -104,6 +105,8 @@ pub struct DrawnPosture {
     pub links_mm: Vec<[f64; 3]>,
     /// The meshes of its links, if the robot file names them and all exist.
     pub meshes: Vec<DrawnMesh>,
+    /// The bodies of the cell; `null` without any.
+    pub cell: Option<DrawnCell>,
 }
 
 /// A joint in a drawing.
@@ -238,14 +241,17 @@ pub(super) fn postures_of(
     let joints: Vec<Vec<f64>> = joints.collect::<Result<_, StudyError>>()?;
     let of_cases = joints.iter().map(|q| deviations(robot, setting, q, &requested));
     let shapes = Shapes::of(&edited.parsed.file.robot, edited.folder);
-    let drawn = |q: &Vec<f64>| DrawnPosture {
+    let cell = setting.cell.as_ref();
+    let mut bodies = cell.map(|cell| DrawnBodies::of(cell, robot, &setting.flange_from_tool));
+    let drawn = |(q, posture): (&Vec<f64>, &PostureAnswer)| DrawnPosture {
         meshes: shapes.drawn(robot, q),
+        cell: (bodies.as_mut()).map(|bodies| bodies.drawn(q, posture, &setting.base_from_reference)),
         ..drawn(robot, q, &setting.flange_from_tool)
     };
     Ok(PosturesAnswer {
         in_plane: of_cases.collect(),
         answered: answered_posture(robot, setting, &requested, &joints, watch)?,
-        drawings: joints.iter().map(drawn).collect(),
+        drawings: joints.iter().zip(&answer.postures).map(drawn).collect(),
         limits: limits(robot),
         chain: joints.iter().map(|q| as_chain(robot, q)).collect(),
         answer,
@@ -422,6 +428,7 @@ fn drawn(robot: &Robot, q: &[f64], flange_from_tool: &Isometry) -> DrawnPosture 
         tool_axis: clean(tool_on(&frames, flange_from_tool) * Vector3::z()),
         links_mm: links.collect(),
         meshes: Vec::new(),
+        cell: None,
     }
 }
 

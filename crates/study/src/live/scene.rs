@@ -18,6 +18,7 @@ use crate::error::StudyError;
 use crate::file::resolve::Study;
 use crate::input::setting::Setting;
 use crate::input::tables::{HalfSize, PlaneTable};
+use crate::live::bodies::{BodyPose, CellInScene, cell_in_scene, pose_of_part};
 use crate::live::posture::axes;
 use crate::live::{EditedAnalysis, StudyText};
 use crate::number::{decimals, without_rounding};
@@ -43,6 +44,8 @@ pub struct SceneAnswer {
     /// The box of a volume.
     #[serde(rename = "box")]
     pub in_box: Option<BoxInScene>,
+    /// The bodies of its cell; `null` without any.
+    pub cell: Option<CellInScene>,
 }
 
 /// A plane with its sides.
@@ -67,6 +70,8 @@ pub struct SectionInScene {
     pub label: String,
     /// Its plane.
     pub plate: PlateInScene,
+    /// Where the part is that the cell has; `null` without one.
+    pub part: Option<BodyPose>,
 }
 
 /// Points with some columns of their table: each column has as many values as there are points, `null` if one has none.
@@ -153,6 +158,7 @@ pub(super) fn scene_of(
             let section = |(label, sheet): &(String, Sheet)| SectionInScene {
                 label: label.clone(),
                 plate: of_sheet(sheet),
+                part: sheet.setting.cell.as_ref().and_then(pose_of_part),
             };
             sections = all.iter().map(section).collect();
         }
@@ -171,6 +177,7 @@ pub(super) fn scene_of(
         sections,
         points,
         in_box,
+        cell: setting.cell.as_ref().map(cell_in_scene),
     })
 }
 

@@ -30,8 +30,8 @@ const COLUMNS: usize = 400;
 const ROWS: usize = 73;
 /// Deviations beyond this many times the tolerance have one colour, as in the picture of a search.
 const MOST_TOLERANCES: f64 = 4.0;
-/// States in which a posture is not usable: outside joint limits, singular, out of reach.
-const BLOCKED: u8 = 1 + 2 + 4;
+/// States in which a posture is not usable: outside joint limits, singular, out of reach, in collision.
+const BLOCKED: u8 = 1 + 2 + 4 + 32;
 /// A curve through spins that were found is at most this far from them, deg; farther where it would have too many knots.
 const NEAR_DEG: f64 = 1.0;
 /// Knots of such a curve at most.
@@ -57,7 +57,8 @@ pub struct SpinMapAnswer {
     /// The joint of this distance: its index among the names.
     pub limit_joint: Vec<Vec<u8>>,
     /// State of each cell, row after row: sum of 1 (outside joint limits), 2 (singular), 4 (out of reach), 8 (a joint jumps
-    /// since the column before), 16 (a joint is too slow for the feed since the column before).
+    /// since the column before), 16 (a joint is too slow for the feed since the column before), 32 (no posture keeps the demanded
+    /// clearance).
     pub state: Vec<Vec<u8>>,
     /// The joint that jumps or is too slow: its index among the names; 0 for other cells.
     pub move_joint: Vec<Vec<u8>>,
@@ -313,6 +314,7 @@ fn move_joint(cell: &SpinCell) -> u8 {
 
 fn state(cell: &SpinCell) -> u8 {
     let at_point = match &cell.evaluation {
+        None if cell.in_collision => 32,
         None => 4,
         Some(evaluation) => {
             u8::from(evaluation.limit_margin < -AT_LIMIT) + 2 * u8::from(evaluation.singularity.is_some())

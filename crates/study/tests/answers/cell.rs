@@ -115,7 +115,10 @@ fn a_search_turns_the_tool_away_from_what_is_in_the_way() {
     assert_eq!(fixed.in_collision, fixed.points);
     assert!(turned.in_collision < 5, "{}", turned.in_collision);
     for (clearance, state, _) in points(&with_motor(searched)) {
-        assert!(state == "in_collision" || clearance.unwrap() >= 15.0 - 1e-6, "{clearance:?}");
+        assert!(
+            state == "in_collision" || clearance.unwrap() >= 15.0 - 1e-6,
+            "{clearance:?}"
+        );
     }
 }
 

@@ -3,6 +3,7 @@
 // Tests and their helper functions fail by a panic.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+mod bodies;
 mod client;
 mod connections;
 mod jobs;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use armill_core::clearance::{ArmBody, Cell, DemandedClearance, PlacedCell};
+use armill_core::clearance::{ArmBody, Cell, DemandedClearance, FixedBody, PlacedCell};
 use armill_core::frame::Isometry;
 use armill_core::robot::Robot;
 
@@ -13,6 +13,8 @@ use crate::input::cell::bodies::{CellBodies, fixed};
 pub struct AnalysisCell {
     /// The bodies.
     pub cell: Arc<Cell>,
+    /// Those that stand still.
+    pub still: Vec<FixedBody>,
     /// The frame of the part in base.
     pub base_from_part: Isometry,
     /// The demanded clearance, m.
@@ -59,6 +61,7 @@ impl AnalysisCell {
         let cell = Cell::new(robot, frames.flange_from_tool, arm, &apart, &still);
         AnalysisCell {
             cell: Arc::new(cell),
+            still,
             base_from_part: *frames.base_from_part,
             least: bodies.least,
         }
