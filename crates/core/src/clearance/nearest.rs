@@ -9,7 +9,7 @@
 //! | triangle and triangle | each edge of one and the other triangle |
 //!
 //! Points in m, all in one frame. Where segments are parallel, any of their nearest points is valid. Exact but for rounding: segments
-//! within 1e-8 rad of parallel may be told as much as 1e-8 of their length too far apart.
+//! within 1e-8 rad of parallel may be found as much as 1e-8 of their length too far apart.
 //! Source: Ericson 2005, *Real-Time Collision Detection*, chapter 5.
 
 use nalgebra::{Point3, Vector3};

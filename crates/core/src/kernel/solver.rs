@@ -143,7 +143,7 @@ impl<'q> Solver<'q> {
             None => [false; BLOCK],
         };
         for (i, mut decided) in decided.into_iter().enumerate().take(count) {
-            // Lanes know nothing of bodies: a posture that does not keep the clearance is chosen anew, or refused.
+            // Lanes know nothing of bodies: a posture that does not keep the clearance is chosen again, or refused.
             if decided && self.question.clearance.is_some() {
                 let Slot { point, joints, .. } = slots.at(i);
                 decided = point.is_err() || self.general.conflict(joints).is_none();

@@ -137,7 +137,7 @@ impl FollowedPath<'_> {
         let home = self.home(placement);
         let question = Question {
             home: home.as_deref().or(self.question.home),
-            clearance: self.clearance_at(&placement),
+            clearance: self.clearance_at(placement),
             ..*self.question
         };
         let there = track.moved(placement.base_from_part, placement.spin);

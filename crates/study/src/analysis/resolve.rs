@@ -26,9 +26,9 @@ use crate::analysis::path::LoadSource;
 use crate::analysis::study_tables::StudyTables;
 use crate::analysis::table::{AnalysisKind, AnalysisTable};
 use crate::analysis::{Sheet, Subject};
+use crate::input::cell::CellBodies;
 use crate::input::cell::bodies::tool_bodies;
-use crate::input::cell::placed::CellFrames;
-use crate::input::cell::{AnalysisCell, CellBodies};
+use crate::input::cell::placed::{CellFrames, placed_cell};
 use crate::input::memory::{OF_FIELD, OF_MAP, PointMemory};
 use crate::input::problem_log::ProblemLog;
 use crate::input::quantities::{grid, load_cases, plane_at, pose_mm_deg};
@@ -275,7 +275,7 @@ impl Resolver<'_> {
                 base_from_part: &setting.plane.base_from_part,
                 flange_from_tool: &setting.flange_from_tool,
             };
-            let found = AnalysisCell::of(&robot.robot, bodies, tool, frames);
+            let found = placed_cell(&robot.robot, bodies, tool, frames);
             for [obstacle, body] in found
                 .cell
                 .permanent_obstacles(&robot.robot, &setting.flange_from_tool)

@@ -7,6 +7,7 @@ use armill_core::frame::Isometry;
 use armill_core::nalgebra::Point3;
 use armill_core::robot::inverse::{ToolAt, posture_at, postures};
 use armill_core::robot::{Branch, Robot};
+use armill_core::units::to_mm;
 use armill_programs::DraftPoint;
 
 use crate::input::setting::Setting;
@@ -160,12 +161,19 @@ impl Arm<'_> {
         Some((state, cell.least))
     }
 
-    /// What comes nearer than demanded on a joint move, rad (m): two bodies and their distance, m.
-    pub fn conflict_on_move(&self, from: &[f64], to: &[f64]) -> Option<([&str; 2], f64)> {
+    /// What comes nearer than demanded on a joint move, rad (m), in words.
+    pub fn conflict_on_move(&self, from: &[f64], to: &[f64]) -> Option<String> {
         let (mut state, least) = self.cell_state()?;
         let found = state.conflict_on_move(from, to, least)?;
         let cell = &self.setting.cell.as_ref()?.cell;
-        Some((found.bodies.map(|body| cell.name(body)), found.nearest.distance))
+        let [first, second] = found.bodies.map(|body| cell.name(body));
+        Some(match found.nearest.distance > 0.0 {
+            true => format!(
+                "{first} and {second} come as near as {:.1} mm",
+                to_mm(found.nearest.distance)
+            ),
+            false => format!("{first} and {second} touch"),
+        })
     }
 
     /// Time that the joints need at least, s.

@@ -243,13 +243,8 @@ impl<'a> Ways<'a> {
         let Some((from, to)) = from.zip(to) else {
             return Ok(());
         };
-        if let Some(([first, second], distance)) = self.arm.conflict_on_move(from, to) {
-            let how = match distance > 0.0 {
-                true => format!("come as near as {:.1} mm", to_mm(distance)),
-                false => "touch".to_owned(),
-            };
-            let message =
-                format!("line {line}: on the joint move to or from the cut there {first} and {second} {how}");
+        if let Some(conflict) = self.arm.conflict_on_move(from, to) {
+            let message = format!("line {line}: on the joint move to or from the cut there {conflict}");
             let hint = "give a home position that is clear of both ([controller] home_deg), or a larger --retract-mm";
             return Err(StudyError::value(message, hint));
         }

@@ -23,7 +23,7 @@ box_mm = { from = [1050, -1000, 0], to = [1100, 1000, 2000] }
 
 /// Clearance of the spindle by hand, mm: to the wall and to the top of the part.
 fn by_hand(x_mm: f64) -> f64 {
-    (1050.0 - 60.0 - x_mm).max(0.0).min(80.0)
+    (1050.0 - 60.0 - x_mm).clamp(0.0, 80.0)
 }
 
 /// The result of this study, which has no problem.

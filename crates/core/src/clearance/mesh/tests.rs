@@ -122,7 +122,7 @@ fn a_point_is_inside_of_a_closed_ball_by_its_radius() {
     for _ in 0..5_000 {
         let point = Point3::from(stream.vector(0.6));
         let radius = point.coords.norm();
-        if radius < 0.498 || radius > 0.5 {
+        if !(0.498..=0.5).contains(&radius) {
             assert_eq!(mesh.contains(&point), radius < 0.498, "{point}");
         }
         assert!(!open.contains(&point));

@@ -218,14 +218,14 @@ impl Writer<'_> {
             if !is_link {
                 self.node(file, child);
             } else if self.of_links == OfLinks::Meshes {
-                self.shape(file, child);
+                self.shape(child);
             }
         }
         self.xml.push_str(&format!("</{prefix}{name}>"));
     }
 
     /// An element of the shape of a link, if a mesh needs it.
-    fn shape(&mut self, file: &Source, node: Node<'_, '_>) {
+    fn shape(&mut self, node: Node<'_, '_>) {
         let name = node.tag_name().name();
         if !node.is_element() || is_xacro(node) || !OF_SHAPES.contains(&name) {
             return;
@@ -243,7 +243,7 @@ impl Writer<'_> {
         }
         self.xml.push('>');
         for child in node.children() {
-            self.shape(file, child);
+            self.shape(child);
         }
         self.xml.push_str(&format!("</{name}>"));
     }

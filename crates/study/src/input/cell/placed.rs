@@ -2,24 +2,12 @@
 
 use std::sync::Arc;
 
-use armill_core::clearance::{ArmBody, Cell, DemandedClearance, FixedBody, PlacedCell};
+use armill_core::clearance::{ArmBody, Cell};
 use armill_core::frame::Isometry;
 use armill_core::robot::Robot;
 
+use crate::input::cell::AnalysisCell;
 use crate::input::cell::bodies::{CellBodies, fixed};
-
-/// The bodies of an analysis, and the clearance that it demands.
-#[derive(Clone, Debug)]
-pub struct AnalysisCell {
-    /// The bodies.
-    pub cell: Arc<Cell>,
-    /// Those that stand still.
-    pub still: Vec<FixedBody>,
-    /// The frame of the part in base.
-    pub base_from_part: Isometry,
-    /// The demanded clearance, m.
-    pub least: f64,
-}
 
 /// Where the frames of a study are.
 #[derive(Clone, Copy, Debug)]
@@ -32,54 +20,36 @@ pub struct CellFrames<'a> {
     pub flange_from_tool: &'a Isometry,
 }
 
-impl AnalysisCell {
-    /// The cell of an arm with this tool.
-    pub fn of(
-        robot: &Robot,
-        bodies: &CellBodies,
-        tool: Vec<ArmBody>,
-        frames: CellFrames<'_>,
-    ) -> AnalysisCell {
-        let obstacles = bodies
-            .obstacles
-            .iter()
-            .map(|body| fixed(body, frames.base_from_reference, false));
-        let part = bodies
-            .part
-            .iter()
-            .map(|body| fixed(body, &Isometry::identity(), true));
-        let still: Vec<_> = obstacles.chain(part).collect();
-        let coarse = bodies
-            .is_coarse
-            .iter()
-            .enumerate()
-            .filter(|(_, is_coarse)| **is_coarse);
-        let of_tool = bodies.links.len()..bodies.links.len() + tool.len();
-        let unchecked = coarse.flat_map(|(link, _)| of_tool.clone().map(move |body| [link, body]));
-        let apart: Vec<[usize; 2]> = bodies.apart.iter().copied().chain(unchecked).collect();
-        let arm = bodies.links.iter().cloned().chain(tool).collect();
-        let cell = Cell::new(robot, frames.flange_from_tool, arm, &apart, &still);
-        AnalysisCell {
-            cell: Arc::new(cell),
-            still,
-            base_from_part: *frames.base_from_part,
-            least: bodies.least,
-        }
-    }
-
-    /// The cell with its part in place.
-    pub fn placed(&self) -> PlacedCell<'_> {
-        PlacedCell {
-            cell: &self.cell,
-            base_from_part: &self.base_from_part,
-        }
-    }
-
-    /// The clearance that postures must keep.
-    pub fn demanded(&self) -> DemandedClearance<'_> {
-        DemandedClearance {
-            placed: self.placed(),
-            least: self.least,
-        }
+/// The bodies of an analysis whose arm has this tool.
+pub fn placed_cell(
+    robot: &Robot,
+    bodies: &CellBodies,
+    tool: Vec<ArmBody>,
+    frames: CellFrames<'_>,
+) -> AnalysisCell {
+    let obstacles = bodies
+        .obstacles
+        .iter()
+        .map(|body| fixed(body, frames.base_from_reference, false));
+    let part = bodies
+        .part
+        .iter()
+        .map(|body| fixed(body, &Isometry::identity(), true));
+    let still: Vec<_> = obstacles.chain(part).collect();
+    let coarse = bodies
+        .is_coarse
+        .iter()
+        .enumerate()
+        .filter(|(_, is_coarse)| **is_coarse);
+    let of_tool = bodies.links.len()..bodies.links.len() + tool.len();
+    let unchecked = coarse.flat_map(|(link, _)| of_tool.clone().map(move |body| [link, body]));
+    let apart: Vec<[usize; 2]> = bodies.apart.iter().copied().chain(unchecked).collect();
+    let arm = bodies.links.iter().cloned().chain(tool).collect();
+    let cell = Cell::new(robot, frames.flange_from_tool, arm, &apart, &still);
+    AnalysisCell {
+        cell: Arc::new(cell),
+        still,
+        base_from_part: *frames.base_from_part,
+        least: bodies.least,
     }
 }

@@ -1,0 +1,37 @@
+//! The bodies of an analysis, ready for the core.
+
+use std::sync::Arc;
+
+use armill_core::clearance::{Cell, DemandedClearance, FixedBody, PlacedCell};
+use armill_core::frame::Isometry;
+
+/// The bodies of an analysis, and the clearance that it demands.
+#[derive(Clone, Debug)]
+pub struct AnalysisCell {
+    /// The bodies.
+    pub cell: Arc<Cell>,
+    /// Those that stand still.
+    pub still: Vec<FixedBody>,
+    /// The frame of the part in base.
+    pub base_from_part: Isometry,
+    /// The demanded clearance, m.
+    pub least: f64,
+}
+
+impl AnalysisCell {
+    /// The cell with its part in place.
+    pub fn placed(&self) -> PlacedCell<'_> {
+        PlacedCell {
+            cell: &self.cell,
+            base_from_part: &self.base_from_part,
+        }
+    }
+
+    /// The clearance that postures must keep.
+    pub fn demanded(&self) -> DemandedClearance<'_> {
+        DemandedClearance {
+            placed: self.placed(),
+            least: self.least,
+        }
+    }
+}
