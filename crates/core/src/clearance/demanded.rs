@@ -1,6 +1,7 @@
 //! The clearance that postures must keep, and its check.
 
-use super::cell::{CellState, PlacedCell};
+use super::cell::PlacedCell;
+use super::state::CellState;
 use crate::frame::Isometry;
 use crate::robot::Robot;
 
@@ -47,13 +48,12 @@ impl<'a> ClearanceCheck<'a> {
         self.state.set_part(base_from_part);
     }
 
-    /// The two bodies that are nearest, if they are nearer than demanded at these joint positions, rad (m).
+    /// The two bodies that are nearest to a conflict, if they are nearer than demanded at these joint positions, rad (m).
     pub fn conflict(&mut self, joints: &[f64]) -> Option<Conflict> {
         self.state.set_joints(joints);
-        let found = self.state.clearance(self.least)?;
-        let distance = found.nearest.distance;
-        (distance < self.least || distance == 0.0).then_some(Conflict {
-            missing: self.least - distance,
+        let (found, kept) = self.state.demanded_clearance(self.least, self.least)?;
+        (kept < self.least || kept == 0.0).then_some(Conflict {
+            missing: self.least - kept,
             bodies: found.bodies,
         })
     }

@@ -2,7 +2,8 @@
 //!
 //! Read in this order: [`nearest`] (segments and triangles, in closed form), [`convex`] (boxes and cylinders), [`bounds`] (lower
 //! bounds), [`enclosing`] (capsules around points), [`mesh`], [`shape`] (two shapes of any kind), [`field`] (many capsules against bodies that stand still),
-//! [`cell`] (all bodies of a cell, with the arm in a posture), [`demanded`] (the check of a posture), [`swept`] (a joint move).
+//! [`cell`] (all bodies of a cell), [`state`] (with the arm in a posture), [`pairs`] (which are checked), [`demanded`] (the check of a
+//! posture), [`swept`] (a joint move).
 //!
 //! Distances are exact but for rounding, well below a micrometre. They are those of the bodies as given: a capsule around a link
 //! is larger than the link.
@@ -15,12 +16,15 @@ pub mod enclosing;
 pub mod field;
 pub mod mesh;
 pub mod nearest;
+pub mod pairs;
 pub mod shape;
+pub mod state;
 pub mod swept;
 
 pub use bounds::{Bounds, Capsule};
-pub use cell::{ArmBody, Cell, CellState, Clearance, FixedBody, PlacedCell, Role};
+pub use cell::{ArmBody, Cell, Clearance, FixedBody, PlacedCell, Role};
 pub use demanded::{ClearanceCheck, Conflict, DemandedClearance};
 pub use mesh::Mesh;
 pub use nearest::{Nearest, Segment, Triangle};
 pub use shape::Shape;
+pub use state::CellState;

@@ -15,7 +15,8 @@
 //! (conservative advancement). Steps are at least [`RESOLUTION`], which the clearance may be less in between.
 //! Source: Mirtich 1996, *Impulse-based dynamic simulation of rigid body systems*, section 2.3.
 
-use super::cell::{CellState, Clearance};
+use super::cell::Clearance;
+use super::state::CellState;
 use crate::robot::{Attachment, Robot};
 
 /// A clearance may be less than demanded by this between two places that were measured, m.
@@ -34,10 +35,10 @@ impl CellState<'_> {
             self.set_joints(&q);
             // Farther bodies cannot come nearer than demanded on the rest of the way.
             let rest = length * (1.0 - part);
-            let found = self.clearance(least + rest);
-            let room = found.map_or(rest, |found| found.nearest.distance - least);
-            if let Some(found) = found
-                && (room < -ROUNDING || found.nearest.distance == 0.0)
+            let found = self.demanded_clearance(least, least + rest);
+            let room = found.map_or(rest, |(_, kept)| kept - least);
+            if let Some((found, kept)) = found
+                && (room < -ROUNDING || kept == 0.0)
             {
                 return Some(found);
             }

@@ -7,6 +7,8 @@ use crate::arms::{self, Stream};
 use crate::clearance::demanded::{ClearanceCheck, DemandedClearance};
 use crate::clearance::mesh::Mesh;
 use crate::clearance::nearest::Segment;
+use crate::clearance::state::CellState;
+use crate::robot::Robot;
 
 fn capsule(from: [f64; 3], to: [f64; 3], radius: f64) -> Shape {
     Shape::Capsule(Capsule {
@@ -216,6 +218,37 @@ fn bodies_in_contact_in_every_posture_are_not_checked() {
     let apart = Cell::new(&robot, &flange_from_tool(), all, &[[1, 3], [5, 2]], &[]);
     assert!(apart.always_in_contact().is_empty());
     assert!(!apart.pairs.contains(&[1, 3]) && !apart.pairs.contains(&[2, 5]));
+}
+
+#[test]
+fn bodies_that_never_keep_the_clearance_only_must_not_touch() {
+    let robot = arms::mh12();
+    // A plate on the flange, 20 mm in front of a ball around the axis of B: as near in every posture, within the turn of T.
+    let mut near = bodies().split_off(1);
+    near.push(link(
+        "wrist",
+        Attachment::Joint(4),
+        capsule([0.02, 0.0, 0.0], [0.02, 0.0, 0.0], 0.06),
+    ));
+    let cell = Cell::new(&robot, &flange_from_tool(), near, &[], &[]);
+    let cell = cell.for_clearance(&robot, &flange_from_tool(), 0.05);
+    let names: Vec<_> = (cell.always_near().iter())
+        .map(|pair| pair.map(|index| cell.name(index)))
+        .collect();
+    assert_eq!(names, [["spindle", "wrist"]]);
+    let demanded = DemandedClearance {
+        placed: here(&cell),
+        least: 0.05,
+    };
+    let mut check = ClearanceCheck::new(demanded, &robot, &flange_from_tool());
+    let mut state = CellState::new(here(&cell), &robot, &flange_from_tool());
+    // The true distance is reported, and is no conflict: 100 mm + 20 mm from axis to spindle, less 80 mm.
+    let found = state.clearance(f64::INFINITY).unwrap();
+    assert!((found.nearest.distance - 0.04).abs() < 1e-9, "{found:?}");
+    assert_eq!(check.conflict(&[0.0; 6]), None);
+    // Bent by 120 deg the spindle is at the forearm.
+    let bent = [0.0, 0.0, 0.0, 0.0, 2.1, 0.0];
+    assert!(check.conflict(&bent).is_some());
 }
 
 #[test]

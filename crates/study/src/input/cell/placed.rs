@@ -46,6 +46,7 @@ pub fn placed_cell(
     let apart: Vec<[usize; 2]> = bodies.apart.iter().copied().chain(unchecked).collect();
     let arm = bodies.links.iter().cloned().chain(tool).collect();
     let cell = Cell::new(robot, frames.flange_from_tool, arm, &apart, &still);
+    let cell = cell.for_clearance(robot, frames.flange_from_tool, bodies.least);
     AnalysisCell {
         cell: Arc::new(cell),
         still,

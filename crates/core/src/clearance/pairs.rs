@@ -1,0 +1,150 @@
+//! How a cell is made: which pairs of bodies are checked.
+//!
+//! Pairs that touch in every posture do so by design, or by the size of their bodies: they are left out. Pairs that never keep the demanded
+//! clearance are near by design: they only must not touch. Both are decided by postures spread over the joint limits.
+
+use super::cell::{ArmBody, Cell, FixedBody, PlacedCell, Role, Still, matrix};
+use super::state::CellState;
+use crate::frame::Isometry;
+use crate::robot::{Attachment, Robot};
+
+/// Postures that decide whether two bodies are always in contact.
+const SAMPLES: usize = 200;
+
+impl Cell {
+    /// The cell of an arm with these bodies of its own, which never meets in the pairs of `apart` (indices of `arm`), and these
+    /// that stand still.
+    pub fn new(
+        robot: &Robot,
+        flange_from_tool: &Isometry,
+        arm: Vec<ArmBody>,
+        apart: &[[usize; 2]],
+        still: &[FixedBody],
+    ) -> Cell {
+        let joints = robot.joints().len();
+        let mut pairs = Vec::new();
+        for second in 0..arm.len() {
+            for first in 0..second {
+                let pair = [first, second];
+                let bodies = pair.map(|index| &arm[index]);
+                if may_meet(bodies, joints) && !apart.contains(&pair) && !apart.contains(&[second, first]) {
+                    pairs.push(pair);
+                }
+            }
+        }
+        let mut cell = Cell {
+            attachment_from_body: arm
+                .iter()
+                .map(|body| matrix(&body.attachment_from_body))
+                .collect(),
+            hulls: arm.iter().map(|body| body.shape.hull()).collect(),
+            arm,
+            pairs,
+            always_in_contact: Vec::new(),
+            always_near: Vec::new(),
+            obstacles: Still::of(still.iter().filter(|body| !body.is_part)),
+            part: Still::of(still.iter().filter(|body| body.is_part)),
+        };
+        cell.leave_out_permanent_contacts(robot, flange_from_tool);
+        cell
+    }
+
+    fn leave_out_permanent_contacts(&mut self, robot: &Robot, flange_from_tool: &Isometry) {
+        let touching = self.always_within(robot, flange_from_tool, 0.0);
+        self.pairs.retain(|pair| !touching.contains(pair));
+        self.always_in_contact = touching;
+    }
+
+    /// The cell for this demanded clearance, m: pairs of bodies of the arm that never keep it are near by design, and only must not
+    /// touch.
+    pub fn for_clearance(self, robot: &Robot, flange_from_tool: &Isometry, least: f64) -> Cell {
+        let always_near = self.always_within(robot, flange_from_tool, least);
+        Cell { always_near, ..self }
+    }
+
+    /// Checked pairs of bodies of the arm that are not farther apart than `limit`, m, in any sampled posture.
+    fn always_within(&self, robot: &Robot, flange_from_tool: &Isometry, limit: f64) -> Vec<[usize; 2]> {
+        let mut within = self.pairs.clone();
+        let placed = PlacedCell {
+            cell: self,
+            base_from_part: &Isometry::identity(),
+        };
+        let mut state = CellState::new(placed, robot, flange_from_tool);
+        for sample in 1..=SAMPLES {
+            if within.is_empty() {
+                break;
+            }
+            state.set_joints(&sampled_joints(robot, sample));
+            within.retain(|pair| {
+                let found = state.nearest_of_arm(*pair, limit);
+                found.is_some_and(|found| found.distance <= limit)
+            });
+        }
+        within
+    }
+
+    /// Obstacles that touch a body of the arm in every sampled posture, such as one that encloses the robot: index among the obstacles, and the
+    /// body of the arm.
+    pub fn permanent_obstacles(&self, robot: &Robot, flange_from_tool: &Isometry) -> Vec<[usize; 2]> {
+        let Some(still) = &self.obstacles else {
+            return Vec::new();
+        };
+        let moving = |body: &usize| self.arm[*body].attachment != Attachment::Base;
+        let bodies = (0..self.arm.len()).filter(moving);
+        let mut touching: Vec<[usize; 2]> = bodies
+            .flat_map(|body| (0..still.bodies.len()).map(move |obstacle| [obstacle, body]))
+            .collect();
+        let placed = PlacedCell {
+            cell: self,
+            base_from_part: &Isometry::identity(),
+        };
+        let mut state = CellState::new(placed, robot, flange_from_tool);
+        for sample in 1..=SAMPLES {
+            if touching.is_empty() {
+                break;
+            }
+            state.set_joints(&sampled_joints(robot, sample));
+            touching.retain(|[obstacle, body]| {
+                let found = state.placed(*body).nearest(&still.bodies[*obstacle], 0.0);
+                found.is_some_and(|found| found.distance <= 0.0)
+            });
+        }
+        touching
+    }
+}
+
+/// Whether two bodies of an arm with this many joints are checked.
+fn may_meet(bodies: [&ArmBody; 2], joints: usize) -> bool {
+    let link = |body: &ArmBody| body.attachment.rank(joints).min(joints);
+    let [first, second] = bodies.map(link);
+    let links_apart = first.abs_diff(second);
+    match bodies.map(|body| body.role) {
+        [Role::Link, Role::Link] => links_apart > 1,
+        _ => links_apart > 0,
+    }
+}
+
+/// Joint positions spread over the limits (rad, m): the sequence of Halton.
+fn sampled_joints(robot: &Robot, sample: usize) -> Vec<f64> {
+    const PRIMES: [usize; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
+    let joint = |(index, joint): (usize, &crate::robot::Joint)| {
+        let [lower, upper] = joint
+            .limits
+            .map_or([-std::f64::consts::PI, std::f64::consts::PI], |limits| {
+                [limits.lower, limits.upper]
+            });
+        lower + (upper - lower) * radical_inverse(sample, PRIMES[index % PRIMES.len()])
+    };
+    robot.joints().iter().enumerate().map(joint).collect()
+}
+
+/// The digits of a number behind the point, in reverse.
+fn radical_inverse(mut number: usize, base: usize) -> f64 {
+    let (mut value, mut place) = (0.0, 1.0 / base as f64);
+    while number > 0 {
+        value += (number % base) as f64 * place;
+        number /= base;
+        place /= base as f64;
+    }
+    value
+}

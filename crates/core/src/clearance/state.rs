@@ -1,0 +1,220 @@
+//! The bodies of a cell with the arm in one posture: their distances.
+
+use nalgebra::IsometryMatrix3;
+
+use super::bounds::Capsule;
+use super::cell::{Cell, Clearance, PlacedCell, Role, matrix};
+use super::nearest::Nearest;
+use super::shape::Placed;
+use crate::frame::Isometry;
+use crate::robot::deflected_arm::attachment_frame;
+use crate::robot::forward::{Frames, forward_into};
+use crate::robot::inverse::tool_on;
+use crate::robot::{Attachment, Robot};
+
+/// The bodies of a cell with the arm in one posture. Made once, used for any number of postures.
+#[derive(Clone, Debug)]
+pub struct CellState<'a> {
+    cell: &'a Cell,
+    robot: &'a Robot,
+    flange_from_tool: Isometry,
+    base_from_part: IsometryMatrix3<f64>,
+    part_from_base: IsometryMatrix3<f64>,
+    frames: Frames,
+    /// The frame of each body of the arm.
+    base_from_body: Vec<IsometryMatrix3<f64>>,
+    /// The capsule around each body of the arm, base.
+    hulls: Vec<Capsule>,
+    queue: Vec<(f64, Check)>,
+}
+
+/// Two bodies, or a body and those that stand still.
+#[derive(Clone, Copy, Debug)]
+enum Check {
+    OfArm([usize; 2]),
+    Obstacles(usize),
+    Part(usize),
+}
+
+impl<'a> CellState<'a> {
+    /// The cell with the arm in no posture yet: at zero.
+    pub fn new(placed: PlacedCell<'a>, robot: &'a Robot, flange_from_tool: &Isometry) -> CellState<'a> {
+        let PlacedCell { cell, base_from_part } = placed;
+        let mut state = CellState {
+            cell,
+            robot,
+            flange_from_tool: *flange_from_tool,
+            base_from_part: IsometryMatrix3::identity(),
+            part_from_base: IsometryMatrix3::identity(),
+            frames: Frames::for_robot(robot),
+            base_from_body: vec![IsometryMatrix3::identity(); cell.arm.len()],
+            hulls: cell.hulls.clone(),
+            queue: Vec::new(),
+        };
+        state.set_part(base_from_part);
+        state.set_joints(&vec![0.0; robot.joints().len()]);
+        state
+    }
+
+    /// Moves the part.
+    pub fn set_part(&mut self, base_from_part: &Isometry) {
+        self.base_from_part = matrix(base_from_part);
+        self.part_from_base = self.base_from_part.inverse();
+    }
+
+    /// Moves the arm to these joint positions, rad (m), in the convention of the robot file.
+    pub fn set_joints(&mut self, joints: &[f64]) {
+        forward_into(self.robot, joints, &mut self.frames);
+        let base_from_tool = matrix(&tool_on(&self.frames, &self.flange_from_tool));
+        for (index, body) in self.cell.arm.iter().enumerate() {
+            let frame = attachment_frame(body.attachment, &self.frames, &base_from_tool)
+                * self.cell.attachment_from_body[index];
+            self.hulls[index] = self.cell.hulls[index].moved(&frame);
+            self.base_from_body[index] = frame;
+        }
+    }
+
+    /// The bodies.
+    pub(super) fn cell(&self) -> &'a Cell {
+        self.cell
+    }
+
+    /// The robot.
+    pub(super) fn robot(&self) -> &'a Robot {
+        self.robot
+    }
+
+    /// Distance of the tool centre point from the flange, m.
+    pub(super) fn tool_length(&self) -> f64 {
+        self.flange_from_tool.translation.vector.norm()
+    }
+
+    /// The capsule around each body of the arm, base.
+    pub fn hulls(&self) -> &[Capsule] {
+        &self.hulls
+    }
+
+    /// The frames of the bodies of the arm in base, in the order of [`Cell::arm`].
+    pub fn base_from_body(&self) -> &[IsometryMatrix3<f64>] {
+        &self.base_from_body
+    }
+
+    /// Shape of a body of the arm where it is, base.
+    pub(super) fn placed(&self, body: usize) -> Placed {
+        self.cell.arm[body].shape.placed(&self.base_from_body[body])
+    }
+
+    /// The nearest points of two bodies of the arm, if they are not farther apart than `limit`.
+    pub(super) fn nearest_of_arm(&self, pair: [usize; 2], limit: f64) -> Option<Nearest> {
+        let [first, second] = pair.map(|index| self.placed(index));
+        first.nearest(&second, limit)
+    }
+
+    /// The least distance of all pairs of bodies that are checked; `None` where it is above `limit`, m, or where there is none.
+    pub fn clearance(&mut self, limit: f64) -> Option<Clearance> {
+        self.measured(limit, 0.0).map(|(found, _)| found)
+    }
+
+    /// The two bodies that come nearest to a conflict with the demanded clearance `least`, m, and the clearance that they keep: their
+    /// distance, or for a pair that is near by design its distance and `least` unless it touches. `None` where that is above `limit`.
+    pub fn demanded_clearance(&mut self, least: f64, limit: f64) -> Option<(Clearance, f64)> {
+        self.measured(limit, least)
+    }
+
+    /// The pair with the least kept clearance, and that clearance; pairs that are near by design keep `more` than their distance, m.
+    fn measured(&mut self, limit: f64, more: f64) -> Option<(Clearance, f64)> {
+        let mut queue = std::mem::take(&mut self.queue);
+        queue.clear();
+        self.fill(&mut queue, limit, more);
+        queue.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut best: Option<(Clearance, f64)> = None;
+        for (bound, check) in &queue {
+            let limit = best.map_or(limit, |(_, kept)| kept);
+            if *bound > limit || best.is_some() && *bound >= limit {
+                break;
+            }
+            let more = self.more_of(*check, more);
+            let Some(found) = self.checked(*check, limit - more.min(limit)) else {
+                continue;
+            };
+            let distance = found.nearest.distance;
+            let kept = if distance > 0.0 { distance + more } else { 0.0 };
+            if best.is_none_or(|(_, least)| kept < least) {
+                best = Some((found, kept));
+            }
+        }
+        self.queue = queue;
+        best
+    }
+
+    /// `more` for a pair that is near by design, else 0.
+    fn more_of(&self, check: Check, more: f64) -> f64 {
+        match check {
+            Check::OfArm(pair) if more > 0.0 && self.cell.always_near.contains(&pair) => more,
+            _ => 0.0,
+        }
+    }
+
+    /// All checks whose lower bound is not above `limit`, with their bounds.
+    fn fill(&self, queue: &mut Vec<(f64, Check)>, limit: f64, more: f64) {
+        for pair in &self.cell.pairs {
+            let [first, second] = pair.map(|index| &self.hulls[index]);
+            if first.bound_of_balls(second) > limit {
+                continue;
+            }
+            let bound = first.distance(second);
+            if bound <= limit {
+                // Contact counts as such, whatever a pair may keep.
+                let more = self.more_of(Check::OfArm(*pair), more);
+                let bound = if bound > 0.0 { bound + more } else { bound };
+                queue.push((bound, Check::OfArm(*pair)));
+            }
+        }
+        for (index, (body, hull)) in self.cell.arm.iter().zip(&self.hulls).enumerate() {
+            if body.attachment == Attachment::Base {
+                continue;
+            }
+            if let Some(still) = &self.cell.obstacles {
+                let bound = still.field.bound_of(hull, &still.bodies, limit);
+                if bound <= limit {
+                    queue.push((bound, Check::Obstacles(index)));
+                }
+            }
+            if let Some(still) = self.cell.part.as_ref().filter(|_| body.role != Role::Cutter) {
+                let in_part = hull.moved(&self.part_from_base);
+                let bound = still.field.bound_of(&in_part, &still.bodies, limit);
+                if bound <= limit {
+                    queue.push((bound, Check::Part(index)));
+                }
+            }
+        }
+    }
+
+    /// The distance of one check, if it is not above `limit`.
+    fn checked(&self, check: Check, limit: f64) -> Option<Clearance> {
+        let arm = self.cell.arm.len();
+        match check {
+            Check::OfArm(bodies) => {
+                let nearest = self.nearest_of_arm(bodies, limit)?;
+                Some(Clearance { nearest, bodies })
+            }
+            Check::Obstacles(body) => {
+                let (nearest, other) = self.cell.obstacles.as_ref()?.nearest(&self.placed(body), limit)?;
+                Some(Clearance {
+                    nearest,
+                    bodies: [body, arm + other],
+                })
+            }
+            Check::Part(body) => {
+                let obstacles = self.cell.obstacles.as_ref().map_or(0, |still| still.bodies.len());
+                let frame = self.part_from_base * self.base_from_body[body];
+                let own = self.cell.arm[body].shape.placed(&frame);
+                let (nearest, other) = self.cell.part.as_ref()?.nearest(&own, limit)?;
+                Some(Clearance {
+                    nearest: nearest.moved(&self.base_from_part),
+                    bodies: [body, arm + obstacles + other],
+                })
+            }
+        }
+    }
+}
