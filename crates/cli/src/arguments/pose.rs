@@ -23,12 +23,13 @@ Joints have the signs and zeros of the robot file. Positions are relative to bas
 fixed axes x, y, z.
 --tilt-deg points the tool against the outward normal of a plane that is tilted from the vertical about base y.
 At 0 the plane faces the robot (tool along +x, the default), at 90 it faces up (tool down).
+In the place of ROBOT a study (its folder or file) adds its tool, its model and the clearance to the bodies of its cell.
 
 Examples:
   armill pose yaskawa/mh12 --joints-deg 0,11.6,-27.8,0,39.4,0
   armill pose yaskawa/mh12 --at-mm 1000,0,800 --tilt-deg 90 --tool-mm 0,0,150 --wrench-n 3,5,5
   armill pose arm.urdf --at-mm 900,0,700 --compliance-rad-per-n-m 1e-6,1e-6,2e-6,1e-5,1e-5,3e-5 --wrench-n 0,0,-50 --json
-  armill pose studies/cell --at-mm 1000,0,800 --json          clearance_mm and nearest: the bodies of the study
+  armill pose cell --at-mm 1000,0,800 --tilt-deg 90
   armill pose kuka/kr16-2 --at-mm 1000,0,900 --compliance-class light --wrench-n 0,0,-50"
 )]
 pub(crate) struct PoseArguments {

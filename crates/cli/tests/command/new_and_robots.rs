@@ -1,6 +1,6 @@
 //! `armill new`, `robots`, `check --schema` and the help: what a user meets first.
 
-use crate::cell::{Cell, LEVER, MH12_URDF, number, numbers, what_is_half};
+use crate::cell::{Cell, LEVER, MH12_URDF, SMALL, number, numbers, what_is_half};
 
 #[test]
 fn a_new_study_is_commented_and_runs_for_every_robot_of_the_library() {
@@ -274,6 +274,8 @@ fn examples_of_the_help_work() {
     let cell = Cell::new();
     let help = cell.armill(&["pose", "--help"]).fine().out;
     cell.file("arm.urdf", MH12_URDF);
+    std::fs::create_dir(cell.at("cell")).unwrap();
+    cell.file("cell/study.toml", SMALL);
     let examples: Vec<&str> = help
         .lines()
         .filter(|line| line.starts_with("  armill pose "))
