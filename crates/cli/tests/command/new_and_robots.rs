@@ -274,7 +274,6 @@ fn examples_of_the_help_work() {
     let cell = Cell::new();
     let help = cell.armill(&["pose", "--help"]).fine().out;
     cell.file("arm.urdf", MH12_URDF);
-    std::fs::create_dir(cell.at("cell")).unwrap();
     cell.file("cell/study.toml", SMALL);
     let examples: Vec<&str> = help
         .lines()
