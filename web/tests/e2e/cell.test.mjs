@@ -15,7 +15,7 @@ robot = "yaskawa/mh12"
 tolerance_um = 60
 plane = { centre_mm = [1000, 0, 800], half_size_mm = 320, step_mm = 20 }
 load = { cases_n = [[3, 5, 5], [3, -5, 5]] }
-posture = { branch = "front elbow-up" }
+posture = { branch = "front elbow-up no-flip" }
 
 [tool]
 flange_from_tool_mm_deg = [0, 0, 220, 0, 0, 0]
@@ -65,7 +65,7 @@ after(async () => {
 function command(y, z) {
   // The plate faces the robot: its x is x of the base, y' its y, z' its z.
   const out = execFileSync(process.env.ARMILL_BIN, ["pose", join(server.folder, "study.toml"), "--at-mm", `1000,${y},${800 + z}`, "--json"], { encoding: "utf8" });
-  return JSON.parse(out).postures.find(({ branch }) => branch?.startsWith("front elbow-up") && !branch.includes("flip")) ?? JSON.parse(out).postures[0];
+  return JSON.parse(out).postures.find(({ branch }) => branch === "front elbow-up no-flip");
 }
 
 async function send(page, y, z) {
