@@ -206,9 +206,7 @@ fn a_robot_is_drawn_to_the_requested_file() {
 
 #[test]
 fn a_valid_study_is_reported_with_its_number_of_points() {
-    let said = Cell::with_study(SMALL)
-        .armill(&["check", "study.toml"])
-        .fine();
+    let said = Cell::with_study(SMALL).armill(&["check", "study.toml"]).fine();
     assert_eq!(said.err, "study.toml: fine; 1 analysis, 25 points\n");
     let json = Cell::with_study(SMALL)
         .armill(&["check", ".", "--json"])

@@ -19,7 +19,7 @@ pub struct DemandedClearance<'a> {
 pub struct Conflict {
     /// How much of the demanded clearance is missing, m.
     pub missing: f64,
-    /// The two bodies: indices of [`Cell::name`].
+    /// The two bodies: indices of [`Cell::name`](super::cell::Cell::name).
     pub bodies: [usize; 2],
 }
 
