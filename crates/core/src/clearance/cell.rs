@@ -154,12 +154,6 @@ impl Cell {
     pub fn always_near(&self) -> &[[usize; 2]] {
         &self.always_near
     }
-
-    /// Whether any two bodies are checked at all.
-    pub fn has_pairs(&self) -> bool {
-        let moving = self.arm.iter().any(|body| body.attachment != Attachment::Base);
-        !self.pairs.is_empty() || (moving && (self.obstacles.is_some() || self.part.is_some()))
-    }
 }
 
 pub(super) fn matrix(isometry: &Isometry) -> IsometryMatrix3<f64> {

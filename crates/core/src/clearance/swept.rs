@@ -13,7 +13,7 @@
 //!
 //! Where the clearance is `c` and `least` is demanded, the arm may go on until this sum is `c - least`, and is measured again there
 //! (conservative advancement). Steps are at least [`RESOLUTION`], which the clearance may be less in between.
-//! Source: Mirtich 1996, *Impulse-based dynamic simulation of rigid body systems*, section 2.3.
+//! Source: Mirtich 1996, *Impulse-based dynamic simulation of rigid body systems*.
 
 use super::cell::Clearance;
 use super::state::CellState;

@@ -267,7 +267,6 @@ fn links_next_to_each_other_are_not_checked() {
         ),
     ];
     let cell = Cell::new(&robot, &flange_from_tool(), near, &[], &[]);
-    assert!(!cell.has_pairs());
     assert!(
         CellState::new(here(&cell), &robot, &flange_from_tool())
             .clearance(f64::INFINITY)
