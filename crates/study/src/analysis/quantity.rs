@@ -130,7 +130,7 @@ pub const CLEARANCE: Quantity = Quantity {
         "clearance_mm",
         "least distance of two bodies of the cell, 0 where they touch; where no posture keeps the demanded clearance, that of the best one",
         Origin {
-            file: "core/src/clearance/cell.rs",
+            file: "core/src/clearance/state.rs",
             function: "CellState::clearance",
             theory: Some("clearance"),
             validation: None,
