@@ -59,6 +59,7 @@ fn track() -> Track {
         },
         base_from_part,
         spins: None,
+        homes: None,
     }
 }
 
@@ -84,6 +85,7 @@ fn limits(
     let (robot, track) = (arms::mh12(), track());
     let tool = arms::bent_tool();
     let question = Question {
+        homes: None,
         arm: Arm {
             robot: &robot,
             compliance: compliances,
@@ -200,6 +202,7 @@ fn the_computation_of_limits_can_be_cancelled() {
 fn a_load_for_fewer_points_than_the_track_is_refused() {
     let (robot, track, tool) = (arms::mh12(), track(), arms::bent_tool());
     let question = Question {
+        homes: None,
         arm: Arm {
             robot: &robot,
             compliance: robot.compliance().unwrap(),
@@ -229,6 +232,7 @@ fn counts_of_a_plane_that_is_partly_out_of_reach_add_up_to_its_points() {
     let tool = Isometry::translation(0.0, 0.0, 0.1);
     let cases = [Wrench::from_force(Vector3::new(30.0, 40.0, -50.0))];
     let question = Question {
+        homes: None,
         arm: Arm {
             robot: &robot,
             compliance: robot.compliance().unwrap(),

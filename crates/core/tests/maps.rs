@@ -40,6 +40,7 @@ fn analysis<T>(
 ) -> T {
     let (tool, cases) = (Isometry::translation(0.0, 0.0, 0.1), cases());
     then(&Question {
+        homes: None,
         arm: Arm {
             robot,
             compliance: robot.compliance().unwrap(),
@@ -81,6 +82,7 @@ fn probability_and_robust_region_agree_with_arms_of_random_compliances() {
     for cases in [&cases()[..1], &cases()] {
         let map_of = |compliance: &[JointCompliance]| {
             let question = Question {
+                homes: None,
                 arm: Arm {
                     robot: &robot,
                     compliance,
@@ -161,6 +163,7 @@ fn uncertainty_of_load_and_tool_agrees_with_changed_loads_and_tools() {
         .iter()
         .map(|uncertainty| {
             let question = Question {
+                homes: None,
                 arm: Arm {
                     robot: &robot,
                     compliance: &compliance,
@@ -384,6 +387,7 @@ fn a_circle_under_constant_load_shifts_and_goes_out_of_round() {
         placing: Placing::on_plane(&plane),
         base_from_part: plane.base_from_part,
         spins: None,
+        homes: None,
     };
     let load = PathLoad::Cases(LoadCases {
         frame: LoadFrame::Base,
@@ -422,6 +426,7 @@ fn a_steady_load_gives_the_same_deviation_in_both_computations() {
         placing: Placing::on_plane(&plane),
         base_from_part: plane.base_from_part,
         spins: None,
+        homes: None,
     };
     let of_each = PathLoad::OfEach {
         cases: 4,

@@ -123,6 +123,7 @@ impl Rows<'_> {
             let requested = Question {
                 cases: &self.wrenches,
                 normal: stop.normal,
+                home: question.home_at(index),
                 ..*question
             };
             let Slot {

@@ -27,6 +27,9 @@ pub struct Question<'a> {
     /// Joint positions of a rail or a redundant joint, and start values of further redundant joints; if not given, the
     /// middle of their ranges.
     pub home: Option<&'a [f64]>,
+    /// [`Question::home`] at each point along a path, one value a joint, point after point; used by [`super::evaluate_in_order`]
+    /// and [`super::evaluate_loaded`] alone.
+    pub homes: Option<&'a [f64]>,
     /// Load cases on the tool at the TCP, base axes; at least one.
     pub cases: &'a [Wrench],
     /// Uncertainty of load and tool; lanes are used where it is zero.
@@ -40,6 +43,13 @@ pub struct Question<'a> {
 }
 
 impl<'a> Question<'a> {
+    /// The home at point `index` of a path.
+    pub(super) fn home_at(&self, index: usize) -> Option<&'a [f64]> {
+        let count = self.arm.robot.joints().len();
+        let of_point = self.homes.map(|homes| &homes[index * count..][..count]);
+        of_point.or(self.home)
+    }
+
     /// A check of the demanded clearance, if there is one.
     pub(crate) fn clearance_check(&self) -> Option<ClearanceCheck<'a>> {
         let demanded = self.clearance?;
@@ -55,6 +65,7 @@ impl<'a> Question<'a> {
         Question {
             arm,
             home,
+            homes: None,
             cases: &[],
             uncertainty: InputUncertainty::NONE,
             normal: Vector3::z_axis(),

@@ -27,6 +27,8 @@ pub(super) struct Solver<'q> {
     follows: bool,
     /// Joint positions of the point before, if there is one.
     before: Option<Vec<f64>>,
+    /// Number of points answered.
+    answered: usize,
 }
 
 /// The lanes of an arm and its model.
@@ -38,8 +40,11 @@ enum Lanes<'q> {
 }
 
 impl<'q> Lanes<'q> {
-    /// None for arms and models that lanes do not know.
+    /// None for arms and models that lanes do not know, and for external axes that move along a path.
     fn of(question: &'q Question<'q>, order: Order, detail: AnswerDetail) -> Option<Lanes<'q>> {
+        if question.homes.is_some() {
+            return None;
+        }
         let (robot, model) = (question.arm.robot, question.arm.model);
         let by_load_alone = detail == AnswerDetail::DeviationsAlone || !model.has_unloaded_deviation();
         if let Some(arm) = robot.ortho_parallel()
@@ -115,6 +120,7 @@ impl<'q> Solver<'q> {
             general: General::new(question, detail),
             poses: Vec::with_capacity(BLOCK),
             before: None,
+            answered: 0,
         }
     }
 
@@ -158,9 +164,13 @@ impl<'q> Solver<'q> {
                 shares,
             } = slots.at(i);
             if !decided {
+                let requested = Question {
+                    home: self.question.home_at(self.answered + i),
+                    ..*self.question
+                };
                 *point = self
                     .general
-                    .answer(self.question, &self.poses[i], self.before.as_deref());
+                    .answer(&requested, &self.poses[i], self.before.as_deref());
                 match point {
                     Ok(_) => self.general.write(joints, deviations, shares),
                     Err(_) => {
@@ -181,6 +191,7 @@ impl<'q> Solver<'q> {
                 }
             }
         }
+        self.answered += count;
         (watch.finished)(count);
         Ok(())
     }

@@ -35,6 +35,7 @@ pub(super) fn analysis<T>(
 ) -> T {
     let (tool, cases) = (arms::bent_tool(), cases());
     then(&Question {
+        homes: None,
         arm: Arm {
             robot,
             compliance: robot.compliance().unwrap(),

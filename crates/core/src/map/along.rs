@@ -178,8 +178,10 @@ impl Runs<'_> {
         let ends = self.choices.iter().skip(1).map(|(first, _)| *first);
         let ends = ends.chain([self.track.len()]);
         let runs = self.choices.iter().zip(ends).map(|((first, choice), end)| {
+            let homes = self.track.homes_at(*first..end);
             let requested = Question {
                 choice: *choice,
+                homes: homes.as_deref(),
                 ..self.question
             };
             answer(&requested, *first..end)
@@ -267,9 +269,11 @@ pub(crate) fn one_branch(
     };
     let stride = track.len().div_ceil(SPREAD).max(1);
     let count = track.len().div_ceil(stride);
+    let homes = track.homes_at((0..count).map(|index| index * stride));
     let mut best: Option<(Score, Branch)> = None;
     for branch in open {
         let requested = Question {
+            homes: homes.as_deref(),
             choice: BranchChoice::Of(branch.into()),
             ..*question
         };

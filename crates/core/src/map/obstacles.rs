@@ -111,6 +111,7 @@ pub fn turns_along(
     let robot = question.arm.robot;
     let unloaded = Question {
         cases: &[Wrench::ZERO],
+        homes: track.homes.as_deref(),
         ..*question
     };
     let pose = |index: usize| track.stop(index).base_from_tool;

@@ -55,6 +55,7 @@ mod tests {
             placing: Placing::on_plane(&plane),
             base_from_part: plane.base_from_part,
             spins: None,
+            homes: None,
         };
         let evaluation = |in_plane| Evaluation {
             name: PostureName::Branch(Branch::ALL[0]),

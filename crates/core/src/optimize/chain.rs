@@ -1,15 +1,15 @@
 //! The chain of postures with the lowest cost through the columns of a path: dynamic programming, column after column.
 //!
 //! ```text
-//! m_i(s, b) = min over b' of v_{i-1}(s, b')                    the tip goes on, the tool keeps its turn
-//! v_i(s, b) = n_i(s, b) + min over |s' - s| <= k_i of m_i(s', b') + t |s' - s|     the tool turns
+//! m_i(s, b) = min over b' of v_{i-1}(s, b')                    the tip goes on, the setting is kept
+//! v_i(s, b) = n_i(s, b) + min over |s' - s| <= k_i of m_i(s', b') + t |s' - s|     the setting changes
 //! ```
 //!
 //! | symbol | meaning |
 //! |---|---|
-//! | `s`, `b` | turn of the tool and posture: a state |
+//! | `s`, `b` | setting (spin and lean of the tool, external axes: [`Grid`]) and posture: a state |
 //! | `n`, `v` | cost of a state, and the lowest cost of a chain that ends there |
-//! | `k_i` | largest number of steps that the tool may turn by there |
+//! | `k_i` | largest number of steps along each axis of the grid there, taken one axis after the other |
 //! | `t` | price of a step |
 //!
 //! Where a reversal has a price, both minima include that of the joints that reverse. The directions of the joints are
@@ -24,6 +24,7 @@
 //! For the objective `worst`, sums become maxima. A column that cannot be reached restarts after the best chain so far
 //! and counts as a break: the arm stops there and changes its posture. A column without any state is skipped.
 
+use super::grid::{AXES, Grid};
 use super::heading::Heading;
 use super::winding::Winding;
 use crate::kernel::SLOTS;
@@ -39,29 +40,27 @@ pub(super) enum Together {
 
 /// Transitions from one column to the next.
 pub(super) trait Links {
-    /// Whether the tip can go from posture `from` of the previous column to posture `to`, both at tool turn `turn`.
-    fn goes_on(&self, turn: usize, from: usize, to: usize) -> bool;
+    /// Whether the tip can go from posture `from` of the previous column to posture `to`, both at this setting.
+    fn goes_on(&self, setting: usize, from: usize, to: usize) -> bool;
     /// Directions of the joints on this transition.
-    fn moves_on(&self, turn: usize, from: usize, to: usize) -> Heading;
-    /// Whether the tool can turn, within the column, from posture `from` at step `turn` to posture `to` at step `next`.
-    fn turns(&self, turn: usize, next: usize, from: usize, to: usize) -> bool;
+    fn moves_on(&self, setting: usize, from: usize, to: usize) -> Heading;
+    /// Whether the arm can go, within the column, from one state to another whose setting differs by a step along `axis`.
+    fn turns(&self, axis: usize, states: [usize; 2]) -> bool;
     /// Directions of the joints on this transition.
-    fn moves_by_turn(&self, turn: usize, next: usize, from: usize, to: usize) -> Heading;
+    fn moves_by_turn(&self, states: [usize; 2]) -> Heading;
     /// Whole turns at a state of this column where a cut begins.
     fn starts(&self, state: usize) -> Winding;
     /// Whole turns after the transition of [`Links::goes_on`]; `None` where they exceed a limit.
-    fn winds_on(&self, before: &Winding, turn: usize, from: usize, to: usize) -> Option<Winding>;
-    /// Whole turns after the tool has turned within the column from one state to the other; `None` as above.
+    fn winds_on(&self, before: &Winding, setting: usize, from: usize, to: usize) -> Option<Winding>;
+    /// Whole turns after the transition of [`Links::turns`]; `None` as above.
     fn winds_by_turn(&self, before: &Winding, states: [usize; 2]) -> Option<Winding>;
 }
 
-/// The turns of a lattice, and which are neighbours.
+/// The settings of a lattice, and what a change of them costs.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Turns {
-    /// Number of turns.
-    pub count: usize,
-    /// Whether the last turn is a neighbour of the first.
-    pub around: bool,
+    /// The settings.
+    pub grid: Grid,
     /// Whether a posture keeps its slot from state to state; otherwise every slot may follow every slot.
     pub kept_slots: bool,
     /// Price of a step.
@@ -75,8 +74,8 @@ pub(super) struct Turns {
 /// How a column starts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Beginning {
-    /// It follows the previous column; the tool may turn by this number of steps.
-    Follows(usize),
+    /// It follows the previous column; the setting may change by these numbers of steps along the axes of the grid.
+    Follows([usize; AXES]),
     /// After a rapid: any posture may follow any posture.
     Restart,
 }
@@ -94,21 +93,51 @@ enum Entry {
     Lost,
 }
 
-/// Largest number of steps that the tool turns by in one column: a back pointer is one byte.
-pub(super) const MOST_STEPS: usize = 15;
+/// The way back to each state of each column, as codes of the grid; zero where there is none.
+#[derive(Clone, Debug)]
+enum Ways {
+    /// Of spins alone.
+    Bytes(Vec<u8>),
+    /// Of several axes.
+    Words(Vec<u32>),
+}
+
+impl Ways {
+    fn new(grid: &Grid, columns: usize) -> Ways {
+        let states = columns * grid.len() * SLOTS;
+        if grid.codes_are_bytes() {
+            Ways::Bytes(Vec::with_capacity(states))
+        } else {
+            Ways::Words(Vec::with_capacity(states))
+        }
+    }
+
+    fn extend(&mut self, codes: impl Iterator<Item = u32>) {
+        match self {
+            Ways::Bytes(bytes) => bytes.extend(codes.map(|code| code as u8)),
+            Ways::Words(words) => words.extend(codes),
+        }
+    }
+
+    fn at(&self, index: usize) -> u32 {
+        match self {
+            Ways::Bytes(bytes) => u32::from(bytes[index]),
+            Ways::Words(words) => words[index],
+        }
+    }
+}
 
 /// The best chains so far.
 pub(super) struct Chain {
     turns: Turns,
     together: Together,
-    /// One more than the way back, for each state of each column: steps turned and [`MOST_STEPS`], times [`SLOTS`], and
-    /// the previous slot; zero where there is none. Empty where the chain itself is not requested.
-    back: Option<Vec<u8>>,
+    /// The way back; `None` where the chain itself is not requested.
+    back: Option<Ways>,
     entries: Vec<Entry>,
     /// Costs of the chains to the states of the last column with states.
     values: Vec<f64>,
     next: Vec<f64>,
-    ways: Vec<u8>,
+    ways: Vec<u32>,
     /// Directions of the joints at the states of the last column, and the number of reversals so far; empty where
     /// reversals have no price.
     came: Vec<Came>,
@@ -130,7 +159,7 @@ struct Came {
 pub(super) struct Cheapest {
     /// Its cost, without the price of reversals.
     pub cost: f64,
-    /// State at each column: turn times [`SLOTS`] plus slot; `None` where there is none.
+    /// State at each column: setting times [`SLOTS`] plus slot; `None` where there is none.
     pub states: Vec<Option<usize>>,
     /// Columns that no transition leads to.
     pub breaks: Vec<usize>,
@@ -139,13 +168,13 @@ pub(super) struct Cheapest {
 impl Chain {
     /// Before the first column. `traced`: whether the chain itself is requested, or only its cost.
     pub fn new(turns: Turns, together: Together, traced: Option<usize>) -> Chain {
-        let states = turns.count * SLOTS;
+        let states = turns.grid.len() * SLOTS;
         let headed = if turns.back_price > 0.0 { states } else { 0 };
         let wound = if turns.winds { states } else { 0 };
         Chain {
             turns,
             together,
-            back: traced.map(|columns| Vec::with_capacity(columns * states)),
+            back: traced.map(|columns| Ways::new(&turns.grid, columns)),
             entries: Vec::new(),
             values: vec![f64::INFINITY; states],
             next: vec![f64::INFINITY; states],
@@ -162,13 +191,13 @@ impl Chain {
         if costs.iter().all(|cost| cost.is_infinite()) {
             self.entries.push(Entry::Lost);
             if let Some(back) = &mut self.back {
-                back.resize(back.len() + costs.len(), 0);
+                back.extend(costs.iter().map(|_| 0));
             }
             return;
         }
         let entry = match beginning {
             Beginning::Follows(steps) if self.values.iter().any(|value| value.is_finite()) => {
-                self.link(costs, steps.min(MOST_STEPS), links);
+                self.link(costs, self.turns.grid.steps(steps), links);
                 let leads = self.next.iter().any(|value| value.is_finite());
                 let least = least(&self.values).unwrap_or(0) as u32;
                 if leads {
@@ -194,7 +223,7 @@ impl Chain {
         }
         self.entries.push(entry);
         if let Some(back) = &mut self.back {
-            back.extend_from_slice(&self.ways);
+            back.extend(self.ways.iter().copied());
         }
         std::mem::swap(&mut self.values, &mut self.next);
         std::mem::swap(&mut self.came, &mut self.next_came);
@@ -214,36 +243,34 @@ impl Chain {
     }
 
     /// Computes the values of the next column from its transitions.
-    fn link(&mut self, costs: &[f64], steps: usize, links: &impl Links) {
-        let Turns {
-            count, kept_slots, ..
-        } = self.turns;
+    fn link(&mut self, costs: &[f64], steps: [usize; AXES], links: &impl Links) {
+        let Turns { grid, kept_slots, .. } = self.turns;
         self.next.fill(f64::INFINITY);
         self.ways.fill(0);
-        for turn in 0..count {
+        for setting in 0..grid.len() {
             for to in 0..SLOTS {
-                let state = turn * SLOTS + to;
+                let state = setting * SLOTS + to;
                 if costs[state].is_infinite() {
                     continue;
                 }
                 let from = if kept_slots { to..to + 1 } else { 0..SLOTS };
                 for slot in from {
-                    let origin = turn * SLOTS + slot;
+                    let origin = setting * SLOTS + slot;
                     let before = self.values[origin];
-                    if before >= self.next[state] || !links.goes_on(turn, slot, to) {
+                    if before >= self.next[state] || !links.goes_on(setting, slot, to) {
                         continue;
                     }
                     let winding = self.windings.get(origin);
-                    let winding = winding.map(|before| links.winds_on(before, turn, slot, to));
+                    let winding = winding.map(|before| links.winds_on(before, setting, slot, to));
                     if winding == Some(None) {
                         continue;
                     }
                     let came = self.came.get(origin);
-                    let came = came.map(|came| came.then(links.moves_on(turn, slot, to)));
+                    let came = came.map(|came| came.then(links.moves_on(setting, slot, to)));
                     let value = before + self.back_price(came);
                     if value < self.next[state] {
                         self.next[state] = value;
-                        self.ways[state] = way(0, slot);
+                        self.ways[state] = grid.code(slot);
                         if let Some(winding) = winding.flatten() {
                             self.next_windings[state] = winding;
                         }
@@ -256,30 +283,32 @@ impl Chain {
         }
         // One more step each time, in both directions: a state keeps its chain with fewer steps unless the other costs
         // less.
-        for _ in 0..steps {
-            self.turn_by_a_step(costs, links);
+        for axis in grid.free_axes() {
+            for _ in 0..steps[axis] {
+                self.turn_by_a_step(axis, costs, links);
+            }
         }
         for (value, cost) in self.next.iter_mut().zip(costs) {
             *value = self.together.of(*value, *cost);
         }
     }
 
-    fn turn_by_a_step(&mut self, costs: &[f64], links: &impl Links) {
+    fn turn_by_a_step(&mut self, axis: usize, costs: &[f64], links: &impl Links) {
         let Turns {
-            count,
-            around,
+            grid,
             kept_slots,
             price,
             ..
         } = self.turns;
+        let weight = grid.weight(axis);
         let before = self.next.clone();
         let ways = self.ways.clone();
         let came = self.next_came.clone();
         let windings = self.next_windings.clone();
-        for turn in 0..count {
-            for (sense, neighbour) in neighbours(turn, count, around) {
+        for setting in 0..grid.len() {
+            for (sense, neighbour) in grid.neighbours(setting, axis) {
                 for to in 0..SLOTS {
-                    let state = turn * SLOTS + to;
+                    let state = setting * SLOTS + to;
                     if costs[state].is_infinite() {
                         continue;
                     }
@@ -287,7 +316,7 @@ impl Chain {
                     for slot in from {
                         let there = neighbour * SLOTS + slot;
                         let value = before[there] + price;
-                        if value >= self.next[state] || !links.turns(neighbour, turn, slot, to) {
+                        if value >= self.next[state] || !links.turns(axis, [there, state]) {
                             continue;
                         }
                         let winding = windings.get(there);
@@ -296,15 +325,14 @@ impl Chain {
                             continue;
                         }
                         let came = came.get(there);
-                        let came = came.map(|came| came.then(links.moves_by_turn(neighbour, turn, slot, to)));
+                        let came = came.map(|came| came.then(links.moves_by_turn([there, state])));
                         let value = value + self.back_price(came);
                         if value < self.next[state] {
-                            let (by, origin) = steps_and_slot(ways[there]);
                             self.next[state] = value;
                             if let Some(winding) = winding.flatten() {
                                 self.next_windings[state] = winding;
                             }
-                            self.ways[state] = way(by + sense, origin);
+                            self.ways[state] = (i64::from(ways[there]) + sense as i64 * weight) as u32;
                             if let Some((came, _)) = came {
                                 self.next_came[state] = came;
                             }
@@ -341,11 +369,9 @@ impl Chain {
             states[index] = Some(state);
             match entry {
                 Entry::Linked => {
-                    let (by, slot) = steps_and_slot(back[index * width + state]);
-                    let count = self.turns.count as isize;
-                    // The tool was at `turn - by` before.
-                    let turn = (state / SLOTS) as isize - by;
-                    state = turn.rem_euclid(count) as usize * SLOTS + slot;
+                    let grid = &self.turns.grid;
+                    let (steps, slot) = grid.steps_and_slot(back.at(index * width + state));
+                    state = grid.origin(state / SLOTS, &steps) * SLOTS + slot;
                 }
                 Entry::From(Some(before)) | Entry::Broken(before) => state = *before as usize,
                 Entry::From(None) | Entry::Lost => break,
@@ -385,32 +411,6 @@ fn least(values: &[f64]) -> Option<usize> {
         }
     }
     least
-}
-
-/// The neighbours of a turn, each with the sense in which the tool turns from there.
-fn neighbours(turn: usize, count: usize, around: bool) -> impl Iterator<Item = (isize, usize)> {
-    let below = match turn {
-        0 => (around && count > 2).then(|| count - 1),
-        _ => Some(turn - 1),
-    };
-    let above = match turn + 1 == count {
-        true => (around && count > 2).then_some(0),
-        false => Some(turn + 1),
-    };
-    let below = below.map(|other| (1, other));
-    below.into_iter().chain(above.map(|other| (-1, other)))
-}
-
-/// A back pointer in one byte.
-fn way(steps: isize, slot: usize) -> u8 {
-    let most = MOST_STEPS as isize;
-    ((steps + most) * SLOTS as isize + slot as isize + 1) as u8
-}
-
-/// Steps that the tool turned by, and the previous slot.
-fn steps_and_slot(way: u8) -> (isize, usize) {
-    let code = usize::from(way.max(1)) - 1;
-    ((code / SLOTS) as isize - MOST_STEPS as isize, code % SLOTS)
 }
 
 #[cfg(test)]

@@ -16,7 +16,9 @@
 use rayon::prelude::*;
 
 use super::gain::{LeastGain, gain};
-use super::posture::{Component, PostureSearch, about_z, blocked_by, fill};
+use super::column_at::{about_z, blocked_by, fill};
+use super::posture::{Component, PostureSearch};
+use super::window::Window;
 use crate::kernel::{
     AT_LIMIT, Answers, BranchChoice, Column, Columns, PostureStatus, Question, SLOTS, evaluate,
 };
@@ -70,6 +72,7 @@ pub fn hole_postures(
         ..*question
     };
     let nominal = one_branch(&open, track, load, watch)?;
+    let window = Window::all(search);
     let maker = || {
         let columns = Columns::at_single_points(question.arm, question.home, search.wrist)
             .keeping_clear(question.clearance_check());
@@ -79,7 +82,7 @@ pub fn hole_postures(
         if watch.is_cancelled() {
             return Err(Cancelled);
         }
-        fill(columns, path, index, search, column);
+        fill(columns, path, index, (search, &window), column);
         let best = best(question.arm.robot, search, column);
         let status = best.map_or_else(|| blocked_by(column), |_| PostureStatus::Usable);
         let home = best.map(|slot| column.joints_of(slot, question.arm.robot.joints().len()));

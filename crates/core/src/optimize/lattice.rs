@@ -1,6 +1,6 @@
 //! Thinned lattice of path points and tool turns, for pictures of a search.
 
-use super::spins::Spins;
+use super::steps::Steps;
 use crate::kernel::{PostureStatus, SLOTS};
 
 /// Path points by turns of the tool: the deviations, and the chain.
@@ -21,7 +21,7 @@ pub struct Lattice {
 
 impl Lattice {
     pub(super) fn of(
-        spins: &Spins,
+        spins: &Steps,
         kept: &[(usize, Vec<f64>, Vec<PostureStatus>)],
         states: &[Option<usize>],
     ) -> Lattice {

@@ -3,13 +3,14 @@
 use std::f64::consts::TAU;
 
 use super::chain::Links;
+use super::grid::AXES;
 use super::heading::Heading;
 use super::winding::{Winding, WindingJoints};
 use crate::kernel::{Column, PostureStatus, SLOTS};
 use crate::robot::{Joint, Limits, Robot};
 
 /// A joint that turns farther than this from one point to the next jumps, rad.
-const FAR: f64 = 0.5;
+pub(super) const FAR: f64 = 0.5;
 /// Rounding of a speed at its limit.
 const AT_SPEED: f64 = 1.0 + 1e-9;
 
@@ -55,14 +56,14 @@ impl JointRate {
         }
     }
 
-    /// Whether the joint can go from one position to the other in this time, s.
-    fn can(&self, from: f64, to: f64, time: Option<f64>) -> bool {
+    /// Whether the joint can go from one position to the other in this time, s, by less than `far` (rad).
+    fn can(&self, from: f64, to: f64, time: Option<f64>, far: f64) -> bool {
         let by = self.by(from, to);
         let in_time = self
             .most
             .zip(time)
             .is_none_or(|(most, time)| by.abs() <= most * time * AT_SPEED);
-        in_time && (self.slides || by.abs() < FAR)
+        in_time && (self.slides || by.abs() < far)
     }
 }
 
@@ -72,8 +73,12 @@ pub(super) struct Between<'a> {
     pub here: &'a Column,
     pub joints: &'a [JointRate],
     pub winding: &'a WindingJoints,
+    /// Time from the column before, s, where the feed is known.
     pub time: Option<f64>,
-    pub turn_time: Option<f64>,
+    /// Shortest time for a step along each axis of the grid, s, where the feed is known.
+    pub step_times: Option<[f64; AXES]>,
+    /// A joint that turns farther than this jumps, rad.
+    pub far: f64,
 }
 
 impl<'a> Between<'a> {
@@ -83,7 +88,7 @@ impl<'a> Between<'a> {
             && usable(to)
             && self
                 .positions(from, to)
-                .all(|(joint, from, to)| joint.can(from, to, time))
+                .all(|(joint, from, to)| joint.can(from, to, time, self.far))
     }
 
     /// Whole turns of the joints from one state to the other; `None` where they exceed a limit.
@@ -119,13 +124,13 @@ impl<'a> Between<'a> {
 }
 
 impl Links for Between<'_> {
-    fn goes_on(&self, turn: usize, from: usize, to: usize) -> bool {
-        let first = turn * SLOTS;
+    fn goes_on(&self, setting: usize, from: usize, to: usize) -> bool {
+        let first = setting * SLOTS;
         self.can((self.before, first + from), (self.here, first + to), self.time)
     }
 
-    fn moves_on(&self, turn: usize, from: usize, to: usize) -> Heading {
-        let first = turn * SLOTS;
+    fn moves_on(&self, setting: usize, from: usize, to: usize) -> Heading {
+        let first = setting * SLOTS;
         self.heading((self.before, first + from), (self.here, first + to))
     }
 
@@ -133,8 +138,8 @@ impl Links for Between<'_> {
         self.winding.start(self.here.joints_of(state, self.joints.len()))
     }
 
-    fn winds_on(&self, before: &Winding, turn: usize, from: usize, to: usize) -> Option<Winding> {
-        let first = turn * SLOTS;
+    fn winds_on(&self, before: &Winding, setting: usize, from: usize, to: usize) -> Option<Winding> {
+        let first = setting * SLOTS;
         self.wound(before, (self.before, first + from), (self.here, first + to))
     }
 
@@ -142,13 +147,12 @@ impl Links for Between<'_> {
         self.wound(before, (self.here, from), (self.here, to))
     }
 
-    fn turns(&self, turn: usize, next: usize, from: usize, to: usize) -> bool {
-        let (from, to) = (turn * SLOTS + from, next * SLOTS + to);
-        self.can((self.here, from), (self.here, to), self.turn_time)
+    fn turns(&self, axis: usize, [from, to]: [usize; 2]) -> bool {
+        let time = self.step_times.map(|times| times[axis]);
+        self.can((self.here, from), (self.here, to), time)
     }
 
-    fn moves_by_turn(&self, turn: usize, next: usize, from: usize, to: usize) -> Heading {
-        let (from, to) = (turn * SLOTS + from, next * SLOTS + to);
+    fn moves_by_turn(&self, [from, to]: [usize; 2]) -> Heading {
         self.heading((self.here, from), (self.here, to))
     }
 }

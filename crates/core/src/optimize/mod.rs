@@ -1,6 +1,6 @@
 //! Optimisation: placement of the part, posture along the path, compensation of the commanded path.
 //!
-//! - [`posture`]: turn of the tool and branch along a path.
+//! - [`posture`]: spin and lean of the tool, external axes and branch along a path.
 //! - [`holes`]: the same at single points (holes).
 //! - [`placement`]: score of a placement of the part.
 //! - [`compensation`]: the commanded path for which the tool follows the nominal path.
@@ -9,13 +9,18 @@
 //!   of two robots.
 //! - [`reversals`](fn@reversals): number of reversals of each joint.
 //!
-//! `spins`: the turns that are tried; `chain`: the chain of postures with the lowest cost; `links`: transitions between
-//! neighbouring points; `heading`: directions of the joints; `winding`: their whole turns; `lattice`: data for pictures; `smooth`: turns without
-//! steps; `rank_by`: uncertainty of the cost of a placement.
+//! Of the search along a path, in reading order: `steps` and `freedoms`: what may be chosen; `window`: the settings that are
+//! tried at a point; `grid`: which are neighbours; `column_at`: their postures; `links`: transitions between neighbouring
+//! points; `heading`: directions of the joints; `winding`: their whole turns; `chain`: the chain of postures with the
+//! lowest cost; `walk`: one pass along the path; `refined`: one after the other; `smooth`: settings without steps;
+//! `lattice`: data for pictures. `rank_by`: uncertainty of the cost of a placement.
 
 mod chain;
+mod column_at;
 pub mod compensation;
+mod freedoms;
 mod gain;
+mod grid;
 mod heading;
 pub mod holes;
 mod lattice;
@@ -24,13 +29,17 @@ pub mod nodes;
 pub mod placement;
 pub mod posture;
 mod rank_by;
+mod refined;
 mod reversals;
 mod sensitivity;
 mod smooth;
-mod spins;
+mod steps;
+mod walk;
 mod winding;
+mod window;
 
 pub use compensation::{Compensated, Compensation, compensated, residual_of};
+pub use freedoms::{LeanRange, MOST_MOVING, MovingAxis};
 pub use gain::{FollowedTrack, Gain, LeastGain, gain, gain_along};
 pub use holes::{HolesFound, hole_postures};
 pub use lattice::Lattice;
@@ -42,4 +51,4 @@ pub use posture::{Component, Objective, PostureFound, PostureSearch, postures_al
 pub use rank_by::RankBy;
 pub use reversals::reversals;
 pub use sensitivity::{InputKind, Sensitivity, SharedInputs, sensitivity};
-pub use spins::Spins;
+pub use steps::Steps;

@@ -17,9 +17,10 @@ use nalgebra::{Unit, UnitQuaternion, Vector3};
 use rayon::prelude::*;
 
 use super::gain::Gain;
-use super::posture::{Component, Objective, WITHIN};
+use super::posture::{Component, Objective};
+use super::walk::WITHIN;
 use super::rank_by::{RankBy, changed_arms};
-use super::spins::Spins;
+use super::steps::Steps;
 use crate::frame::{Isometry, tool_orientation};
 use crate::kernel::{
     PartPlacement, PathTotals, PathWrenches, PlacedPath, PlacedPoint, PlacementEvaluator, PlacementScreen,
@@ -57,7 +58,7 @@ pub enum PostureSelection {
     /// One branch for all points, with the spin of the placement: a path.
     ForPath,
     /// The best branch and the best of these spins for each point: holes.
-    PerPoint(Spins),
+    PerPoint(Steps),
 }
 
 /// A path that can be placed.

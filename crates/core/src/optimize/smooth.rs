@@ -1,39 +1,38 @@
-//! Smooths the turns of the tool: removes the steps of the lattice of a search.
+//! Smooths spin, lean and external axes: removes the steps of the lattice of a search.
 //!
-//! Straight lines through the middles of the steps, so that every turn is within half a step of the chain. A line ends
+//! Straight lines through the middles of the steps, so that every value is within half a step of the chain. A line ends
 //! where the arm stops and changes its posture, and at rapids.
 
-use std::f64::consts::TAU;
-
-use super::spins::Spins;
-use crate::kernel::SLOTS;
 use crate::path::SampledPath;
 
-/// The turn at each point, rad, of the chain with these `states`; `breaks` as in the chain, in ascending order.
+/// The value of a freedom at each point, rad (m), of a chain with these values in steps of `step`, `None` where it has no
+/// state; `period`: of a spin, a whole turn. `breaks` as in the chain, in ascending order.
 pub(super) fn without_steps(
     path: &SampledPath,
-    spins: &Spins,
-    states: &[Option<usize>],
+    (step, period): (f64, Option<f64>),
+    values: &[Option<f64>],
     breaks: &[usize],
 ) -> Vec<f64> {
     let begins = |index: usize| path.begins(index) || breaks.binary_search(&index).is_ok();
-    let mut turns: Vec<f64> = Vec::with_capacity(states.len());
-    for (index, state) in states.iter().enumerate() {
-        let here = state.map(|state| spins.at(state / SLOTS));
+    let mut turns: Vec<f64> = Vec::with_capacity(values.len());
+    let first = values.iter().flatten().next().copied().unwrap_or(0.0);
+    for (index, here) in values.iter().enumerate() {
         let before = turns.last().copied();
-        turns.push(match (here, before) {
+        turns.push(match (*here, before, period) {
             // The shorter direction from the point before.
-            (Some(here), Some(before)) if !begins(index) => here + TAU * ((before - here) / TAU).round(),
-            (Some(here), _) => here,
-            (None, before) => before.unwrap_or(0.0),
+            (Some(here), Some(before), Some(period)) if !begins(index) => {
+                here + period * ((before - here) / period).round()
+            }
+            (Some(here), ..) => here,
+            (None, before, _) => before.unwrap_or(first),
         });
     }
     let mut smooth = turns.clone();
-    let starts: Vec<usize> = (0..states.len()).filter(|index| begins(*index)).collect();
-    let ends = starts.iter().skip(1).copied().chain([states.len()]);
+    let starts: Vec<usize> = (0..values.len()).filter(|index| begins(*index)).collect();
+    let ends = starts.iter().skip(1).copied().chain([values.len()]);
     for (start, end) in starts.iter().zip(ends) {
         let along: Vec<f64> = path.points[*start..end].iter().map(|point| point.along).collect();
-        straighten(&along, spins.step, &mut smooth[*start..end]);
+        straighten(&along, step, &mut smooth[*start..end]);
     }
     smooth
 }
@@ -77,13 +76,16 @@ fn straighten(along: &[f64], step: f64, turns: &mut [f64]) {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::TAU;
+
     use nalgebra::Point2;
 
     use super::*;
+    use crate::optimize::Steps;
     use crate::arms::Stream;
     use crate::path::Shape;
 
-    const SPINS: Spins = Spins {
+    const SPINS: Steps = Steps {
         first: -0.5,
         step: 0.1,
         count: 40,
@@ -94,14 +96,15 @@ mod tests {
         Shape::Polyline(vec![Point2::origin(), end]).sampled(1.0)
     }
 
-    fn states(turns: &[usize]) -> Vec<Option<usize>> {
-        turns.iter().map(|turn| Some(turn * SLOTS)).collect()
+    fn smoothed(turns: &[usize], breaks: &[usize]) -> Vec<f64> {
+        let values: Vec<_> = turns.iter().map(|turn| Some(SPINS.at(*turn))).collect();
+        without_steps(&path(turns.len()), (SPINS.step, Some(TAU)), &values, breaks)
     }
 
     #[test]
     fn a_staircase_becomes_a_line_and_its_ends_stay() {
         let turns: Vec<usize> = (0..41).map(|i| i / 4).collect();
-        let smooth = without_steps(&path(41), &SPINS, &states(&turns), &[]);
+        let smooth = smoothed(&turns, &[]);
         assert!((smooth[0] - SPINS.at(0)).abs() < 1e-12 && (smooth[40] - SPINS.at(10)).abs() < 1e-12);
         // A step in four points, 0.025 rad each; the last is half a step in half a point, and half of 0.025 before it.
         assert!(
@@ -129,7 +132,7 @@ mod tests {
                     turn as usize
                 })
                 .collect();
-            let smooth = without_steps(&path(count), &SPINS, &states(&turns), &breaks);
+            let smooth = smoothed(&turns, &breaks);
             for (smooth, turn) in smooth.iter().zip(&turns) {
                 // Rounding of turns of a few radians.
                 assert!(

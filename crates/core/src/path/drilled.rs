@@ -109,6 +109,7 @@ mod tests {
         let point = |direction: &[f64; 3]| PathPoint {
             at: Point3::origin(),
             axis: None,
+            normal: None,
             spin: None,
             direction: Unit::new_normalize((*direction).into()),
             along: 0.0,

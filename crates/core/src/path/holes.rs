@@ -35,6 +35,7 @@ pub fn path_of_holes(holes: &[Hole]) -> SampledPath {
     let point = |hole: &Hole| PathPoint {
         at: hole.at,
         axis: Some(hole.axis),
+        normal: None,
         spin: None,
         direction: -hole.axis,
         along: 0.0,

@@ -2,7 +2,7 @@
 //!
 //! [`program`]: the moves of a tool path program. [`sampler`]: those moves as points. [`shape`]: circles and lines on a
 //! workpiece plane. [`sampled`]: the points of either. [`placing`] and [`track`]: position in the cell and turn of the
-//! tool; [`spin_curve`]: a turn that changes along the path. [`thinned`](mod@thinned): fewer points of a path. [`clock`]: time at each point. [`stock`], `sweep`, `pass`,
+//! tool; [`spin_curve`]: a turn that changes along the path; `lean`: the tool leans from the programmed axis. [`thinned`](mod@thinned): fewer points of a path. [`clock`]: time at each point. [`stock`], `sweep`, `pass`,
 //! `strip` and [`engagement`]: engagement of the cutter; [`cutting`], [`drilled`]: its forces. [`feature`]: errors of
 //! the circle, line, plane or hole produced. [`holes`]: single points.
 
@@ -12,6 +12,7 @@ pub mod drilled;
 pub mod engagement;
 pub mod feature;
 pub mod holes;
+mod lean;
 mod pass;
 pub mod placing;
 pub mod program;
@@ -32,6 +33,7 @@ pub use drilled::Drill;
 pub use engagement::{EngagementKind, PassEngagement};
 pub use feature::{DeviatedPoint, FeatureErrors, FeatureKind, feature_errors};
 pub use holes::{Hole, drilled_holes, path_of_holes};
+pub use lean::{Lean, RoundedEnd};
 pub use pass::Pass;
 pub use placing::{Placing, Spin};
 pub use program::{Arc, Command, Course, DepthOfCut, GivenSpin, Move, Operation, Pace, Step};

@@ -74,6 +74,11 @@ impl Placing {
         point.axis.filter(|_| !self.keeps_axis).unwrap_or(self.axis)
     }
 
+    /// Outward normal of the surface that is cut at `point`, base: the tool axis, unless the tool leans from it.
+    pub fn normal(&self, point: &PathPoint) -> Unit<Vector3<f64>> {
+        self.base_from_path.rotation * point.normal.unwrap_or_else(|| self.path_spindle(point))
+    }
+
     /// The tool pose at `point`.
     pub fn base_from_tool(&self, point: &PathPoint) -> Isometry {
         let axis = -self.spindle(point);
@@ -86,7 +91,7 @@ impl Placing {
             },
             Spin::AlongFeed(angle) => {
                 let tool = axis.into_inner();
-                let x = self.across(point).unwrap_or_else(|| self.unspun_x(point));
+                let x = self.across(point, &self.spindle(point)).unwrap_or_else(|| self.unspun_x(point));
                 let axes = Matrix3::from_columns(&[x, tool.cross(&x), tool]);
                 let along = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
                 UnitQuaternion::from_axis_angle(&axis, angle) * along
@@ -116,11 +121,21 @@ impl Placing {
 
     /// Axes of the feed frame at `point`, in base.
     pub fn base_from_feed(&self, point: &PathPoint) -> Rotation3<f64> {
-        let z = self.spindle(point).into_inner();
+        self.along_feed(point, self.spindle(point))
+    }
+
+    /// Axes of the surface that is cut at `point`, in base: those of the feed frame, unless the tool leans from the normal
+    /// of the surface; then z is this normal.
+    pub fn base_from_surface(&self, point: &PathPoint) -> Rotation3<f64> {
+        self.along_feed(point, self.normal(point))
+    }
+
+    /// Axes with this z, base, and x along the feed.
+    fn along_feed(&self, point: &PathPoint, z: Unit<Vector3<f64>>) -> Rotation3<f64> {
         let x = self
-            .across(point)
+            .across(point, &z)
             .unwrap_or_else(|| self.base_from_tool(point) * Vector3::x());
-        Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[x, z.cross(&x), z]))
+        Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[x, z.cross(&x), z.into_inner()]))
     }
 
     /// Advance of the tool at `point`: across its axis, on a ramp, along it.
@@ -131,16 +146,20 @@ impl Placing {
         )
     }
 
-    /// Where the tip goes across the tool, base; `None` in a plunge.
-    fn across(&self, point: &PathPoint) -> Option<Vector3<f64>> {
-        let feed = (self.base_from_path.rotation * point.direction).into_inner();
-        let z = self.spindle(point);
-        (feed - z.into_inner() * feed.dot(&z)).try_normalize(PLUNGE)
+    /// Where the tip goes across the direction `z`, base; `None` along it.
+    fn across(&self, point: &PathPoint, z: &Unit<Vector3<f64>>) -> Option<Vector3<f64>> {
+        across(&(self.base_from_path.rotation * point.direction), z)
     }
 
     fn unspun_x(&self, point: &PathPoint) -> Vector3<f64> {
         tool_orientation(-self.spindle(point), 0.0) * Vector3::x()
     }
+}
+
+/// The part of `feed` across `z`, of length 1; `None` along it.
+pub(super) fn across(feed: &Unit<Vector3<f64>>, z: &Unit<Vector3<f64>>) -> Option<Vector3<f64>> {
+    let feed = feed.into_inner();
+    (feed - z.into_inner() * feed.dot(z)).try_normalize(PLUNGE)
 }
 
 #[cfg(test)]
@@ -154,6 +173,7 @@ mod tests {
         PathPoint {
             at: Point3::new(0.1, 0.2, 0.3),
             axis: axis.map(Unit::new_normalize),
+            normal: None,
             spin: None,
             direction: Unit::new_normalize(direction),
             along: 0.0,

@@ -28,6 +28,8 @@ pub struct PathPoint {
     pub at: Point3<f64>,
     /// The tool, from the tip towards the spindle, if given in the program.
     pub axis: Option<Unit<Vector3<f64>>>,
+    /// Normal of the surface that is cut, out of the part, where the tool leans from it; `None`: the tool axis.
+    pub normal: Option<Unit<Vector3<f64>>>,
     /// Turn of the tool about its axis, if given in the program.
     pub spin: Option<GivenSpin>,
     /// Feed direction.
@@ -120,6 +122,7 @@ impl Sampler {
                         Some(GivenSpin::Orientation(turned)) => Some(spindle(&turned)),
                         Some(GivenSpin::Angle(_)) | None => way.axis(part),
                     },
+                    normal: None,
                     spin,
                     direction: way.direction(part),
                     along: self.along + way.length * part,

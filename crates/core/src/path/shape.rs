@@ -101,6 +101,7 @@ fn point(at: Point2<f64>, direction: Vector2<f64>, along: f64, piece: usize) -> 
     PathPoint {
         at: Point3::new(at.x, at.y, 0.0),
         axis: None,
+        normal: None,
         spin: None,
         direction: Unit::new_normalize(Vector3::new(direction.x, direction.y, 0.0)),
         along,

@@ -2,6 +2,7 @@
 
 use nalgebra::{Rotation3, Unit, UnitQuaternion, Vector3};
 
+use super::lean::{Lean, RoundedEnd};
 use super::placing::Placing;
 use super::sampled::SampledPath;
 use super::sampler::PathPoint;
@@ -20,6 +21,9 @@ pub struct Track {
     pub base_from_part: Isometry,
     /// Additional turn of the tool about its axis, rad, point after point; `None` without.
     pub spins: Option<Vec<f64>>,
+    /// Home positions of the robot, rad (m), one a joint, point after point, where an external axis moves along the path;
+    /// `None`: the same at all points.
+    pub homes: Option<Vec<f64>>,
 }
 
 /// A point of a track: tool pose, and normal for splitting deviations.
@@ -27,7 +31,7 @@ pub struct Track {
 pub struct Stop {
     /// The tool pose.
     pub base_from_tool: Isometry,
-    /// The normal, base: from the tip towards the spindle.
+    /// Outward normal of the surface that is cut, base: the tool axis from the tip to the spindle, unless the tool leans.
     pub normal: Unit<Vector3<f64>>,
 }
 
@@ -90,6 +94,9 @@ impl Track {
         if let Some(spins) = &mut closed.spins {
             spins.extend(spins.first().copied());
         }
+        if let Some(homes) = &mut closed.homes {
+            homes.extend_from_within(..homes.len() / self.len());
+        }
         closed
     }
 
@@ -104,6 +111,7 @@ impl Track {
                 ..self.placing
             },
             spins: None,
+            homes: self.homes.clone(),
             path: self.path.clone(),
         };
         let turned = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), spin);
@@ -139,6 +147,7 @@ impl Track {
                 ..self.path.clone()
             },
             spins: spins.map(|spins| spins.iter().copied().step_by(stride).collect()),
+            homes: self.homes_at((0..self.len()).step_by(stride)),
             ..*self
         }
     }
@@ -155,8 +164,16 @@ impl Track {
                 ..SampledPath::default()
             },
             spins: spins.map(|spins| indices.iter().map(|index| spins[*index]).collect()),
+            homes: self.homes_at(indices.iter().copied()),
             ..*self
         }
+    }
+
+    /// [`Track::homes`] at these points.
+    pub fn homes_at(&self, indices: impl Iterator<Item = usize>) -> Option<Vec<f64>> {
+        let homes = self.homes.as_ref()?;
+        let width = homes.len().checked_div(self.len())?;
+        Some(indices.flat_map(|index| &homes[index * width..][..width]).copied().collect())
     }
 
     /// The track with the tool turned by `spin` (rad) about its axis at all points, in addition.
@@ -168,21 +185,45 @@ impl Track {
         }
     }
 
-    /// The tool pose at point `index`, and the tool axis as its normal.
+    /// The tool pose at point `index`, and the normal there.
     pub fn stop(&self, index: usize) -> Stop {
-        let point = &self.path.points[index];
-        let placed = self.placing.base_from_tool(point);
         let spin = self.spins.as_ref().map(|spins| spins[index]);
-        let about_axis = |spin| UnitQuaternion::from_axis_angle(&Vector3::z_axis(), spin);
-        Stop {
-            base_from_tool: spin.map_or(placed, |spin| placed * about_axis(spin)),
-            normal: self.placing.spindle(point),
+        stop_at(&self.placing, &self.path.points[index], spin)
+    }
+
+    /// The track with the tool leaning by `leans` from its axis, point after point, for a tool with this end.
+    ///
+    /// # Panics
+    /// If there are fewer leans than points.
+    pub fn leaning(&self, leans: &[Lean], end: RoundedEnd) -> Track {
+        let mut track = self.clone();
+        track.placing.keeps_axis = false;
+        for (index, point) in track.path.points.iter_mut().enumerate() {
+            *point = self.placing.leaned(point, leans[index], end);
+        }
+        track
+    }
+
+    /// [`Track::loaded_stop`] of [`Track::leaning`].
+    pub fn leaning_stop(&self, index: usize, (lean, end): (Lean, RoundedEnd), load: &PathLoad) -> LoadedStop {
+        let point = self.placing.leaned(&self.path.points[index], lean, end);
+        let placing = Placing {
+            keeps_axis: false,
+            ..self.placing
+        };
+        let spin = self.spins.as_ref().map(|spins| spins[index]);
+        let axes = placing.base_from_feed(&point);
+        let mut cases = vec![Wrench::ZERO; load.case_count()];
+        load.in_base(index, &self.base_from_part, &axes, &mut cases);
+        LoadedStop {
+            stop: stop_at(&placing, &point, spin),
+            cases,
         }
     }
 
     /// A deviation (m, base) at point `index`, in the feed frame.
     pub fn parts(&self, index: usize, deviation: &Vector3<f64>) -> Parts {
-        let seen = self.base_from_feed(index).inverse() * deviation;
+        let seen = self.base_from_surface(index).inverse() * deviation;
         Parts {
             along: seen.x,
             cross: seen.y,
@@ -193,6 +234,11 @@ impl Track {
     /// Axes of the feed frame at point `index`, in base.
     pub fn base_from_feed(&self, index: usize) -> Rotation3<f64> {
         self.placing.base_from_feed(&self.path.points[index])
+    }
+
+    /// Axes of the surface that is cut at point `index`, in base: see [`Placing::base_from_surface`].
+    pub fn base_from_surface(&self, index: usize) -> Rotation3<f64> {
+        self.placing.base_from_surface(&self.path.points[index])
     }
 
     /// Fills in the wrenches of `load` at point `index`, base.
@@ -211,11 +257,21 @@ impl Track {
         }
     }
 
-    /// The tool axis, from the tip towards the spindle, base, if it is the same at all points.
+    /// The normal of the surface that is cut, base, if it is the same at all points.
     pub fn steady_normal(&self) -> Option<Unit<Vector3<f64>>> {
         let first = self.path.points.first()?;
-        let same = |axis| self.placing.keeps_axis || axis == first.axis;
-        let steady = self.path.points.iter().all(|point| same(point.axis));
-        steady.then(|| self.placing.spindle(first))
+        let given = |point: &PathPoint| point.normal.or(point.axis.filter(|_| !self.placing.keeps_axis));
+        let steady = self.path.points.iter().all(|point| given(point) == given(first));
+        steady.then(|| self.placing.normal(first))
+    }
+}
+
+/// The tool pose at a point with this additional spin (rad), and the normal there.
+fn stop_at(placing: &Placing, point: &PathPoint, spin: Option<f64>) -> Stop {
+    let placed = placing.base_from_tool(point);
+    let about_axis = |spin| UnitQuaternion::from_axis_angle(&Vector3::z_axis(), spin);
+    Stop {
+        base_from_tool: spin.map_or(placed, |spin| placed * about_axis(spin)),
+        normal: placing.normal(point),
     }
 }

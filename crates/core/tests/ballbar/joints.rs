@@ -141,6 +141,7 @@ fn the_effect_is_the_deviation_that_a_path_has() {
             placing: circle.placing,
             base_from_part: circle.placing.base_from_path,
             spins: None,
+            homes: None,
         };
         let load = PathLoad::Cases(LoadCases {
             frame: LoadFrame::Base,

@@ -96,6 +96,7 @@ pub fn ring() -> Track {
         placing: circle.placing,
         base_from_part: circle.placing.base_from_path,
         spins: None,
+        homes: None,
     }
 }
 

@@ -35,6 +35,7 @@ fn along<T>(robot: &Robot, choice: BranchChoice, then: impl FnOnce(&Question<'_>
         Wrench::from_force(Vector3::new(-20.0, 4.0, 1.0)),
     ];
     let question = Question {
+        homes: None,
         arm: Arm {
             robot,
             compliance: robot.compliance().unwrap(),

@@ -52,6 +52,7 @@ fn analysis<T>(
 ) -> T {
     let tool = arms::bent_tool();
     then(&Question {
+        homes: None,
         arm: Arm {
             robot,
             compliance: robot.compliance().unwrap(),

@@ -76,6 +76,7 @@ fn track() -> Track {
         },
         base_from_part,
         spins: None,
+        homes: None,
     }
 }
 
@@ -102,6 +103,7 @@ fn question<'a>(
     choice: BranchChoice,
 ) -> Question<'a> {
     Question {
+        homes: None,
         arm: Arm {
             robot,
             compliance: robot.compliance().unwrap(),

@@ -37,6 +37,7 @@ fn maps_and_known_joints_agree_with_predict_on_any_number_of_threads() {
         BranchChoice::Of("front elbow-up".parse().unwrap()),
     ] {
         let question = Question {
+            homes: None,
             arm: Arm {
                 robot: &robot,
                 compliance: robot.compliance().unwrap(),
@@ -112,6 +113,7 @@ fn a_load_without_equilibrium_is_a_state_of_its_points() {
     };
     let cases = [Wrench::from_force(Vector3::new(0.0, 0.0, -1e6))];
     let question = Question {
+        homes: None,
         arm: Arm {
             robot: &robot,
             compliance: robot.compliance().unwrap(),

@@ -1,6 +1,6 @@
 //! `posture.search`: spins of the tool and branches to search along a path, and the objective.
 
-use armill_core::optimize::{Component, Objective, PostureSearch, Spins};
+use armill_core::optimize::{Component, Objective, PostureSearch, Steps};
 use armill_core::robot::BranchPattern;
 use armill_core::units::{from_deg, from_per_mm};
 use schemars::JsonSchema;
@@ -133,11 +133,13 @@ impl SearchTable {
         let full = last - first > 360.0 - FULL && (steps * step - 360.0).abs() < FULL;
         let count = steps as usize + usize::from(!full);
         Ok(PostureSearch {
-            spins: Spins {
+            spins: Steps {
                 first: from_deg(first),
                 step: from_deg(step),
                 count,
             },
+            lean: None,
+            axes: Vec::new(),
             component: self.component.unwrap_or(ComponentName::InPlane).component(),
             objective: self
                 .objective

@@ -5,7 +5,7 @@
 
 use armill_core::kernel::AT_LIMIT;
 use armill_core::map::{ObstacleKind, SpinCell, spin_map as map_of};
-use armill_core::optimize::{PostureSearch, Spins};
+use armill_core::optimize::{PostureSearch, Steps};
 use armill_core::path::{LoadedTrack, SpinCurve, Track};
 use armill_core::robot::Robot;
 use armill_core::units::{from_deg, to_deg, to_mm, to_um};
@@ -256,6 +256,7 @@ fn path_of<'a>(edited: &'a EditedAnalysis<'_>) -> Result<&'a PathAnalysis, Study
 fn without_curve(path: &PathAnalysis) -> Track {
     Track {
         spins: None,
+        homes: None,
         ..path.track.clone()
     }
 }
@@ -264,7 +265,7 @@ fn without_curve(path: &PathAnalysis) -> Track {
 fn rows_of(search: Option<&PostureSearch>, constant: f64) -> Vec<f64> {
     let [first, last] = match search {
         Some(PostureSearch {
-            spins: spins @ Spins { first, count, .. },
+            spins: spins @ Steps { first, count, .. },
             ..
         }) => {
             // The last spin of a full turn is its first, and is drawn too.

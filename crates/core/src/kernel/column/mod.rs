@@ -136,7 +136,7 @@ impl<'q> Columns<'q> {
                 frames: Frames::for_robot(arm.robot),
                 arm_state: ArmState::new(arm),
                 tool_from_flange: arm.flange_from_tool.inverse(),
-                rail: None,
+                home: None,
                 link_offsets: None,
             })),
             clearance: None,
@@ -146,26 +146,32 @@ impl<'q> Columns<'q> {
     /// Fixes the first prismatic joint at `at` (m) from here on; `None`: where the question specifies it. The arms of the
     /// drives-only lanes have none.
     pub(super) fn set_rail(&mut self, at: Option<f64>) {
-        let (ColumnMethod::General(rest) | ColumnMethod::Whole(_, rest)) = &mut self.method else {
-            return;
-        };
         let robot = self.margins.arm.robot;
         let rail = (0..robot.joints().len()).find(|joint| robot.slides(*joint));
-        rest.rail = at.zip(rail).map(|(at, rail)| {
+        self.set_home(at.zip(rail).map(|(at, rail)| {
             let mut home = robot.home(self.margins.home);
             home[rail] = at;
             home
-        });
+        }));
+    }
+
+    /// Home positions, rad (m), one per joint, from here on; `None`: those of the question. The arms of the drives-only
+    /// lanes have none that matter.
+    pub(crate) fn set_home(&mut self, home: Option<Vec<f64>>) {
+        let (ColumnMethod::General(rest) | ColumnMethod::Whole(_, rest)) = &mut self.method else {
+            return;
+        };
+        rest.home = home;
         if let ColumnMethod::Whole(lanes, rest) = &mut self.method {
-            lanes.set_home(rest.rail.as_deref().or(self.margins.home));
+            lanes.set_home(rest.home.as_deref().or(self.margins.home));
         }
     }
 
-    /// Joint positions at home, rad (m), with the rail where it was fixed.
-    pub(super) fn home(&self) -> Option<&[f64]> {
+    /// Joint positions at home, rad (m), as they were fixed.
+    pub(crate) fn home(&self) -> Option<&[f64]> {
         match &self.method {
             ColumnMethod::General(rest) | ColumnMethod::Whole(_, rest) => {
-                rest.rail.as_deref().or(self.margins.home)
+                rest.home.as_deref().or(self.margins.home)
             }
             ColumnMethod::Lanes(_) => self.margins.home,
         }

@@ -29,8 +29,8 @@ pub(super) struct OneByOne<'q> {
     pub frames: Frames,
     pub arm_state: ArmState<'q>,
     pub tool_from_flange: Isometry,
-    /// Joint positions at home, with the rail where it was fixed; `None` where the question specifies it.
-    pub rail: Option<Vec<f64>>,
+    /// Joint positions at home, as they were fixed; `None` where the question specifies it.
+    pub home: Option<Vec<f64>>,
     /// Link offsets in the backlash, rad (m); `None` where only the load is included.
     pub link_offsets: Option<Vec<f64>>,
 }
@@ -42,7 +42,7 @@ impl OneByOne<'_> {
         let requested = InverseTarget {
             base_from_flange: pose * self.tool_from_flange,
             near: None,
-            home: self.rail.as_deref().or(margins.home),
+            home: self.home.as_deref().or(margins.home),
         };
         // The result at the pose before is not a start value: columns may come in any order.
         self.finder.forget();

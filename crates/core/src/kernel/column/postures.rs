@@ -87,6 +87,20 @@ impl Column {
         }
     }
 
+    /// Excludes all postures of pose `index`.
+    pub(crate) fn forbid_pose(&mut self, index: usize) {
+        let slots = index * SLOTS..(index + 1) * SLOTS;
+        self.statuses[slots.clone()].fill(PostureStatus::OutOfReach);
+        self.deviations[slots].fill(f64::INFINITY);
+    }
+
+    /// Adds the poses of another column.
+    pub(crate) fn append(&mut self, other: &Column) {
+        self.statuses.extend_from_slice(&other.statuses);
+        self.deviations.extend_from_slice(&other.deviations);
+        self.joints.extend_from_slice(&other.joints);
+    }
+
     /// Excludes posture `slot` at every pose.
     pub(crate) fn forbid(&mut self, slot: usize) {
         for at in (slot..self.statuses.len()).step_by(SLOTS) {
@@ -119,7 +133,7 @@ impl Column {
         }
     }
 
-    pub(super) fn clear(&mut self, poses: usize, joint_count: usize) {
+    pub(crate) fn clear(&mut self, poses: usize, joint_count: usize) {
         self.statuses.clear();
         self.statuses.resize(poses * SLOTS, PostureStatus::OutOfReach);
         self.deviations.clear();

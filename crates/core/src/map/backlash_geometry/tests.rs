@@ -41,6 +41,7 @@ fn track(backwards: bool) -> Track {
         },
         base_from_part: plane.base_from_part,
         spins: None,
+        homes: None,
     }
 }
 

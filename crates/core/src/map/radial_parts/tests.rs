@@ -27,6 +27,7 @@ fn track() -> Track {
         },
         base_from_part: plane.base_from_part,
         spins: None,
+        homes: None,
     }
 }
 

@@ -78,6 +78,7 @@ fn line(spin: f64, step: f64) -> Track {
         },
         base_from_part: plane.base_from_part,
         spins: None,
+        homes: None,
     }
 }
 

@@ -39,10 +39,10 @@ impl Links for MadeLinks {
         };
         Heading::of((0..3).map(up))
     }
-    fn turns(&self, turn: usize, next: usize, from: usize, to: usize) -> bool {
-        self.exists([1, turn, next, from, to])
+    fn turns(&self, axis: usize, [from, to]: [usize; 2]) -> bool {
+        self.exists([1, axis, from, to, 0])
     }
-    fn moves_by_turn(&self, _: usize, _: usize, _: usize, _: usize) -> Heading {
+    fn moves_by_turn(&self, _: [usize; 2]) -> Heading {
         unreachable!("the tool keeps its turn wherever reversals have a price")
     }
     fn starts(&self, _: usize) -> Winding {
@@ -58,9 +58,10 @@ impl Links for MadeLinks {
 
 fn made(seed: u64, kept_slots: bool) -> Made {
     let mut random = Stream(seed);
+    let mut up_to = |most: f64| 1 + (random.next() * most) as usize;
+    let counts = [up_to(4.0), up_to(3.0), 1, up_to(1.5), 1, 1];
     let turns = Turns {
-        count: 1 + (random.next() * 4.0) as usize,
-        around: random.next() < 0.5,
+        grid: Grid::new(counts, random.next() < 0.5),
         kept_slots,
         price: 0.1 * random.next(),
         back_price: 0.0,
@@ -75,7 +76,7 @@ fn made(seed: u64, kept_slots: bool) -> Made {
     let costs: Vec<Vec<f64>> = (0..columns)
         .map(|_| {
             let unreachable = random.next() < 0.1;
-            (0..turns.count * SLOTS)
+            (0..turns.grid.len() * SLOTS)
                 .map(|state| {
                     if unreachable || state % SLOTS > 1 {
                         f64::INFINITY
@@ -90,7 +91,10 @@ fn made(seed: u64, kept_slots: bool) -> Made {
         .map(|i| match (i, random.next()) {
             (0, _) => Beginning::Restart,
             (_, part) if part < 0.1 => Beginning::Restart,
-            (_, part) => Beginning::Follows((part * 3.0) as usize),
+            (_, part) => {
+                let steps = (part * 3.0) as usize;
+                Beginning::Follows([steps, 2 - steps, 0, 1, 0, 0])
+            }
         })
         .collect();
     Made {
@@ -116,36 +120,32 @@ fn found(made: &Made, together: Together) -> Cheapest {
     chain.cheapest()
 }
 
-/// Steps of the cheapest turn in column `column` from one state to another; `None` where there is none.
-fn steps(made: &Made, column: usize, from: usize, to: usize, most: usize) -> Option<usize> {
+/// Fewest steps in column `column` from one state to another, at most `most` along each axis, one axis after the other;
+/// `None` where there is no way.
+fn steps(made: &Made, column: usize, from: usize, to: usize, most: [usize; AXES]) -> Option<usize> {
     let links = MadeLinks {
         seed: made.seed,
         column,
     };
-    let costs = &made.costs[column];
-    let mut reached = vec![from];
-    for by in 0..=most {
-        if reached.contains(&to) {
-            return Some(by);
-        }
-        let mut next = reached.clone();
-        for state in &reached {
-            for (_, turn) in neighbours(state / SLOTS, made.turns.count, made.turns.around) {
-                for slot in 0..SLOTS {
-                    let there = turn * SLOTS + slot;
-                    let same = !made.turns.kept_slots || slot == state % SLOTS;
-                    if same
-                        && costs[there].is_finite()
-                        && links.turns(state / SLOTS, turn, state % SLOTS, slot)
-                    {
-                        next.push(there);
+    let (costs, grid) = (&made.costs[column], made.turns.grid);
+    let mut reached = std::collections::BTreeMap::from([(from, 0)]);
+    for axis in grid.free_axes() {
+        for _ in 0..most[axis] {
+            for (state, by) in reached.clone() {
+                for (_, turn) in grid.neighbours(state / SLOTS, axis) {
+                    for slot in 0..SLOTS {
+                        let there = turn * SLOTS + slot;
+                        let same = !made.turns.kept_slots || slot == state % SLOTS;
+                        if same && costs[there].is_finite() && links.turns(axis, [state, there]) {
+                            let fewest = reached.entry(there).or_insert(by + 1);
+                            *fewest = (*fewest).min(by + 1);
+                        }
                     }
                 }
             }
         }
-        reached = next;
     }
-    None
+    reached.get(&to).copied()
 }
 
 /// Cost from a state of the column before to one of this column; `None` where there is no transition.
@@ -266,7 +266,7 @@ fn a_price_reduces_reversals_and_with_a_fixed_turn_the_chain_is_the_cheapest() {
     for seed in 0..20_000 {
         let mut made = made(seed, true);
         for beginning in &mut made.beginnings[1..] {
-            *beginning = Beginning::Follows(0);
+            *beginning = Beginning::Follows([0; AXES]);
         }
         let without = found(&made, Together::Sum);
         made.turns.back_price = 0.4;
@@ -288,7 +288,7 @@ fn a_price_reduces_reversals_and_with_a_fixed_turn_the_chain_is_the_cheapest() {
         );
         assert!(given(&with) <= given(&without) + 1e-12, "seed {seed}");
         // Each turn and slot is a separate chain.
-        let all = (0..made.turns.count * SLOTS).filter_map(|state| {
+        let all = (0..made.turns.grid.len() * SLOTS).filter_map(|state| {
             let chain = vec![state; made.costs.len()];
             let links = |column| MadeLinks { seed, column };
             let goes_on = |column: usize| links(column).goes_on(state / SLOTS, state % SLOTS, state % SLOTS);
@@ -317,10 +317,10 @@ fn the_tool_turns_in_the_shorter_direction_and_no_faster_than_allowed() {
         fn moves_on(&self, _: usize, _: usize, _: usize) -> Heading {
             Heading::default()
         }
-        fn turns(&self, _: usize, _: usize, _: usize, _: usize) -> bool {
+        fn turns(&self, _: usize, _: [usize; 2]) -> bool {
             true
         }
-        fn moves_by_turn(&self, _: usize, _: usize, _: usize, _: usize) -> Heading {
+        fn moves_by_turn(&self, _: [usize; 2]) -> Heading {
             Heading::default()
         }
         fn starts(&self, _: usize) -> Winding {
@@ -335,8 +335,7 @@ fn the_tool_turns_in_the_shorter_direction_and_no_faster_than_allowed() {
     }
     let lattice = |around, steps| {
         let turns = Turns {
-            count: 72,
-            around,
+            grid: Grid::of_spins(72, around),
             kept_slots: true,
             price: 0.0,
             back_price: 0.0,
@@ -351,8 +350,9 @@ fn the_tool_turns_in_the_shorter_direction_and_no_faster_than_allowed() {
         let mut first = vec![f64::INFINITY; 72 * SLOTS];
         first[70 * SLOTS] = 1.0;
         chain.take(&first, Beginning::Restart, &All);
-        chain.take(&[1.0; 72 * SLOTS], Beginning::Follows(steps), &All);
-        chain.take(&dear_but(3), Beginning::Follows(steps), &All);
+        let follows = Beginning::Follows([steps, 0, 0, 0, 0, 0]);
+        chain.take(&[1.0; 72 * SLOTS], follows, &All);
+        chain.take(&dear_but(3), follows, &All);
         let cheapest = chain.cheapest();
         assert_eq!(cheapest.breaks, []);
         cheapest.cost
@@ -360,15 +360,5 @@ fn the_tool_turns_in_the_shorter_direction_and_no_faster_than_allowed() {
     // From 70 to 3 are five steps over the end, three and two; in the other direction 67.
     assert_eq!(lattice(true, 3), 3.0);
     assert_eq!(lattice(true, 2), 102.0);
-    assert_eq!(lattice(false, MOST_STEPS), 102.0);
-}
-
-#[test]
-fn a_back_pointer_fits_a_byte() {
-    let most = MOST_STEPS as isize;
-    for steps in -most..=most {
-        for slot in 0..SLOTS {
-            assert_eq!(steps_and_slot(way(steps, slot)), (steps, slot));
-        }
-    }
+    assert_eq!(lattice(false, usize::MAX), 102.0);
 }

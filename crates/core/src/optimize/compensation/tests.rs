@@ -21,6 +21,7 @@ fn track() -> Track {
         placing: Placing::on_plane(&plane),
         base_from_part: plane.base_from_part,
         spins: None,
+        homes: None,
     }
 }
 

@@ -68,6 +68,7 @@ fn circle(spin: f64) -> Track {
         },
         base_from_part: plane.base_from_part,
         spins: None,
+        homes: None,
     }
 }
 

@@ -7,7 +7,7 @@ use super::*;
 use crate::arms;
 use crate::frame::{Isometry, from_xyz_and_fixed_angles};
 use crate::load::{LoadCases, LoadFrame, PathLoad};
-use crate::optimize::{Component, Objective, Spins};
+use crate::optimize::{Component, Objective, Steps};
 use crate::path::{Hole, LoadedTrack, Placing, Track, path_of_holes};
 use crate::robot::{Amount, Backlash, BacklashSide, Motion};
 use crate::source::{Arm, StiffnessModel};
@@ -45,6 +45,7 @@ fn track(holes: &[Hole]) -> Track {
         },
         base_from_part: plane.base_from_part,
         spins: None,
+        homes: None,
     }
 }
 
@@ -59,11 +60,13 @@ fn load() -> PathLoad {
 }
 
 const SEARCH: PostureSearch = PostureSearch {
-    spins: Spins {
+    spins: Steps {
         first: -PI,
         step: PI / 12.0,
         count: 24,
     },
+    lean: None,
+    axes: Vec::new(),
     component: Component::InPlane,
     objective: Objective::Worst,
     branches: BranchPattern {
@@ -264,7 +267,7 @@ fn a_hole_out_of_reach_is_reported_and_does_not_affect_the_others() {
 #[test]
 fn turning_improves_and_a_restricted_search_keeps_its_branch() {
     let still = PostureSearch {
-        spins: Spins {
+        spins: Steps {
             first: 0.0,
             step: 0.1,
             count: 1,

@@ -67,6 +67,7 @@ fn track(base_from_part: Isometry, spin: Spin, lean: f64) -> Track {
         },
         base_from_part,
         spins: None,
+        homes: None,
     }
 }
 
@@ -379,7 +380,7 @@ fn points_with_separate_postures_use_the_best_of_each() {
     let cell = Cell::new();
     let question = cell.question();
     let (track, load) = (track(drawn(), Spin::AlongFeed(0.0), 0.2), load(LoadFrame::Feed));
-    let spins = Spins {
+    let spins = Steps {
         first: -1.0,
         step: 0.7,
         count: 4,

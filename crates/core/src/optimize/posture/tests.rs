@@ -1,14 +1,17 @@
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 use std::sync::atomic::AtomicBool;
 
-use nalgebra::{Point2, Point3};
+use nalgebra::{Point2, Point3, UnitQuaternion};
 
 use super::*;
+use crate::optimize::reversals;
+use crate::optimize::walk::WITHIN;
+use crate::frame::Isometry;
 use crate::arms;
 use crate::kernel::BranchChoice;
 use crate::load::{LoadCases, LoadFrame, PathLoad};
 use crate::map::{AlongPath, along_postures, obstacles};
-use crate::path::{LoadedTrack, Placing, SampledPath, Shape, Spin};
+use crate::path::{LoadedTrack, Pace, Placing, SampledPath, Shape, Spin};
 use crate::robot::{Limits, Robot};
 use crate::source::{Arm, StiffnessModel};
 use crate::spatial::Wrench;
@@ -100,16 +103,19 @@ fn track(mut path: SampledPath, centre: Point3<f64>) -> Track {
         },
         base_from_part: plane.base_from_part,
         spins: None,
+        homes: None,
     }
 }
 
 fn search(objective: Objective) -> PostureSearch {
     PostureSearch {
-        spins: Spins {
+        spins: Steps {
             first: -PI,
             step: PI / 18.0,
             count: 36,
         },
+        lean: None,
+        axes: Vec::new(),
         component: Component::InPlane,
         objective,
         branches: BranchPattern::default(),
@@ -460,7 +466,7 @@ fn smoothed_spins_stay_within_the_joint_limits_and_their_margin() {
     for margin in [0.0, 0.1] {
         let requested = PostureSearch {
             margin,
-            spins: Spins {
+            spins: Steps {
                 step: PI / 9.0,
                 count: 18,
                 first: -PI,

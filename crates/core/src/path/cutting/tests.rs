@@ -23,6 +23,7 @@ fn cutting() -> Cutting {
 
 fn point(direction: [f64; 3], pace: Pace) -> PathPoint {
     PathPoint {
+        normal: None,
         at: Point3::origin(),
         axis: None,
         spin: None,

@@ -84,6 +84,7 @@ impl Resolver<'_> {
                 placing,
                 base_from_part: setting.plane.base_from_part,
                 spins: None,
+                homes: None,
             },
             load: PathLoad::Cases(setting.load.clone()),
             cut: None,

@@ -80,6 +80,7 @@ impl Resolver<'_> {
                 placing,
                 base_from_part,
                 spins: None,
+                homes: None,
             },
             load: PathLoad::Cases(setting.load.clone()),
             cut: None,

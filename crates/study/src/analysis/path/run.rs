@@ -272,7 +272,7 @@ impl Runner<'_> {
         let across = Plane {
             base_from_part: Isometry::from_parts(
                 Translation3::from(stop.base_from_tool.translation.vector),
-                UnitQuaternion::from_rotation_matrix(&track.base_from_feed(index)),
+                UnitQuaternion::from_rotation_matrix(&track.base_from_surface(index)),
             ),
         };
         let setting = Setting {

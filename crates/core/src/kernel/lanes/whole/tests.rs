@@ -248,6 +248,7 @@ fn worst_case_shares_and_uncertainty_are_those_of_the_plain_row() {
             flange_from_tool: &tool,
         };
         let question = Question {
+            homes: None,
             arm,
             home: None,
             cases: &cases,
@@ -342,6 +343,7 @@ fn a_question_about_a_whole_model_has_the_answers_of_the_general_solver() {
             .collect();
         for choice in [BranchChoice::Best, BranchChoice::Of(robot.nominal_branch())] {
             let question = Question {
+                homes: None,
                 arm,
                 home: None,
                 cases: &cases,

@@ -106,6 +106,7 @@ pub fn follow(
         placing: circle.placing,
         base_from_part: circle.placing.base_from_path,
         spins: None,
+        homes: None,
     };
     let model = without_gaps(question.arm.model);
     let arm = Arm {
