@@ -48,6 +48,8 @@ fn requested(arguments: &PostureArguments) -> Result<Option<SearchTable>, StudyE
         least_wrist_deg: bounded("--least-wrist-deg", arguments.least_wrist_deg, [0.0, 80.0])?,
         margin_deg: bounded("--margin-deg", arguments.margin_deg, [0.0, 90.0])?,
         reversal_um_mm: bounded("--reversal-um-mm", arguments.reversal_um_mm, [0.0, 1e9])?,
+        lean: None,
+        axes: Vec::new(),
     };
     Ok((!table.is_empty()).then_some(table))
 }

@@ -241,11 +241,11 @@ fn a_home_position_below_the_part_is_refused() {
     assert!(said.contains("below the top of the part"), "{said}");
 }
 
-#[test]
-fn a_rail_is_an_external_axis_of_kuka_and_refused_by_yaskawa() {
+/// A KR 210 of the library on a rail of 5 m along y.
+fn kr210_on_rail() -> String {
     let repository = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let robot = std::fs::read_to_string(repository.join("robots/kuka/kr210r2700extra.toml")).unwrap();
-    let on_rail = robot
+    robot
         .replacen(
             "motions = [",
             "motions = [\n    { along = \"y\", joint = \"E1\" },",
@@ -253,11 +253,16 @@ fn a_rail_is_an_external_axis_of_kuka_and_refused_by_yaskawa() {
         )
         .replacen(
             "[[joint]]",
-            "[[joint]]\nname = \"E1\"\nsign = 1\nlimits_mm = [0, 5000]\nsource = \"rail\"\n\
+            "[[joint]]\nname = \"E1\"\nsign = 1\nlimits_mm = [0, 5000]\nmax_speed_mm_per_s = 1000\nsource = \"rail\"\n\
              compliance_um_per_n = 0.001\ncompliance_source = \"rail\"\n\n[[joint]]",
             1,
         )
-        + "\n[sources.rail]\nwhat = \"A rail for tests\"\nwhere = \"none\"\nlicence = \"none\"\n";
+        + "\n[sources.rail]\nwhat = \"A rail for tests\"\nwhere = \"none\"\nlicence = \"none\"\n"
+}
+
+#[test]
+fn a_rail_is_an_external_axis_of_kuka_and_refused_by_yaskawa() {
+    let on_rail = kr210_on_rail();
     let text = LINE.replace("[1500, 0, 800]", "[1600, 1200, 900]")
         + "[controller]\nhome_deg = [1200, 0, -100, 110, 0, 80, 0]\n";
     let text = format!("[posture]\nhome_deg = [1200, 0, 0, 0, 0, 0, 0]\n{text}");
@@ -308,4 +313,38 @@ fn a_rail_is_an_external_axis_of_kuka_and_refused_by_yaskawa() {
         }
         assert!(count > 4);
     }
+}
+
+#[test]
+fn a_rail_that_moves_along_the_path_is_in_the_program_at_every_point() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("arm.toml"), kr210_on_rail()).unwrap();
+    let line = LINE
+        .replace("[1500, 0, 800]", "[1600, 2000, 900]")
+        .replace("from_mm = [-50, 0], to_mm = [50, 0]", "from_mm = [-2000, 0], to_mm = [2000, 0]")
+        .replace("step_mm = 5\n", "step_mm = 40\n");
+    let study = format!(
+        "format = 1\nrobot = \"arm.toml\"\ntolerance_um = 500\n\
+         tool = {{ flange_from_tool_mm_deg = [0, 0, 200, 0, 0, 0] }}\n\
+         posture = {{ search = {{ step_deg = 30, axes = [{{ joint = \"E1\", step_mm = 100 }}] }} }}\n{line}\
+         [controller]\nhome_deg = [1200, 0, -100, 110, 0, 80, 0]\n"
+    );
+    std::fs::write(folder.path().join("study.toml"), study).unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_armill"))
+        .current_dir(folder.path())
+        .args(["compensate", "study.toml", "--nominal", "--out", "out", "--program", "p/part.src"])
+        .args(["--feed-mm-per-min", "600"])
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success(), "{said}");
+    let all = events(Language::Krl, folder.path(), &output);
+    let of_cut = all.iter().filter_map(|event| match &event.action {
+        Action::Linear(linear) => linear.external.first().copied().flatten(),
+        _ => None,
+    });
+    let positions: Vec<f64> = of_cut.collect();
+    let [least, greatest] = [f64::min, f64::max].map(|of| positions.iter().copied().reduce(of).unwrap());
+    assert!(least >= 0.0 && greatest <= 5000.0, "{positions:?}");
+    assert!(greatest - least > 500.0, "{positions:?}");
 }

@@ -24,7 +24,7 @@
 //! For the objective `worst`, sums become maxima. A column that cannot be reached restarts after the best chain so far
 //! and counts as a break: the arm stops there and changes its posture. A column without any state is skipped.
 
-use super::grid::{AXES, Grid};
+use super::grid::{AXES, Grid, Shift};
 use super::heading::Heading;
 use super::winding::Winding;
 use crate::kernel::SLOTS;
@@ -40,10 +40,10 @@ pub(super) enum Together {
 
 /// Transitions from one column to the next.
 pub(super) trait Links {
-    /// Whether the tip can go from posture `from` of the previous column to posture `to`, both at this setting.
-    fn goes_on(&self, setting: usize, from: usize, to: usize) -> bool;
+    /// Whether the tip can go on from a state of the previous column to one of this column, both at one setting.
+    fn goes_on(&self, states: [usize; 2]) -> bool;
     /// Directions of the joints on this transition.
-    fn moves_on(&self, setting: usize, from: usize, to: usize) -> Heading;
+    fn moves_on(&self, states: [usize; 2]) -> Heading;
     /// Whether the arm can go, within the column, from one state to another whose setting differs by a step along `axis`.
     fn turns(&self, axis: usize, states: [usize; 2]) -> bool;
     /// Directions of the joints on this transition.
@@ -51,7 +51,7 @@ pub(super) trait Links {
     /// Whole turns at a state of this column where a cut begins.
     fn starts(&self, state: usize) -> Winding;
     /// Whole turns after the transition of [`Links::goes_on`]; `None` where they exceed a limit.
-    fn winds_on(&self, before: &Winding, setting: usize, from: usize, to: usize) -> Option<Winding>;
+    fn winds_on(&self, before: &Winding, states: [usize; 2]) -> Option<Winding>;
     /// Whole turns after the transition of [`Links::turns`]; `None` as above.
     fn winds_by_turn(&self, before: &Winding, states: [usize; 2]) -> Option<Winding>;
 }
@@ -134,6 +134,7 @@ pub(super) struct Chain {
     /// The way back; `None` where the chain itself is not requested.
     back: Option<Ways>,
     entries: Vec<Entry>,
+    shifts: Vec<Shift>,
     /// Costs of the chains to the states of the last column with states.
     values: Vec<f64>,
     next: Vec<f64>,
@@ -176,6 +177,7 @@ impl Chain {
             together,
             back: traced.map(|columns| Ways::new(&turns.grid, columns)),
             entries: Vec::new(),
+            shifts: Vec::new(),
             values: vec![f64::INFINITY; states],
             next: vec![f64::INFINITY; states],
             ways: vec![0; states],
@@ -186,8 +188,10 @@ impl Chain {
         }
     }
 
-    /// Adds the next column: the cost of its states (infinite where there is none), how it starts, and its transitions.
-    pub fn take(&mut self, costs: &[f64], beginning: Beginning, links: &impl Links) {
+    /// Adds the next column: the cost of its states (infinite where there is none), how it starts, the shift of its settings
+    /// from those of the column before, and its transitions.
+    pub fn take(&mut self, costs: &[f64], (beginning, shift): (Beginning, Shift), links: &impl Links) {
+        self.shifts.push(shift);
         if costs.iter().all(|cost| cost.is_infinite()) {
             self.entries.push(Entry::Lost);
             if let Some(back) = &mut self.back {
@@ -197,7 +201,7 @@ impl Chain {
         }
         let entry = match beginning {
             Beginning::Follows(steps) if self.values.iter().any(|value| value.is_finite()) => {
-                self.link(costs, self.turns.grid.steps(steps), links);
+                self.link(costs, (self.turns.grid.steps(steps), &shift), links);
                 let leads = self.next.iter().any(|value| value.is_finite());
                 let least = least(&self.values).unwrap_or(0) as u32;
                 if leads {
@@ -243,11 +247,14 @@ impl Chain {
     }
 
     /// Computes the values of the next column from its transitions.
-    fn link(&mut self, costs: &[f64], steps: [usize; AXES], links: &impl Links) {
+    fn link(&mut self, costs: &[f64], (steps, shift): ([usize; AXES], &Shift), links: &impl Links) {
         let Turns { grid, kept_slots, .. } = self.turns;
         self.next.fill(f64::INFINITY);
         self.ways.fill(0);
         for setting in 0..grid.len() {
+            let Some(same) = grid.shifted(setting, shift) else {
+                continue;
+            };
             for to in 0..SLOTS {
                 let state = setting * SLOTS + to;
                 if costs[state].is_infinite() {
@@ -255,18 +262,18 @@ impl Chain {
                 }
                 let from = if kept_slots { to..to + 1 } else { 0..SLOTS };
                 for slot in from {
-                    let origin = setting * SLOTS + slot;
+                    let origin = same * SLOTS + slot;
                     let before = self.values[origin];
-                    if before >= self.next[state] || !links.goes_on(setting, slot, to) {
+                    if before >= self.next[state] || !links.goes_on([origin, state]) {
                         continue;
                     }
                     let winding = self.windings.get(origin);
-                    let winding = winding.map(|before| links.winds_on(before, setting, slot, to));
+                    let winding = winding.map(|before| links.winds_on(before, [origin, state]));
                     if winding == Some(None) {
                         continue;
                     }
                     let came = self.came.get(origin);
-                    let came = came.map(|came| came.then(links.moves_on(setting, slot, to)));
+                    let came = came.map(|came| came.then(links.moves_on([origin, state])));
                     let value = before + self.back_price(came);
                     if value < self.next[state] {
                         self.next[state] = value;
@@ -371,7 +378,11 @@ impl Chain {
                 Entry::Linked => {
                     let grid = &self.turns.grid;
                     let (steps, slot) = grid.steps_and_slot(back.at(index * width + state));
-                    state = grid.origin(state / SLOTS, &steps) * SLOTS + slot;
+                    let same = grid.origin(state / SLOTS, &steps);
+                    let Some(before) = grid.shifted(same, &self.shifts[index]) else {
+                        break;
+                    };
+                    state = before * SLOTS + slot;
                 }
                 Entry::From(Some(before)) | Entry::Broken(before) => state = *before as usize,
                 Entry::From(None) | Entry::Lost => break,

@@ -3,7 +3,6 @@
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::freedoms::LeanRange;
-use super::grid::AXES;
 use super::posture::PostureSearch;
 use super::window::Window;
 use crate::frame::Isometry;
@@ -25,16 +24,15 @@ pub(super) fn fill(
     (search, window): (&PostureSearch, &Window),
     column: &mut Column,
 ) {
-    let tried: [_; AXES] = std::array::from_fn(|axis| window.tried(axis, index));
     let grid = window.grid();
-    let spins = tried[0].count;
+    let spins = window.tried(0, index);
     let end = search.lean.map_or(ANY_END, |LeanRange { end, .. }| end);
     let normal = path.track.stop(index).normal;
     let along = search.component.along(path.track, index, normal);
     let mut part = Column::default();
     column.clear(0, 0);
     let mut home = maker.robot().home(maker.home());
-    for first in (0..grid.len()).step_by(spins) {
+    for first in (0..grid.len()).step_by(spins.count) {
         let setting = window.setting(grid.indices(first), index);
         for (axis, moving) in search.axes.iter().enumerate() {
             home[moving.joint] = setting[3 + axis];
@@ -50,17 +48,11 @@ pub(super) fn fill(
             Some(_) => path.track.leaning_stop(index, (lean, end), path.load),
             None => path.track.loaded_stop(index, path.load),
         };
-        let poses: Vec<Isometry> = (0..spins)
-            .map(|turn| stop.base_from_tool * about_z(tried[0].at(turn)))
+        let poses: Vec<Isometry> = (0..spins.count)
+            .map(|turn| stop.base_from_tool * about_z(spins.at(turn)))
             .collect();
         let push = ColumnLoad { cases: &cases, along };
         maker.fill(&poses, &push, &mut part);
-        let outside = (1..AXES).any(|axis| !window.permits(axis, setting[axis]));
-        for turn in 0..spins {
-            if outside || !window.permits(0, tried[0].at(turn)) {
-                part.forbid_pose(turn);
-            }
-        }
         column.append(&part);
     }
     if search.margin > 0.0 {

@@ -12,6 +12,11 @@ pub(super) const AXES: usize = 3 + MOST_MOVING;
 /// Most steps along each axis from one column to the next.
 const MOST_STEPS: [usize; AXES] = [15, 7, 7, 7, 7, 7];
 
+/// How many more steps along each axis the first setting of a column has than that of the column before.
+pub(super) type Shift = [isize; AXES];
+/// The same settings in both.
+pub(super) const UNSHIFTED: Shift = [0; AXES];
+
 /// Numbers of values along the axes of a grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Grid {
@@ -77,6 +82,24 @@ impl Grid {
         below
             .into_iter()
             .chain(above.map(|other| (-1, first + other * stride)))
+    }
+
+    /// The setting whose indices are greater than those of `setting` by `by`; `None` outside the grid. Spins that go around
+    /// are not shifted.
+    pub fn shifted(&self, setting: usize, by: &Shift) -> Option<usize> {
+        if *by == UNSHIFTED {
+            return Some(setting);
+        }
+        let indices = self.indices(setting);
+        let mut shifted = 0;
+        for axis in 0..AXES {
+            let index = indices[axis] as isize + by[axis];
+            if !(0..self.counts[axis] as isize).contains(&index) {
+                return None;
+            }
+            shifted += index as usize * self.stride(axis);
+        }
+        Some(shifted)
     }
 
     /// The setting from which these steps lead to `setting`.
@@ -179,6 +202,15 @@ mod tests {
         assert_eq!(of(4, 1), [(1, 0), (-1, 8)]);
         assert_eq!(of(3, 1), [(-1, 7)]);
         assert_eq!(of(0, 2), []);
+    }
+
+    #[test]
+    fn a_shift_keeps_the_value_of_a_setting_or_leads_outside() {
+        let grid = Grid::new([4, 3, 1, 1, 1, 1], false);
+        assert_eq!(grid.shifted(1 + 4, &[2, -1, 0, 0, 0, 0]), Some(3));
+        assert_eq!(grid.shifted(1 + 4, &[3, 0, 0, 0, 0, 0]), None);
+        assert_eq!(grid.shifted(1 + 4, &[0, 2, 0, 0, 0, 0]), None);
+        assert_eq!(grid.shifted(7, &UNSHIFTED), Some(7));
     }
 
     #[test]

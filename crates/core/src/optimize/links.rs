@@ -6,7 +6,7 @@ use super::chain::Links;
 use super::grid::AXES;
 use super::heading::Heading;
 use super::winding::{Winding, WindingJoints};
-use crate::kernel::{Column, PostureStatus, SLOTS};
+use crate::kernel::{Column, PostureStatus};
 use crate::robot::{Joint, Limits, Robot};
 
 /// A joint that turns farther than this from one point to the next jumps, rad.
@@ -124,23 +124,20 @@ impl<'a> Between<'a> {
 }
 
 impl Links for Between<'_> {
-    fn goes_on(&self, setting: usize, from: usize, to: usize) -> bool {
-        let first = setting * SLOTS;
-        self.can((self.before, first + from), (self.here, first + to), self.time)
+    fn goes_on(&self, [from, to]: [usize; 2]) -> bool {
+        self.can((self.before, from), (self.here, to), self.time)
     }
 
-    fn moves_on(&self, setting: usize, from: usize, to: usize) -> Heading {
-        let first = setting * SLOTS;
-        self.heading((self.before, first + from), (self.here, first + to))
+    fn moves_on(&self, [from, to]: [usize; 2]) -> Heading {
+        self.heading((self.before, from), (self.here, to))
     }
 
     fn starts(&self, state: usize) -> Winding {
         self.winding.start(self.here.joints_of(state, self.joints.len()))
     }
 
-    fn winds_on(&self, before: &Winding, setting: usize, from: usize, to: usize) -> Option<Winding> {
-        let first = setting * SLOTS;
-        self.wound(before, (self.before, first + from), (self.here, first + to))
+    fn winds_on(&self, before: &Winding, [from, to]: [usize; 2]) -> Option<Winding> {
+        self.wound(before, (self.before, from), (self.here, to))
     }
 
     fn winds_by_turn(&self, before: &Winding, [from, to]: [usize; 2]) -> Option<Winding> {

@@ -44,7 +44,7 @@ pub(super) fn refined(
         finished: &|_| (),
         ..watch
     };
-    let mut widened = false;
+    let mut near = Vec::new();
     while !window.is_finest() {
         let walk = Walk::new(question, path, search, (&window, &keys));
         let (chain, seen, _) = best_chain(&walk, search, quiet)?;
@@ -52,38 +52,26 @@ pub(super) fn refined(
         if settings.iter().all(Option::is_none) {
             return Ok(nothing(path.track, &seen));
         }
-        let lost = chain.breaks.len() + seen.unreachable.len();
-        if lost > 0 && window.is_near_a_chain() && !widened {
-            widened = true;
-            window = window.widened();
-            continue;
-        }
-        widened = false;
-        window = window.halved(at_every_point(path.track, &keys, &settings));
+        near = at_every_point(path.track, &keys, &settings);
+        window = window.halved(&near);
     }
-    let found = Last {
-        walk: Walk::new(question, path, search, (&window, &all)),
-        window: &window,
-        question,
-        path,
-        search,
-    }
-    .found(watch)?;
-    let lost = found.breaks.len() + found.unreachable.len();
-    if lost == 0 || !window.is_near_a_chain() {
+    let last = |window: &Window, watch: Watch<'_>| {
+        let last = Last {
+            walk: Walk::new(question, path, search, (window, &all)),
+            window,
+            question,
+            path,
+            search,
+        };
+        last.found(watch)
+    };
+    let lost = |found: &PostureFound| found.breaks.len() + found.unreachable.len();
+    let found = last(&window, watch)?;
+    if lost(&found) == 0 || !window.is_near_a_chain() {
         return Ok(found);
     }
-    let window = window.widened();
-    let wider = Last {
-        walk: Walk::new(question, path, search, (&window, &all)),
-        window: &window,
-        question,
-        path,
-        search,
-    }
-    .found(quiet)?;
-    let fewer = wider.breaks.len() + wider.unreachable.len() < lost;
-    Ok(if fewer { wider } else { found })
+    let wider = last(&window.widened(&near), quiet)?;
+    Ok(if lost(&wider) < lost(&found) { wider } else { found })
 }
 
 /// The best chain of a pass without a price on reversals, and the cost of its states.
@@ -277,3 +265,6 @@ fn nothing(track: &Track, seen: &Seen) -> PostureFound {
         lattice: Lattice::default(),
     }
 }
+
+#[cfg(test)]
+mod tests;

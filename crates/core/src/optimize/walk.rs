@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::chain::{Beginning, Chain, Cheapest, Together, Turns};
 use super::column_at::{blocked_by, fill};
-use super::grid::AXES;
+use super::grid::{AXES, Shift, UNSHIFTED};
 use super::links::{Between, FAR, JointRate};
 use super::posture::PostureSearch;
 use super::winding::WindingJoints;
@@ -163,7 +163,7 @@ impl<'a> Walk<'a> {
                     step_times: self.step_times(index),
                     far: if self.window.is_finest() { FAR } else { 2.0 * FAR },
                 };
-                chain.take(&costs, self.beginning(index), &links);
+                chain.take(&costs, (self.beginning(index), self.shift(index)), &links);
                 if !worst_alone {
                     seen.note(self.points[index], here, keeps && index % stride == 0);
                 }
@@ -198,6 +198,14 @@ impl<'a> Walk<'a> {
             (so_far(here) - so_far(before)).max(0.0) as usize
         };
         Beginning::Follows(std::array::from_fn(steps))
+    }
+
+    /// The shift of the settings of column number `index` from those of the column before.
+    fn shift(&self, index: usize) -> Shift {
+        match index.checked_sub(1) {
+            Some(before) => self.window.shift(self.points[before], self.points[index]),
+            None => UNSHIFTED,
+        }
     }
 
     /// Largest change along an axis of the grid on the path, rad/m (m/m).

@@ -8,28 +8,28 @@
 use std::f64::consts::TAU;
 
 use super::freedoms::MOST_MOVING;
-use super::grid::{AXES, Grid};
+use super::grid::{AXES, Grid, Shift, UNSHIFTED};
 use super::posture::PostureSearch;
 use super::steps::Steps;
 
 /// Steps to either side of the chain before, first, and where that leads nowhere.
 const BESIDE: [usize; 2] = [2, 4];
-/// Beyond a range by rounding, rad (m).
+/// Rounding of a full circle, rad.
 const ROUNDED: f64 = 1e-9;
 
 /// A setting: spin, lead and tilt (rad), positions of external axes (m, rad).
 pub(super) type Setting = [f64; AXES];
 
-/// The settings tried at each point.
+/// The settings tried at each point: a part of the lattice of all settings, which are multiples of a step.
 #[derive(Clone, Debug)]
 pub(super) struct Window {
     /// All that the search permits, in the demanded steps.
     whole: [Steps; AXES],
     /// How many demanded steps a step of this window is.
     strides: [usize; AXES],
-    /// The chain before, at every point of the path; `None`: all settings.
-    centres: Option<Vec<Setting>>,
-    /// Steps to either side of it.
+    /// Index of the first value along each axis at every point of the path; `None`: all settings.
+    firsts: Option<Vec<Shift>>,
+    /// Steps to either side of the chain before.
     beside: usize,
 }
 
@@ -47,7 +47,7 @@ impl Window {
         Window {
             whole,
             strides,
-            centres: None,
+            firsts: None,
             beside: BESIDE[0],
         }
     }
@@ -66,27 +66,50 @@ impl Window {
         window
     }
 
-    /// Half the steps, near this chain.
-    pub fn halved(&self, chain: Vec<Setting>) -> Window {
+    /// Half the steps, near this chain: its setting at every point of the path.
+    pub fn halved(&self, chain: &[Setting]) -> Window {
         Window {
             strides: self.strides.map(|stride| stride.div_ceil(2)),
-            centres: Some(chain),
             beside: BESIDE[0],
-            ..*self
+            ..self.clone()
         }
+        .near(chain)
     }
 
     /// The same steps, farther from the chain.
-    pub fn widened(&self) -> Window {
+    pub fn widened(&self, chain: &[Setting]) -> Window {
         Window {
             beside: BESIDE[1],
             ..self.clone()
+        }
+        .near(chain)
+    }
+
+    fn near(self, chain: &[Setting]) -> Window {
+        let first = |axis: usize, value: f64| {
+            let steps = self.steps(axis);
+            let width = steps.count.min(2 * self.beside + 1);
+            if width == steps.count {
+                return 0;
+            }
+            let first = ((value - steps.first) / steps.step).round() as isize - self.beside as isize;
+            match axis == 0 && self.goes_around() {
+                true => first,
+                false => first.clamp(0, (steps.count - width) as isize),
+            }
+        };
+        let firsts = chain
+            .iter()
+            .map(|setting| std::array::from_fn(|axis| first(axis, setting[axis])));
+        Window {
+            firsts: Some(firsts.collect()),
+            ..self
         }
     }
 
     /// Whether only settings near a chain are tried.
     pub fn is_near_a_chain(&self) -> bool {
-        self.centres.is_some()
+        self.firsts.is_some()
     }
 
     /// Whether its steps are the demanded ones.
@@ -96,45 +119,57 @@ impl Window {
 
     /// The step along each axis, rad (m).
     pub fn step(&self, axis: usize) -> f64 {
-        self.whole[axis].step * self.strides[axis] as f64
+        self.steps(axis).step
     }
 
     /// Whether all spins that the search permits are tried, in its own steps, and nothing else.
     pub fn is_of_spins(&self) -> bool {
-        self.grid().codes_are_bytes() && self.centres.is_none()
+        self.grid().codes_are_bytes() && self.firsts.is_none()
     }
 
     /// The grid of the settings at a point.
     pub fn grid(&self) -> Grid {
-        let counts = std::array::from_fn(|axis| self.tried(axis, 0).count);
-        Grid::new(counts, self.centres.is_none() && self.goes_around())
+        let counts = std::array::from_fn(|axis| self.width(axis));
+        Grid::new(counts, self.width(0) == self.steps(0).count && self.goes_around())
+    }
+
+    /// The shift of the settings at point `to` from those at point `from`, an earlier one.
+    pub fn shift(&self, from: usize, to: usize) -> Shift {
+        match &self.firsts {
+            Some(firsts) => std::array::from_fn(|axis| firsts[to][axis] - firsts[from][axis]),
+            None => UNSHIFTED,
+        }
+    }
+
+    /// All values along an axis, in the steps of this window.
+    fn steps(&self, axis: usize) -> Steps {
+        self.whole[axis].every(self.strides[axis])
+    }
+
+    /// Number of values that are tried along an axis.
+    fn width(&self, axis: usize) -> usize {
+        let count = self.steps(axis).count;
+        match self.firsts {
+            Some(_) => count.min(2 * self.beside + 1),
+            None => count,
+        }
     }
 
     /// Whether the spins are a full circle.
     fn goes_around(&self) -> bool {
-        let spins = self.whole[0].every(self.strides[0]);
+        let spins = self.steps(0);
         (spins.step * spins.count as f64 - TAU).abs() < ROUNDED
     }
 
-    /// The values that are tried along an axis at point `index`, some of which may be [outside](Window::permits) the
-    /// range.
+    /// The values that are tried along an axis at point `index`.
     pub fn tried(&self, axis: usize, index: usize) -> Steps {
-        let coarse = self.whole[axis].every(self.strides[axis]);
-        match &self.centres {
-            Some(centres) if self.whole[axis].count > 1 => Steps {
-                first: centres[index][axis] - coarse.step * self.beside as f64,
-                step: coarse.step,
-                count: 2 * self.beside + 1,
-            },
-            _ => coarse,
+        let steps = self.steps(axis);
+        let first = self.firsts.as_ref().map_or(0, |firsts| firsts[index][axis]);
+        Steps {
+            first: steps.first + steps.step * first as f64,
+            count: self.width(axis),
+            ..steps
         }
-    }
-
-    /// Whether the search permits this value along an axis.
-    pub fn permits(&self, axis: usize, value: f64) -> bool {
-        let whole = &self.whole[axis];
-        let full = axis == 0 && (whole.step * whole.count as f64 - TAU).abs() < ROUNDED;
-        full || (value >= whole.first - ROUNDED && value <= whole.last() + ROUNDED)
     }
 
     /// The setting with these indices at point `index`.

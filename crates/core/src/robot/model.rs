@@ -248,6 +248,12 @@ impl Robot {
         self.chain.slides(index)
     }
 
+    /// Whether joint `index` is one of a rail or gantry: prismatic, in front of the joints of the arm, at home wherever
+    /// inverse kinematics has a choice.
+    pub fn carries_the_arm(&self, index: usize) -> bool {
+        index < self.inverse.rail_joints()
+    }
+
     /// Chain position `theta` of joint `index` at the joint positions `q`.
     pub fn theta(&self, index: usize, q: &[f64]) -> f64 {
         let joint = &self.joints[index];

@@ -125,7 +125,7 @@ pub fn advise(
     let searched = with
         .first()
         .and_then(path_of)
-        .and_then(|(analysis, found)| SearchAnswer::of(analysis, found));
+        .and_then(|(analysis, found)| SearchAnswer::of(&turned.robot.robot, analysis, found));
     let turns = searched.as_ref().is_some_and(|searched| searched.applied);
     let (advised, done) = match turns {
         true => (&turned, with),

@@ -101,7 +101,13 @@ const POSTURE: Origin = Origin {
 const SPIN: Origin = Origin {
     file: "core/src/optimize/posture.rs",
     function: "postures_along",
-    theory: None,
+    theory: Some("lattice"),
+    validation: None,
+};
+const LEAN: Origin = Origin {
+    file: "core/src/path/lean.rs",
+    function: "leaned",
+    theory: Some("lattice"),
     validation: None,
 };
 const IN_HOLE: Origin = Origin {
@@ -249,6 +255,18 @@ pub const TURN: Quantity = angle(
     "spin of the tool about its axis that was found by a search or is given by a curve, in addition to the constant one",
     SPIN,
 );
+/// Lean of a search towards the feed.
+pub const LEAD: Quantity = angle(
+    "lead_deg",
+    "lean of the tool towards the feed that was found by a search, about the programmed axis",
+    LEAN,
+);
+/// Lean of a search to the left.
+pub const TILT: Quantity = angle(
+    "tilt_deg",
+    "lean of the tool to the left of the feed that was found by a search, about the programmed axis",
+    LEAN,
+);
 /// Along the track.
 pub const ALONG: Quantity = deviation(
     "along_um",
@@ -369,7 +387,7 @@ pub const HOLE_Y: Quantity = deviation(
 pub const DEPTH: Quantity = deviation("depth_um", "deviation out of the part: too shallow", IN_HOLE);
 
 /// All quantities, in the order of the tables: of a path, of holes, of every analysis.
-pub const ALL: [&Quantity; 31] = [
+pub const ALL: [&Quantity; 33] = [
     &LINE,
     &DISTANCE,
     &FEED,
@@ -377,6 +395,8 @@ pub const ALL: [&Quantity; 31] = [
     &CROSS,
     &AXIAL,
     &TURN,
+    &LEAD,
+    &TILT,
     &FORCE,
     &TORQUE,
     &CHIP,

@@ -30,6 +30,7 @@ use crate::input::cell::CellBodies;
 use crate::input::cell::bodies::tool_bodies;
 use crate::input::cell::placed::{CellFrames, placed_cell};
 use crate::input::memory::{OF_FIELD, OF_MAP, PointMemory};
+use crate::input::freedoms::ToolEnd;
 use crate::input::problem_log::ProblemLog;
 use crate::input::quantities::{grid, load_cases, plane_at, pose_mm_deg};
 use crate::input::setting::Setting;
@@ -193,7 +194,7 @@ impl Resolver<'_> {
             (Some(_), Some(BranchChoice::Of(pattern))) => pattern,
             _ => BranchPattern::default(),
         };
-        let search = self.search(log, open);
+        let search = self.search(log, open, push.map_or(ToolEnd::NotGiven, LoadSource::tool_end));
         let tolerance_um = self.table.tolerance_um.unwrap_or(self.common.tolerance_um);
         let plane = plane_at(
             log,
@@ -292,11 +293,17 @@ impl Resolver<'_> {
     }
 
     /// What is searched for along a path; `None` also where that is wrong.
-    fn search(&self, log: &mut ProblemLog<'_>, open: BranchPattern) -> Option<PostureSearch> {
+    fn search(
+        &self,
+        log: &mut ProblemLog<'_>,
+        open: BranchPattern,
+        tool: ToolEnd,
+    ) -> Option<PostureSearch> {
         let table = self.of_posture(|posture| posture.search.as_ref());
         let table = table.filter(|_| self.table.kind == AnalysisKind::Path)?;
         let tolerance_um = self.table.tolerance_um.unwrap_or(self.common.tolerance_um);
-        table.resolve(log, from_um(tolerance_um), open)
+        let arm = (self.robot.map(|found| &found.robot), tool);
+        table.resolve_along(log, from_um(tolerance_um), open, arm)
     }
 
     /// The frame that coordinates count from, in base.

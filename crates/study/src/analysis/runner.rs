@@ -45,6 +45,7 @@ impl<'a> Runner<'a> {
                 flange_from_tool: &setting.flange_from_tool,
             },
             home: setting.home.as_deref(),
+            homes: None,
             cases: &setting.cases,
             uncertainty: setting.uncertainty,
             normal: setting.plane.normal(),

@@ -1,5 +1,7 @@
 //! The search for spins and branches along every path of a study that does not request it itself.
 
+use armill_core::optimize::PostureSearch;
+
 use crate::analysis::Subject;
 use crate::error::StudyError;
 use crate::file::resolve::Study;
@@ -24,7 +26,10 @@ impl Study {
             if let Some(table) = table {
                 let search = table.search(setting.tolerance, setting.open);
                 let search = search.map_err(|(message, hint)| StudyError::value(message, hint))?;
-                setting.search = Some(search);
+                // What the tool and the axes may do is a matter of the study, not of this search.
+                let of_study = setting.search.take();
+                let (lean, axes) = of_study.map(|of| (of.lean, of.axes)).unwrap_or_default();
+                setting.search = Some(PostureSearch { lean, axes, ..search });
             }
         }
         if paths == 0 {

@@ -1,11 +1,12 @@
 //! `posture.search`: spins of the tool and branches to search along a path, and the objective.
 
 use armill_core::optimize::{Component, Objective, PostureSearch, Steps};
-use armill_core::robot::BranchPattern;
+use armill_core::robot::{BranchPattern, Robot};
 use armill_core::units::{from_deg, from_per_mm};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use crate::input::freedoms::{self, AxisTable, LeanTable, ToolEnd};
 use crate::input::problem_log::ProblemLog;
 
 /// The search for the best spin of the tool and branch along a path.
@@ -34,6 +35,11 @@ pub struct SearchTable {
     /// Penalty for the reversal of a joint: as much as this additional deviation over 1 mm of the path; 0 if left out.
     #[schemars(range(min = 0.0, max = 1e9))]
     pub reversal_um_mm: Option<f64>,
+    /// Lean of the tool about the programmed axis; none if left out.
+    pub lean: Option<LeanTable>,
+    /// External axes that move along the path; if left out, they stay at `home_deg`.
+    #[serde(default)]
+    pub axes: Vec<AxisTable>,
 }
 
 /// Component of the deviation that is evaluated.
@@ -99,6 +105,8 @@ impl SearchTable {
             && self.least_wrist_deg.is_none()
             && self.margin_deg.is_none()
             && self.reversal_um_mm.is_none()
+            && self.lean.is_none()
+            && self.axes.is_empty()
     }
 
     /// As the core searches, for a path whose tolerance is `tolerance` (m), in branches that match `branches`; `None` where
@@ -111,6 +119,27 @@ impl SearchTable {
     ) -> Option<PostureSearch> {
         let report = |(message, hint): (String, &str)| log.problem("posture.search.turns_deg", message, hint);
         self.search(tolerance, branches).map_err(report).ok()
+    }
+
+    /// [`SearchTable::resolve`] with the freedoms of an arm along a path.
+    pub fn resolve_along(
+        &self,
+        log: &mut ProblemLog<'_>,
+        tolerance: f64,
+        branches: BranchPattern,
+        (robot, tool): (Option<&Robot>, ToolEnd),
+    ) -> Option<PostureSearch> {
+        let search = self.resolve(log, tolerance, branches);
+        let lean = match &self.lean {
+            Some(table) => Some(freedoms::lean(log, table, tool)?),
+            None => None,
+        };
+        let axes = robot.map(|robot| freedoms::axes(log, &self.axes, robot));
+        Some(PostureSearch {
+            lean,
+            axes: axes.unwrap_or_default()?,
+            ..search?
+        })
     }
 
     /// The same, or what is wrong with the turns, and a hint.

@@ -138,8 +138,10 @@ pub(super) fn on_path(
         joints: joints_at(answers, index),
         link_offsets: unloaded.map(|unloaded| unloaded.link_offsets_at(index, answers.joint_count).to_vec()),
     };
-    let spin = searched.map_or(0.0, |searched| searched.posture.spins[index]);
-    Ok(turned(&path.track, &along.load, index, spin, pose))
+    let followed = searched.filter(|searched| searched.applied);
+    let track = followed.map(|searched| searched.posture.turned(&path.track));
+    let track = track.as_ref().unwrap_or(&path.track);
+    Ok(turned(track, &along.load, index, 0.0, pose))
 }
 
 /// Hole `index` of this study, whose holes may have been evaluated; the hole must exist.

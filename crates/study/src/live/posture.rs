@@ -374,6 +374,7 @@ fn deviations(
         let question = Question {
             arm,
             home: None,
+            homes: None,
             cases: std::slice::from_ref(wrench),
             uncertainty: setting.uncertainty,
             normal,

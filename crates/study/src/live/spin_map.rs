@@ -177,9 +177,15 @@ pub fn spin_search(
     let path = path_of(&edited)?;
     let runner = Runner::new(&edited.study.robot.robot, watch)?;
     let usual = || SearchTable::default().search(path.setting.tolerance, path.setting.open);
-    let search = match path.setting.search {
+    let search = match path.setting.search.clone() {
         Some(search) => search,
         None => usual().map_err(|(message, hint)| StudyError::value(message, hint))?,
+    };
+    // The curve that is found holds spins alone.
+    let search = PostureSearch {
+        lean: None,
+        axes: Vec::new(),
+        ..search
     };
     let constant = PathAnalysis {
         track: without_curve(path),

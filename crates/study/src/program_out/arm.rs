@@ -89,7 +89,8 @@ impl Arm<'_> {
         let tool = ToolAt {
             flange_from_tool: &self.setting.flange_from_tool,
             near: Some(near),
-            home: self.setting.home.as_deref(),
+            // External axes stay where they are on a straight move.
+            home: Some(near),
         };
         let with_turns = |q: &[f64]| -> Vec<f64> {
             let turned = |(joint, (q, near)): (usize, (&f64, &f64))| match self.robot.slides(joint) {

@@ -87,13 +87,6 @@ impl Column {
         }
     }
 
-    /// Excludes all postures of pose `index`.
-    pub(crate) fn forbid_pose(&mut self, index: usize) {
-        let slots = index * SLOTS..(index + 1) * SLOTS;
-        self.statuses[slots.clone()].fill(PostureStatus::OutOfReach);
-        self.deviations[slots].fill(f64::INFINITY);
-    }
-
     /// Adds the poses of another column.
     pub(crate) fn append(&mut self, other: &Column) {
         self.statuses.extend_from_slice(&other.statuses);

@@ -1,3 +1,4 @@
+use super::super::grid::UNSHIFTED;
 use super::*;
 use crate::arms::Stream;
 
@@ -6,6 +7,7 @@ struct Made {
     turns: Turns,
     costs: Vec<Vec<f64>>,
     beginnings: Vec<Beginning>,
+    shifts: Vec<Shift>,
     /// For each column: the transitions on, and the turns, by turn, slots and neighbour.
     seed: u64,
 }
@@ -26,12 +28,12 @@ impl MadeLinks {
 }
 
 impl Links for MadeLinks {
-    fn goes_on(&self, turn: usize, from: usize, to: usize) -> bool {
-        self.exists([0, turn, from, to, 0])
+    fn goes_on(&self, [from, to]: [usize; 2]) -> bool {
+        self.exists([0, from, to, 0, 0])
     }
-    fn moves_on(&self, turn: usize, from: usize, to: usize) -> Heading {
+    fn moves_on(&self, [from, to]: [usize; 2]) -> Heading {
         let up = |joint| {
-            if self.exists([2, turn, from, to, joint]) {
+            if self.exists([2, from, to, joint, 0]) {
                 1.0
             } else {
                 -1.0
@@ -48,7 +50,7 @@ impl Links for MadeLinks {
     fn starts(&self, _: usize) -> Winding {
         Winding::default()
     }
-    fn winds_on(&self, before: &Winding, _: usize, _: usize, _: usize) -> Option<Winding> {
+    fn winds_on(&self, before: &Winding, _: [usize; 2]) -> Option<Winding> {
         Some(*before)
     }
     fn winds_by_turn(&self, before: &Winding, _: [usize; 2]) -> Option<Winding> {
@@ -61,7 +63,7 @@ fn made(seed: u64, kept_slots: bool) -> Made {
     let mut up_to = |most: f64| 1 + (random.next() * most) as usize;
     let counts = [up_to(4.0), up_to(3.0), 1, up_to(1.5), 1, 1];
     let turns = Turns {
-        grid: Grid::new(counts, random.next() < 0.5),
+        grid: Grid::new(counts, seed % 2 == 0 && random.next() < 0.5),
         kept_slots,
         price: 0.1 * random.next(),
         back_price: 0.0,
@@ -97,10 +99,17 @@ fn made(seed: u64, kept_slots: bool) -> Made {
             }
         })
         .collect();
+    // Of every second lattice the settings of a column are not those of the column before.
+    let shift = |random: &mut Stream| {
+        let step = (random.next() * 3.0) as isize - 1;
+        [step, -step, 0, 0, 0, 0]
+    };
+    let shifts = (0..columns).map(|_| if seed % 2 == 0 { UNSHIFTED } else { shift(&mut random) });
     Made {
         turns,
         costs,
         beginnings,
+        shifts: shifts.collect(),
         seed,
     }
 }
@@ -110,7 +119,7 @@ fn found(made: &Made, together: Together) -> Cheapest {
     for (column, (costs, beginning)) in made.costs.iter().zip(&made.beginnings).enumerate() {
         chain.take(
             costs,
-            *beginning,
+            (*beginning, made.shifts[column]),
             &MadeLinks {
                 seed: made.seed,
                 column,
@@ -157,11 +166,12 @@ fn price(made: &Made, column: usize, from: usize, to: usize) -> Option<f64> {
         seed: made.seed,
         column,
     };
-    let turn = from / SLOTS;
+    let back = made.shifts[column].map(|by| -by);
+    let turn = made.turns.grid.shifted(from / SLOTS, &back)?;
     (0..SLOTS)
         .filter(|slot| !made.turns.kept_slots || *slot == from % SLOTS)
         .filter(|slot| {
-            made.costs[column][turn * SLOTS + slot].is_finite() && links.goes_on(turn, from % SLOTS, *slot)
+            made.costs[column][turn * SLOTS + slot].is_finite() && links.goes_on([from, turn * SLOTS + slot])
         })
         .filter_map(|slot| steps(made, column, turn * SLOTS + slot, to, most))
         .min()
@@ -253,7 +263,7 @@ fn backs(made: &Made, chain: &[usize]) -> u32 {
             seed: made.seed,
             column: column + 1,
         };
-        let moves = links.moves_on(pair[0] / SLOTS, pair[0] % SLOTS, pair[1] % SLOTS);
+        let moves = links.moves_on([pair[0], pair[1]]);
         backs += heading.turned_by(moves);
         heading = heading.then(moves);
     }
@@ -268,6 +278,7 @@ fn a_price_reduces_reversals_and_with_a_fixed_turn_the_chain_is_the_cheapest() {
         for beginning in &mut made.beginnings[1..] {
             *beginning = Beginning::Follows([0; AXES]);
         }
+        made.shifts.fill(UNSHIFTED);
         let without = found(&made, Together::Sum);
         made.turns.back_price = 0.4;
         let with = found(&made, Together::Sum);
@@ -291,7 +302,7 @@ fn a_price_reduces_reversals_and_with_a_fixed_turn_the_chain_is_the_cheapest() {
         let all = (0..made.turns.grid.len() * SLOTS).filter_map(|state| {
             let chain = vec![state; made.costs.len()];
             let links = |column| MadeLinks { seed, column };
-            let goes_on = |column: usize| links(column).goes_on(state / SLOTS, state % SLOTS, state % SLOTS);
+            let goes_on = |column: usize| links(column).goes_on([state, state]);
             let whole = (1..made.costs.len()).all(goes_on);
             let cost: f64 = made.costs.iter().map(|costs| costs[state]).sum();
             (whole && cost.is_finite()).then(|| cost + 0.4 * f64::from(backs(&made, &chain)))
@@ -311,10 +322,10 @@ fn a_price_reduces_reversals_and_with_a_fixed_turn_the_chain_is_the_cheapest() {
 fn the_tool_turns_in_the_shorter_direction_and_no_faster_than_allowed() {
     struct All;
     impl Links for All {
-        fn goes_on(&self, _: usize, _: usize, _: usize) -> bool {
+        fn goes_on(&self, _: [usize; 2]) -> bool {
             true
         }
-        fn moves_on(&self, _: usize, _: usize, _: usize) -> Heading {
+        fn moves_on(&self, _: [usize; 2]) -> Heading {
             Heading::default()
         }
         fn turns(&self, _: usize, _: [usize; 2]) -> bool {
@@ -326,7 +337,7 @@ fn the_tool_turns_in_the_shorter_direction_and_no_faster_than_allowed() {
         fn starts(&self, _: usize) -> Winding {
             Winding::default()
         }
-        fn winds_on(&self, before: &Winding, _: usize, _: usize, _: usize) -> Option<Winding> {
+        fn winds_on(&self, before: &Winding, _: [usize; 2]) -> Option<Winding> {
             Some(*before)
         }
         fn winds_by_turn(&self, before: &Winding, _: [usize; 2]) -> Option<Winding> {
@@ -349,8 +360,8 @@ fn the_tool_turns_in_the_shorter_direction_and_no_faster_than_allowed() {
         };
         let mut first = vec![f64::INFINITY; 72 * SLOTS];
         first[70 * SLOTS] = 1.0;
-        chain.take(&first, Beginning::Restart, &All);
-        let follows = Beginning::Follows([steps, 0, 0, 0, 0, 0]);
+        chain.take(&first, (Beginning::Restart, UNSHIFTED), &All);
+        let follows = (Beginning::Follows([steps, 0, 0, 0, 0, 0]), UNSHIFTED);
         chain.take(&[1.0; 72 * SLOTS], follows, &All);
         chain.take(&dear_but(3), follows, &All);
         let cheapest = chain.cheapest();

@@ -122,6 +122,8 @@ impl Resolver<'_> {
                 "reversal_um_mm",
                 own.is_some_and(|table| table.reversal_um_mm.is_some()),
             ),
+            ("lean", own.is_some_and(|table| table.lean.is_some())),
+            ("axes", own.is_some_and(|table| !table.axes.is_empty())),
         ];
         for (key, _) in given.iter().filter(|(_, given)| *given) {
             let message = format!("`{key}` is not valid for holes: each hole is evaluated separately");

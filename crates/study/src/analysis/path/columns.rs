@@ -1,4 +1,4 @@
-//! Columns that only a path has: line, distance and feed, the spin of a search or a curve, and the components of the
+//! Columns that only a path has: line, distance and feed, the spin of a search or a curve, the lean of a search, and the components of the
 //! deviation of the worst case relative to the track, with their part due to backlash and geometry; force, torque, chip and removal rate of a cut.
 
 use armill_core::path::{Pace, Parts, Track};
@@ -38,6 +38,13 @@ pub fn columns<'a>(analysis: &'a PathAnalysis, found: &'a PathResult) -> Vec<Num
             .or(of_curve)
             .map(|spins| Numbers::of(&quantity::TURN, move |_, index, _| to_deg(spins[index]))),
     );
+    let leans = found.searched.as_ref().and_then(|searched| searched.posture.leans.as_ref());
+    if let Some((leans, _)) = leans {
+        columns.extend([
+            Numbers::of(&quantity::LEAD, move |_, index, _| to_deg(leans[index].lead)),
+            Numbers::of(&quantity::TILT, move |_, index, _| to_deg(leans[index].tilt)),
+        ]);
+    }
     columns.extend(process(found));
     columns.extend(unloaded(track, found));
     columns

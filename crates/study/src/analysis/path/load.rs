@@ -26,6 +26,7 @@ use crate::analysis::path::measured::{MeasuredTable, SynchroniseName};
 use crate::analysis::path::{PathAnalysis, PathSource, cut, drill, measured};
 use crate::analysis::study_tables::StudyTables;
 use crate::analysis::table::{AnalysisKind, AnalysisTable};
+use crate::input::freedoms::ToolEnd;
 use crate::input::problem_log::ProblemLog;
 use crate::input::tables::LoadTable;
 
@@ -63,6 +64,18 @@ impl<'a> LoadSource<'a> {
         let own = own.or(analysis.load.as_ref().map(LoadSource::Load));
         own.or(cut.map(LoadSource::Cut))
             .or(common.load.map(LoadSource::Load))
+    }
+
+    /// The end of the tool, as far as the load tells it.
+    pub fn tool_end(self) -> ToolEnd {
+        match self {
+            LoadSource::Cut(cut) | LoadSource::Measured(_, Some(cut)) => {
+                let corner = cut.cutter.corner_radius_mm.unwrap_or(0.0);
+                ToolEnd::Cutter(cut.cutter.diameter_mm, corner)
+            }
+            LoadSource::Drill(..) => ToolEnd::Drill,
+            LoadSource::Load(_) | LoadSource::Measured(_, None) => ToolEnd::NotGiven,
+        }
     }
 
     /// Reports an analysis with two sources of load.

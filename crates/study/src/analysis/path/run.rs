@@ -77,7 +77,7 @@ const WORST: usize = 5;
 /// path without it and passes over the lattice once or twice; if reversals have a penalty, once more, and evaluates
 /// two chains.
 pub fn passes(path: &PathAnalysis) -> usize {
-    let searched = path.setting.search.map_or(0, |search| {
+    let searched = path.setting.search.as_ref().map_or(0, |search| {
         let worst = usize::from(search.objective == Objective::Worst);
         2 + worst + if search.back_price > 0.0 { 3 } else { 0 }
     });
@@ -138,7 +138,7 @@ impl Runner<'_> {
         let limits = match analysis.reports_limits() {
             true => program_limits(
                 &question,
-                &analysis.track,
+                track,
                 &along,
                 analysis.setting.tolerance,
                 self.watch,

@@ -182,7 +182,7 @@ pub fn answer(robot: &Robot, name: &str, analysis: &PathAnalysis, found: &PathRe
         measured: analysis.measured.as_deref().map(MeasuredAnswer::of),
         limits: LimitsAnswer::of(analysis, found),
         program: ProgramAnswer::of(analysis, found),
-        search: SearchAnswer::of(analysis, found),
+        search: SearchAnswer::of(robot, analysis, found),
         unloaded: UnloadedAnswer::of(robot, analysis, found),
         notes: notes(analysis, found),
         worst_points,

@@ -4,9 +4,10 @@
 //! inside limits and away from singularities at any spin; the path is evaluated there regardless.
 
 use armill_core::kernel::{Answers, PostureStatus};
-use armill_core::optimize::{Component, Objective, reversals};
-use armill_core::path::PathPoint;
-use armill_core::units::{to_deg, to_um};
+use armill_core::optimize::{Component, Objective, PostureFound, reversals};
+use armill_core::path::{Lean, PathPoint};
+use armill_core::robot::Robot;
+use armill_core::units::{to_deg, to_mm, to_um};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -27,6 +28,12 @@ pub struct SearchAnswer {
     pub turns: usize,
     /// Least and greatest chosen spin of the tool, relative to the one it has without the search.
     pub turn_range_deg: [f64; 2],
+    /// Least and greatest chosen lean towards the feed; null if the tool may not lean.
+    pub lead_range_deg: Option<[f64; 2]>,
+    /// Least and greatest chosen lean to the left of the feed; null if the tool may not lean.
+    pub tilt_range_deg: Option<[f64; 2]>,
+    /// The external axes that may move, and how far they do.
+    pub axes: Vec<MovedAxisAnswer>,
     /// Whether the path is followed with this result: where it has fewer obstacles, or the same number and a gain that
     /// exceeds `least_gain_um`.
     pub applied: bool,
@@ -44,6 +51,15 @@ pub struct SearchAnswer {
     pub unreachable_stretches: Vec<UnreachableStretch>,
     /// Lines at which the arm has to stop and change its posture.
     pub breaks: Vec<u32>,
+}
+
+/// An external axis that a search moves along a path.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct MovedAxisAnswer {
+    /// Name of its joint.
+    pub joint: String,
+    /// Least and greatest chosen position.
+    pub range_mm: [f64; 2],
 }
 
 /// Statistics of a path.
@@ -80,10 +96,11 @@ pub struct UnreachableStretch {
 
 impl SearchAnswer {
     /// The result along this path; `None` without a search.
-    pub fn of(analysis: &PathAnalysis, found: &PathResult) -> Option<SearchAnswer> {
+    pub fn of(robot: &Robot, analysis: &PathAnalysis, found: &PathResult) -> Option<SearchAnswer> {
         let (search, searched) = (analysis.setting.search.as_ref()?, found.searched.as_ref()?);
-        let spins = searched.posture.spins.iter().map(to_deg);
-        let least = spins.clone().fold(f64::INFINITY, f64::min);
+        let posture = &searched.posture;
+        let leans = posture.leans.as_ref().map(|(leans, _)| leans);
+        let lean = |of: fn(&Lean) -> f64| leans.map(|leans| range(leans.iter().map(of)).map(to_deg));
         let points = &analysis.track.path.points;
         let followed = StatisticsAnswer::of(analysis, &found.along.answers);
         let other = StatisticsAnswer::of(analysis, &searched.other);
@@ -96,7 +113,14 @@ impl SearchAnswer {
             component: component_name(search.component),
             objective: objective_name(search.objective),
             turns: search.spins.count,
-            turn_range_deg: [least, spins.fold(f64::NEG_INFINITY, f64::max)],
+            turn_range_deg: range(posture.spins.iter().copied()).map(to_deg),
+            lead_range_deg: lean(|lean| lean.lead),
+            tilt_range_deg: lean(|lean| lean.tilt),
+            axes: search
+                .axes
+                .iter()
+                .map(|axis| MovedAxisAnswer::of(robot, axis.joint, posture))
+                .collect(),
             applied: searched.applied,
             gain_um: to_um(gain.by()),
             gain_u_um: gain.uncertainty.map(to_um),
@@ -132,8 +156,9 @@ impl SearchAnswer {
             );
         }
         format!(
-            "tool spin of {}: {}; largest deviation {} instead of {}; {} of the points are within the tolerance, {} before; {} reversals of joints, {} before",
+            "tool spin of {}{}: {}; largest deviation {} instead of {}; {} of the points are within the tolerance, {} before; {} reversals of joints, {} before",
             self.turn_in_words(),
+            self.freedoms_in_words(),
             self.gain_in_words(),
             worst(&self.with),
             worst(&self.without),
@@ -151,6 +176,17 @@ impl SearchAnswer {
             true => format!("{from} deg"),
             false => format!("{from} to {to} deg"),
         }
+    }
+
+    /// Lean and external axes, such as `, lead of 5 to 12 deg, rail at 120 to 900 mm`; empty without.
+    pub fn freedoms_in_words(&self) -> String {
+        let lean = [("lead", self.lead_range_deg), ("tilt", self.tilt_range_deg)];
+        let leans = lean.into_iter().filter_map(|(name, range)| {
+            let [from, to] = range.filter(|range| *range != [0.0; 2])?;
+            Some(format!(", {name} of {from:.1} to {to:.1} deg"))
+        });
+        let axes = self.axes.iter().map(|axis| format!(", {}", axis.in_words()));
+        leans.chain(axes).collect()
     }
 
     /// The gain, its uncertainty, and what would be significant.
@@ -171,6 +207,36 @@ impl SearchAnswer {
             micrometres(self.least_gain_um)
         )
     }
+}
+
+impl MovedAxisAnswer {
+    fn of(robot: &Robot, joint: usize, posture: &PostureFound) -> MovedAxisAnswer {
+        let homes = posture.homes.as_deref().unwrap_or_default();
+        let positions = homes.chunks(robot.joints().len()).map(|home| home[joint]);
+        MovedAxisAnswer {
+            joint: robot.joints()[joint].name.clone(),
+            range_mm: range(positions).map(to_mm),
+        }
+    }
+
+    /// How far it moves, such as `rail at 120 to 900 mm`.
+    fn in_words(&self) -> String {
+        let [from, to] = self.range_mm.map(|mm| format!("{:.0}", decimals(mm, 0)));
+        match from == to {
+            true => format!("{} at {from} mm", self.joint),
+            false => format!("{} at {from} to {to} mm", self.joint),
+        }
+    }
+}
+
+/// Least and greatest of these; zeros without any.
+fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    let [mut least, mut greatest] = [f64::INFINITY, f64::NEG_INFINITY];
+    for value in values {
+        least = least.min(value);
+        greatest = greatest.max(value);
+    }
+    if least > greatest { [0.0; 2] } else { [least, greatest] }
 }
 
 impl StatisticsAnswer {
