@@ -3,7 +3,7 @@
 //! `cell` is where they run. What a user meets first: `new_and_robots`, `shell`, `documents` (every page is run).
 //! Commands: `run`,
 //! `pose`, `place`, `advise`, `springs`, `assumed`, `robots_check`, `import`, `materials`, `identify`, `calibrate`,
-//! `forces`, `roundness`, `ballbar`, `budget`, `path_accuracy`, `compare`, `clearance`, `holes`, `unloaded` (backlash). What goes
+//! `forces`, `roundness`, `ballbar`, `budget`, `path_accuracy`, `compare`, `clearance`, `restricted_space`, `holes`, `unloaded` (backlash). What goes
 //! wrong: `refused`, `guarded` (files of the user), `hostile` (numbers and bytes),
 //! `terminal`, `killed`, `rough` (places and inputs), `slips` (mistakes that are easily made).
 
@@ -37,6 +37,7 @@ mod place;
 mod pose;
 mod posture;
 mod refused;
+mod restricted_space;
 mod robots_check;
 mod rough;
 mod roundness;

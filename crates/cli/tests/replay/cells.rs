@@ -321,7 +321,10 @@ fn a_rail_that_moves_along_the_path_is_in_the_program_at_every_point() {
     std::fs::write(folder.path().join("arm.toml"), kr210_on_rail()).unwrap();
     let line = LINE
         .replace("[1500, 0, 800]", "[1600, 2000, 900]")
-        .replace("from_mm = [-50, 0], to_mm = [50, 0]", "from_mm = [-2000, 0], to_mm = [2000, 0]")
+        .replace(
+            "from_mm = [-50, 0], to_mm = [50, 0]",
+            "from_mm = [-2000, 0], to_mm = [2000, 0]",
+        )
         .replace("step_mm = 5\n", "step_mm = 40\n");
     let study = format!(
         "format = 1\nrobot = \"arm.toml\"\ntolerance_um = 500\n\
@@ -332,7 +335,15 @@ fn a_rail_that_moves_along_the_path_is_in_the_program_at_every_point() {
     std::fs::write(folder.path().join("study.toml"), study).unwrap();
     let output = Command::new(env!("CARGO_BIN_EXE_armill"))
         .current_dir(folder.path())
-        .args(["compensate", "study.toml", "--nominal", "--out", "out", "--program", "p/part.src"])
+        .args([
+            "compensate",
+            "study.toml",
+            "--nominal",
+            "--out",
+            "out",
+            "--program",
+            "p/part.src",
+        ])
         .args(["--feed-mm-per-min", "600"])
         .output()
         .unwrap();

@@ -249,6 +249,7 @@ impl Chain {
     /// Computes the values of the next column from its transitions.
     fn link(&mut self, costs: &[f64], (steps, shift): ([usize; AXES], &Shift), links: &impl Links) {
         let Turns { grid, kept_slots, .. } = self.turns;
+        let still = grid.code(0);
         self.next.fill(f64::INFINITY);
         self.ways.fill(0);
         for setting in 0..grid.len() {
@@ -277,7 +278,7 @@ impl Chain {
                     let value = before + self.back_price(came);
                     if value < self.next[state] {
                         self.next[state] = value;
-                        self.ways[state] = grid.code(slot);
+                        self.ways[state] = still + slot as u32;
                         if let Some(winding) = winding.flatten() {
                             self.next_windings[state] = winding;
                         }

@@ -218,7 +218,9 @@ mod tests {
         let spins = Grid::of_spins(72, true);
         assert!(spins.codes_are_bytes());
         let largest = |grid: Grid| {
-            let most = grid.free_axes().map(|axis| grid.weight(axis) * MOST_STEPS[axis] as i64);
+            let most = grid
+                .free_axes()
+                .map(|axis| grid.weight(axis) * MOST_STEPS[axis] as i64);
             i64::from(grid.code(SLOTS - 1)) + most.sum::<i64>()
         };
         assert!(largest(spins) <= i64::from(u8::MAX));

@@ -15,8 +15,8 @@
 
 use rayon::prelude::*;
 
-use super::gain::{LeastGain, gain};
 use super::column_at::{about_z, blocked_by, fill};
+use super::gain::{LeastGain, gain};
 use super::posture::{Component, PostureSearch};
 use super::window::Window;
 use crate::kernel::{

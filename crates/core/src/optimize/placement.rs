@@ -18,9 +18,9 @@ use rayon::prelude::*;
 
 use super::gain::Gain;
 use super::posture::{Component, Objective};
-use super::walk::WITHIN;
 use super::rank_by::{RankBy, changed_arms};
 use super::steps::Steps;
+use super::walk::WITHIN;
 use crate::frame::{Isometry, tool_orientation};
 use crate::kernel::{
     PartPlacement, PathTotals, PathWrenches, PlacedPath, PlacedPoint, PlacementEvaluator, PlacementScreen,

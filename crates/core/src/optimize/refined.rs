@@ -116,8 +116,7 @@ impl Last<'_> {
             let other = self.reported(chain, seen);
             let total = |found: &PostureFound| -> Result<f64, Cancelled> {
                 let turned = found.turned(track);
-                let along =
-                    along_postures(self.question, &turned, load.clone(), found.choices(), watch)?;
+                let along = along_postures(self.question, &turned, load.clone(), found.choices(), watch)?;
                 let backs: usize = reversals(&track.path, &along.answers).iter().sum();
                 Ok(found.reached + price * backs as f64)
             };
@@ -135,8 +134,7 @@ impl Last<'_> {
     fn reported(&self, chain: Cheapest, seen: Seen) -> PostureFound {
         let settings = self.walk.settings(&chain);
         let smooth = |axis: usize| {
-            let values: Vec<Option<f64>> =
-                settings.iter().map(|setting| Some((*setting)?[axis])).collect();
+            let values: Vec<Option<f64>> = settings.iter().map(|setting| Some((*setting)?[axis])).collect();
             let period = (axis == 0).then_some(TAU);
             let step = (self.window.step(axis), period);
             without_steps(&self.path.track.path, step, &values, &chain.breaks)
@@ -204,9 +202,8 @@ impl Last<'_> {
 fn key_points(track: &Track) -> Vec<usize> {
     let count = track.len();
     let stride = count.div_ceil(COARSE_POINTS).max(1);
-    let is_end = |index: usize| {
-        index + 1 == count || track.path.begins(index) || track.path.begins(index + 1)
-    };
+    let is_end =
+        |index: usize| index + 1 == count || track.path.begins(index) || track.path.begins(index + 1);
     (0..count)
         .filter(|index| index % stride == 0 || is_end(*index))
         .collect()

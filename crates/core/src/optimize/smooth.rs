@@ -81,8 +81,8 @@ mod tests {
     use nalgebra::Point2;
 
     use super::*;
-    use crate::optimize::Steps;
     use crate::arms::Stream;
+    use crate::optimize::Steps;
     use crate::path::Shape;
 
     const SPINS: Steps = Steps {

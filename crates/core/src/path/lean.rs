@@ -176,10 +176,7 @@ mod tests {
         let upright = point(Vector3::x());
         assert_eq!(placing().leaned(&upright, Lean::default(), BULL).at, upright.at);
         let plunge = point(-Vector3::z());
-        let lean = Lean {
-            lead: 0.2,
-            tilt: 0.1,
-        };
+        let lean = Lean { lead: 0.2, tilt: 0.1 };
         let leaned = placing().leaned(&plunge, lean, BULL);
         assert_eq!((leaned.at, leaned.axis), (plunge.at, Some(Vector3::z_axis())));
     }

@@ -91,7 +91,9 @@ impl Placing {
             },
             Spin::AlongFeed(angle) => {
                 let tool = axis.into_inner();
-                let x = self.across(point, &self.spindle(point)).unwrap_or_else(|| self.unspun_x(point));
+                let x = self
+                    .across(point, &self.spindle(point))
+                    .unwrap_or_else(|| self.unspun_x(point));
                 let axes = Matrix3::from_columns(&[x, tool.cross(&x), tool]);
                 let along = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
                 UnitQuaternion::from_axis_angle(&axis, angle) * along

@@ -173,7 +173,12 @@ impl Track {
     pub fn homes_at(&self, indices: impl Iterator<Item = usize>) -> Option<Vec<f64>> {
         let homes = self.homes.as_ref()?;
         let width = homes.len().checked_div(self.len())?;
-        Some(indices.flat_map(|index| &homes[index * width..][..width]).copied().collect())
+        Some(
+            indices
+                .flat_map(|index| &homes[index * width..][..width])
+                .copied()
+                .collect(),
+        )
     }
 
     /// The track with the tool turned by `spin` (rad) about its axis at all points, in addition.

@@ -106,7 +106,7 @@ fn all(study: &Study, setting: &Setting, [place, load, points]: [String; 3]) -> 
     };
     let searched = setting
         .search
-            .as_ref()
+        .as_ref()
         .map_or("", |_| ", best spins and branches searched");
     vec![
         ("robot", format!("{} ({})", study.robot.title, robot.name())),

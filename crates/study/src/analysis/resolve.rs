@@ -29,8 +29,8 @@ use crate::analysis::{Sheet, Subject};
 use crate::input::cell::CellBodies;
 use crate::input::cell::bodies::tool_bodies;
 use crate::input::cell::placed::{CellFrames, placed_cell};
-use crate::input::memory::{OF_FIELD, OF_MAP, PointMemory};
 use crate::input::freedoms::ToolEnd;
+use crate::input::memory::{OF_FIELD, OF_MAP, PointMemory};
 use crate::input::problem_log::ProblemLog;
 use crate::input::quantities::{grid, load_cases, plane_at, pose_mm_deg};
 use crate::input::setting::Setting;
@@ -293,12 +293,7 @@ impl Resolver<'_> {
     }
 
     /// What is searched for along a path; `None` also where that is wrong.
-    fn search(
-        &self,
-        log: &mut ProblemLog<'_>,
-        open: BranchPattern,
-        tool: ToolEnd,
-    ) -> Option<PostureSearch> {
+    fn search(&self, log: &mut ProblemLog<'_>, open: BranchPattern, tool: ToolEnd) -> Option<PostureSearch> {
         let table = self.of_posture(|posture| posture.search.as_ref());
         let table = table.filter(|_| self.table.kind == AnalysisKind::Path)?;
         let tolerance_um = self.table.tolerance_um.unwrap_or(self.common.tolerance_um);

@@ -174,11 +174,18 @@ fn axis(log: &mut ProblemLog<'_>, key: &str, table: &AxisTable, robot: &Robot) -
     let external = found.filter(|joint| robot.carries_the_arm(*joint));
     let Some(joint) = external else {
         let message = match found {
-            Some(_) => format!("joint `{}` of robot `{}` is not an external axis", table.joint, robot.name()),
+            Some(_) => format!(
+                "joint `{}` of robot `{}` is not an external axis",
+                table.joint,
+                robot.name()
+            ),
             None => format!("robot `{}` has no joint `{}`", robot.name(), table.joint),
         };
         let hint = match names(true) {
-            external if external.is_empty() => "an external axis is a prismatic joint in front of the six of the robot; this robot has none".to_owned(),
+            external if external.is_empty() => {
+                "an external axis is a prismatic joint in front of the six of the robot; this robot has none"
+                    .to_owned()
+            }
             external => format!("its external axes: {}", external.join(", ")),
         };
         log.problem(&format!("{key}.joint"), message, &hint);
@@ -194,7 +201,11 @@ fn axis(log: &mut ProblemLog<'_>, key: &str, table: &AxisTable, robot: &Robot) -
                     "the range from {first} to {last} mm is not inside the limits of joint `{}`, {lower} to {upper} mm",
                     table.joint
                 );
-                log.problem(&format!("{key}.range_mm"), message, "bounds inside those of the joint");
+                log.problem(
+                    &format!("{key}.range_mm"),
+                    message,
+                    "bounds inside those of the joint",
+                );
                 return None;
             }
             [first, last]

@@ -10,7 +10,11 @@ fn on_rail() -> tempfile::TempDir {
     let rail = "name = \"rail\"\nsign = 1\nlimits_mm = [-500, 3000]\nmax_speed_mm_per_s = 1000\nsource = \"made up\"\n\
                 compliance_um_per_n = 0.001\ncompliance_source = \"made up\"\n\n[[joint]]";
     let text = library
-        .replacen("motions = [", "motions = [\n    { along = \"y\", joint = \"rail\" },", 1)
+        .replacen(
+            "motions = [",
+            "motions = [\n    { along = \"y\", joint = \"rail\" },",
+            1,
+        )
         .replacen("[[joint]]", &format!("[[joint]]\n{rail}"), 1)
         + "\n[sources.\"made up\"]\nwhat = \"A rail for tests\"\nwhere = \"none\"\nlicence = \"none\"\n";
     let folder = tempfile::tempdir().unwrap();
@@ -92,8 +96,14 @@ fn what_cannot_lean_or_move_is_refused_with_its_key() {
     let ball = "cutter = { diameter_mm = 12, corner_radius_mm = 6 }";
     let cases = [
         (", lean = {}".to_owned(), "neither `lead_deg` nor `tilt_deg`"),
-        (", lean = { lead_deg = [0, 20] }".to_owned(), "the end of the tool is not known"),
-        (format!(", lean = {{ lead_deg = [20, 0], {ball} }}"), "from 20 to 0"),
+        (
+            ", lean = { lead_deg = [0, 20] }".to_owned(),
+            "the end of the tool is not known",
+        ),
+        (
+            format!(", lean = {{ lead_deg = [20, 0], {ball} }}"),
+            "from 20 to 0",
+        ),
         (
             ", lean = { tilt_deg = [0, 20], cutter = { diameter_mm = 12, corner_radius_mm = 0 } }".to_owned(),
             "only a rounded corner",
@@ -103,15 +113,24 @@ fn what_cannot_lean_or_move_is_refused_with_its_key() {
             "only a rounded corner",
         ),
         (", axes = [{ joint = \"E9\" }]".to_owned(), "has no joint `E9`"),
-        (", axes = [{ joint = \"S\" }]".to_owned(), "is not an external axis"),
+        (
+            ", axes = [{ joint = \"S\" }]".to_owned(),
+            "is not an external axis",
+        ),
     ];
     for (keys, expected) in cases {
         let said = problems(here, &circle(&keys));
-        assert!(said.contains(expected) && said.contains("posture.search"), "{keys}: {said}");
+        assert!(
+            said.contains(expected) && said.contains("posture.search"),
+            "{keys}: {said}"
+        );
     }
     let folder = on_rail();
     for (keys, expected) in [
-        ("joint = \"rail\", range_mm = [0, 4000]", "not inside the limits of joint `rail`, -500 to 3000 mm"),
+        (
+            "joint = \"rail\", range_mm = [0, 4000]",
+            "not inside the limits of joint `rail`, -500 to 3000 mm",
+        ),
         ("joint = \"rail\", range_mm = [2000, 1000]", "from 2000 to 1000"),
         ("joint = \"rail\" }, { joint = \"rail\"", "given twice"),
         ("joint = \"S\"", "its external axes: rail"),

@@ -104,7 +104,13 @@ fn made(seed: u64, kept_slots: bool) -> Made {
         let step = (random.next() * 3.0) as isize - 1;
         [step, -step, 0, 0, 0, 0]
     };
-    let shifts = (0..columns).map(|_| if seed % 2 == 0 { UNSHIFTED } else { shift(&mut random) });
+    let shifts = (0..columns).map(|_| {
+        if seed % 2 == 0 {
+            UNSHIFTED
+        } else {
+            shift(&mut random)
+        }
+    });
     Made {
         turns,
         costs,

@@ -4,13 +4,13 @@ use std::sync::atomic::AtomicBool;
 use nalgebra::{Point2, Point3, UnitQuaternion};
 
 use super::*;
-use crate::optimize::reversals;
-use crate::optimize::walk::WITHIN;
-use crate::frame::Isometry;
 use crate::arms;
+use crate::frame::Isometry;
 use crate::kernel::BranchChoice;
 use crate::load::{LoadCases, LoadFrame, PathLoad};
 use crate::map::{AlongPath, along_postures, obstacles};
+use crate::optimize::reversals;
+use crate::optimize::walk::WITHIN;
 use crate::path::{LoadedTrack, Pace, Placing, SampledPath, Shape, Spin};
 use crate::robot::{Limits, Robot};
 use crate::source::{Arm, StiffnessModel};

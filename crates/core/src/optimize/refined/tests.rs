@@ -158,11 +158,14 @@ fn a_rail_that_stands_still_within_cuts_moves_between_them_alone() {
     let mut track = line(Point3::new(0.8, 2.0, 0.5), 0.6, 0.02);
     let length = track.path.length();
     let cut = track.path.points.clone();
-    track.path.points.extend(cut.iter().map(|point| crate::path::PathPoint {
-        at: point.at + Vector3::new(2.0, 0.0, 0.0),
-        along: point.along + length,
-        ..*point
-    }));
+    track
+        .path
+        .points
+        .extend(cut.iter().map(|point| crate::path::PathPoint {
+            at: point.at + Vector3::new(2.0, 0.0, 0.0),
+            along: point.along + length,
+            ..*point
+        }));
     let search = PostureSearch {
         axes: vec![MovingAxis {
             still: true,
@@ -238,7 +241,9 @@ fn lean_and_rail_are_never_worse_than_without_and_agree_with_each_setting_alone(
             let choices = vec![(0, BranchChoice::Of(branch.into()))];
             let along = along_postures(&question, &leaning, load(), choices, Watch::NONE).unwrap();
             let usable = |point: &Result<crate::kernel::Evaluation, _>| {
-                point.as_ref().is_ok_and(|of| of.within_limits() && of.singularity.is_none())
+                point
+                    .as_ref()
+                    .is_ok_and(|of| of.within_limits() && of.singularity.is_none())
             };
             let wrist = |index: usize| along.answers.joints_at(index)[5].sin().abs() > few.wrist.sin();
             let fine = along.answers.points.iter().all(usable) && (0..track.len()).all(wrist);
@@ -248,7 +253,11 @@ fn lean_and_rail_are_never_worse_than_without_and_agree_with_each_setting_alone(
             }
         }
     }
-    assert!((found.reached - least).abs() < 1e-9 * least, "{} {least}", found.reached);
+    assert!(
+        (found.reached - least).abs() < 1e-9 * least,
+        "{} {least}",
+        found.reached
+    );
 }
 
 #[test]
@@ -298,5 +307,8 @@ fn refinement_comes_near_the_whole_lattice() {
     let (third, _) = best(&finest);
     assert!(least <= third * (1.0 + 1e-12), "{least} {third} {second} {first}");
     // Steps along the path come at other points with other steps: the passes are not monotonic.
-    assert!(third < first && third < 1.1 * least, "{least} {third} {second} {first}");
+    assert!(
+        third < first && third < 1.1 * least,
+        "{least} {third} {second} {first}"
+    );
 }

@@ -38,7 +38,10 @@ pub fn columns<'a>(analysis: &'a PathAnalysis, found: &'a PathResult) -> Vec<Num
             .or(of_curve)
             .map(|spins| Numbers::of(&quantity::TURN, move |_, index, _| to_deg(spins[index]))),
     );
-    let leans = found.searched.as_ref().and_then(|searched| searched.posture.leans.as_ref());
+    let leans = found
+        .searched
+        .as_ref()
+        .and_then(|searched| searched.posture.leans.as_ref());
     if let Some((leans, _)) = leans {
         columns.extend([
             Numbers::of(&quantity::LEAD, move |_, index, _| to_deg(leans[index].lead)),

@@ -136,13 +136,7 @@ impl Runner<'_> {
         along.answers.measure_clearances(&question);
         let track = turned.as_ref().unwrap_or(&analysis.track);
         let limits = match analysis.reports_limits() {
-            true => program_limits(
-                &question,
-                track,
-                &along,
-                analysis.setting.tolerance,
-                self.watch,
-            )?,
+            true => program_limits(&question, track, &along, analysis.setting.tolerance, self.watch)?,
             false => None,
         };
         let worst = worst_points(&analysis.track, &along.answers, WORST);

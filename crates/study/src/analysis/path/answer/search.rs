@@ -14,7 +14,7 @@ use serde::Serialize;
 use crate::analysis::path::PathAnalysis;
 use crate::analysis::path::run::PathResult;
 use crate::analysis::words::micrometres;
-use crate::number::decimals;
+use crate::number::{decimals, without_rounding};
 use crate::uncertainty_words::u_in_words;
 
 /// The search for spins and branches along a path.
@@ -100,7 +100,9 @@ impl SearchAnswer {
         let (search, searched) = (analysis.setting.search.as_ref()?, found.searched.as_ref()?);
         let posture = &searched.posture;
         let leans = posture.leans.as_ref().map(|(leans, _)| leans);
-        let lean = |of: fn(&Lean) -> f64| leans.map(|leans| range(leans.iter().map(of)).map(to_deg));
+        let lean = |of: fn(&Lean) -> f64| {
+            leans.map(|leans| range(leans.iter().map(of)).map(|angle| without_rounding(to_deg(angle))))
+        };
         let points = &analysis.track.path.points;
         let followed = StatisticsAnswer::of(analysis, &found.along.answers);
         let other = StatisticsAnswer::of(analysis, &searched.other);
@@ -215,7 +217,7 @@ impl MovedAxisAnswer {
         let positions = homes.chunks(robot.joints().len()).map(|home| home[joint]);
         MovedAxisAnswer {
             joint: robot.joints()[joint].name.clone(),
-            range_mm: range(positions).map(to_mm),
+            range_mm: range(positions).map(|at| without_rounding(to_mm(at))),
         }
     }
 
@@ -236,7 +238,11 @@ fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
         least = least.min(value);
         greatest = greatest.max(value);
     }
-    if least > greatest { [0.0; 2] } else { [least, greatest] }
+    if least > greatest {
+        [0.0; 2]
+    } else {
+        [least, greatest]
+    }
 }
 
 impl StatisticsAnswer {

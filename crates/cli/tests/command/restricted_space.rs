@@ -1,0 +1,114 @@
+//! The public benchmark for restricted spaces (Su et al. 2026, doi 10.1016/j.ijmachtools.2026.104364): a line of 1.3 m on the
+//! floor of a space with walls, steps and a ceiling. Spin alone does not lead along it; lean does, also on a rail.
+
+use std::path::Path;
+
+use serde_json::Value;
+
+use crate::cell::{Cell, number};
+
+/// A line on the floor of the space, every 50 mm (the benchmark has a point every 2 mm), a fillet end mill of 25 mm
+/// with a corner radius of 5 mm as in the benchmark, and a spindle of 120 mm.
+const STUDY: &str = r#"format = 1
+robot = "ROBOT"
+tolerance_um = 500
+least_clearance_mm = 5
+compliance = { class = "heavy" }
+plane = { centre_mm = [2200, 0, 325], tilt_deg = 90, half_size_mm = 10, step_mm = 50 }
+load = { frame = "feed", cases_n = [[-40, 20, 10]] }
+posture = { branch = "best", search = { step_deg = 10FREEDOMS } }
+
+[tool]
+flange_from_tool_mm_deg = [0, 0, 400, 0, 0, 0]
+[[tool.body]]
+name = "spindle"
+cylinder_mm = { from = [0, 0, 0], to = [0, 0, 300], diameter = 120 }
+[[tool.body]]
+name = "holder"
+cylinder_mm = { from = [0, 0, 300], to = [0, 0, 350], diameter = 60 }
+[[tool.body]]
+name = "cutter"
+cuts = true
+cylinder_mm = { from = [0, 0, 350], to = [0, 0, 400], diameter = 25 }
+
+[part]
+mesh = "space.stl"
+mesh_unit = "m"
+part_from_body_mm_deg = [-650, 0, -25, 90, 0, 0]
+
+[[analysis]]
+kind = "path"
+name = "floor"
+polyline_mm = [[-650, 0], [650, 0]]
+"#;
+
+const LEAN: &str = ", lean = { lead_deg = [-30, 30], tilt_deg = [-30, 30], step_deg = 10, deg_per_mm = 0.2, \
+                    cutter = { diameter_mm = 25, corner_radius_mm = 5 } }";
+const RAIL: &str = ", axes = [{ joint = \"rail\", step_mm = 250 }]";
+
+/// The path of the result in the space of the samples; `None` without samples.
+fn followed(robot: &str, freedoms: &str) -> Option<Value> {
+    let Some(samples) = std::env::var_os("ARMILL_SAMPLES") else {
+        println!("skipped: ARMILL_SAMPLES is not set");
+        return None;
+    };
+    let space = Path::new(&samples).join("collision/restricted-space/SDG1V7sim350_400E1.STL");
+    let study = STUDY.replace("ROBOT", robot).replace("FREEDOMS", freedoms);
+    let cell = Cell::with_study(&study);
+    std::fs::copy(&space, cell.at("space.stl"))
+        .unwrap_or_else(|error| panic!("{}: {error}", space.display()));
+    cell.file("railed.toml", on_rail());
+    cell.armill(&["run", "study.toml", "--no-pictures", "--out", "out"])
+        .fine();
+    Some(cell.result("out")["paths"][0].clone())
+}
+
+/// The M-710iC/45M of the library on a rail of 3 m along y, across which the part lies.
+fn on_rail() -> String {
+    let library = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots/fanuc/m710ic-45m.toml");
+    let robot = std::fs::read_to_string(library).unwrap();
+    let rail = "[[joint]]\nname = \"rail\"\nsign = 1\nlimits_mm = [-1500, 1500]\nmax_speed_mm_per_s = 1000\n\
+                source = \"made up\"\n\n[[joint]]";
+    robot
+        .replacen(
+            "motions = [",
+            "motions = [\n    { along = \"y\", joint = \"rail\" },",
+            1,
+        )
+        .replacen("[[joint]]", rail, 1)
+        + "\n[sources.\"made up\"]\nwhat = \"A rail for tests\"\nwhere = \"none\"\nlicence = \"none\"\n"
+}
+
+/// Whether a path is followed from end to end, and keeps the demanded clearance.
+fn is_feasible(path: &Value) -> bool {
+    let none = |key: &str| number(&path[key]) == 0.0;
+    none("unreachable")
+        && none("in_collision")
+        && none("outside_joint_limits")
+        && path["obstacles"].as_array().is_some_and(Vec::is_empty)
+        && path["search"]["breaks"].as_array().is_some_and(Vec::is_empty)
+}
+
+#[test]
+fn spin_alone_does_not_lead_along_the_floor_and_lean_does() {
+    let Some(spins) = followed("fanuc/m710ic-45m", "") else {
+        return;
+    };
+    assert!(!is_feasible(&spins), "{spins}");
+    let reasons = spins["search"]["unreachable_stretches"].to_string();
+    assert!(reasons.contains("in_collision"), "{reasons}");
+    let leaning = followed("fanuc/m710ic-45m", LEAN).unwrap();
+    assert!(is_feasible(&leaning), "{leaning}");
+    assert!(number(&leaning["least_clearance_mm"]) >= 5.0);
+    let [from, to] = [0, 1].map(|end| number(&leaning["search"]["tilt_range_deg"][end]));
+    assert!((-30.0..=30.0).contains(&from) && (-30.0..=30.0).contains(&to) && to - from > 10.0);
+}
+
+#[test]
+fn on_a_rail_lean_leads_along_the_floor_too() {
+    let Some(railed) = followed("railed.toml", &format!("{LEAN}{RAIL}")) else {
+        return;
+    };
+    assert!(is_feasible(&railed), "{railed}");
+    assert!(number(&railed["least_clearance_mm"]) >= 5.0);
+}
