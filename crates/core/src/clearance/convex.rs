@@ -68,7 +68,10 @@ impl Core {
             }),
             Core::Cylinder { axis, radius } => {
                 let along = axis.to - axis.from;
-                let across = direction - along * (direction.dot(&along) / along.norm_squared());
+                let off_axis =
+                    |vector: &Vector3<f64>| vector - along * (vector.dot(&along) / along.norm_squared());
+                // Twice: what rounding leaves along the axis would be enlarged with what is short across it.
+                let across = off_axis(&off_axis(direction));
                 let length = across.norm();
                 let end = farther(axis.from, axis.to);
                 // Along its axis every point of the end is as far.

@@ -182,3 +182,22 @@ fn the_distance_does_not_depend_on_the_frame() {
         assert!((here.distance - there.distance).abs() < 1e-9);
     }
 }
+
+#[test]
+fn points_of_a_cylinder_are_on_its_end_for_directions_almost_along_the_axis() {
+    let mut stream = Stream(33);
+    for _ in 0..2_000 {
+        let axis = Segment {
+            from: stream.vector(1.0).into(),
+            to: stream.vector(1.0).into(),
+        };
+        let core = Core::Cylinder { axis, radius: 0.15 };
+        let along = axis.to - axis.from;
+        let unit = along.normalize();
+        let across = unit.cross(&stream.vector(1.0)).normalize();
+        let direction = unit + across * 10_f64.powf(stream.between(-12.0, -3.0));
+        let point = core.support(&direction);
+        assert!((point - axis.to).dot(&unit).abs() < 1e-14, "{direction}");
+        assert!((point - axis.to).norm() < 0.15 + 1e-14);
+    }
+}
