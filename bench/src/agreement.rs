@@ -1,7 +1,7 @@
 //! Checks that all candidates compute the same: without it a ratio has no meaning.
 //!
 //! Relative differences against the yardstick: armill within 1e-9, peers within 1e-6. Angles are compared as
-//! turns: a whole turn more is the same angle.
+//! turns: a whole turn more is the same angle. Distances of parry are compared with those of armill.
 
 use std::f64::consts::TAU;
 
@@ -20,6 +20,9 @@ const SINGLE: f64 = 1e-3;
 /// How far a peer may be from the yardstick.
 const PEER: f64 = 1e-6;
 
+/// How far a distance of parry may be from that of armill, m: where its iterations stop.
+const PARRY: f64 = 1e-5;
+
 /// Checks armill and every peer on `poses`; reports the difference of each.
 ///
 /// # Errors
@@ -36,13 +39,12 @@ pub fn check(arm: &Arm, poses: &[Pose]) -> Result<Vec<String>, String> {
             .into_iter()
             .map(|(who, by)| (who, by, PEER)),
     );
+    found.push(("parry3d-f64, distances in m", peers::parry::difference(), PARRY));
     let wrong = found.iter().find(|(_, by, allowed)| by.is_nan() || by > allowed);
     if let Some((who, by, allowed)) = wrong {
-        return Err(format!(
-            "{who} is off the yardstick by {by:.1e}, allowed {allowed:.0e}"
-        ));
+        return Err(format!("{who} differs by {by:.1e}, allowed {allowed:.0e}"));
     }
-    let said = |(who, by, _): &(&str, f64, f64)| format!("{who}: {by:.1e} off the yardstick");
+    let said = |(who, by, _): &(&str, f64, f64)| format!("{who}: differs by {by:.1e}");
     Ok(found.iter().map(said).collect())
 }
 

@@ -17,6 +17,7 @@ use std::process::ExitCode;
 use std::{env, fs};
 
 use armill_bench::armill::{Arm, ONE_POSTURE, candidates as of_armill, isometry};
+use armill_bench::clearance;
 use armill_bench::clock::{Candidate, rates, row};
 use armill_bench::lanes::{self, Places};
 use armill_bench::paths::{self, Paths};
@@ -95,12 +96,14 @@ fn run(folder: &Path, rounds: usize, part: Part, rows: &str) -> Result<(), Strin
 
     let (others, zigzag) = (kinds::others(), Paths::zigzag());
     let (steady, leaning) = (placements::Places::steady(), placements::Places::leaning());
+    let (cells, postures) = (clearance::cells(arm.robot()), clearance::postures(arm.robot()));
     let mut all = Vec::new();
     let question = arm.question(ONE_POSTURE);
     if part == Part::Armill {
         all.extend(lanes::candidates(&question, &double, &single, &pools[1]));
         all.extend(of_armill(&arm, &isometries, &pools));
         all.extend(kinds::candidates(&others, &pools[0]));
+        all.extend(clearance::candidates(arm.robot(), &cells, &postures));
     }
     if part == Part::Peers {
         all.extend(of_yardstick(&poses, &angles, &pools[1]));

@@ -24,6 +24,8 @@ mod studies;
 mod ballbar_closed_forms;
 #[path = "../budget-circles/case.rs"]
 mod budget_circles;
+#[path = "../clearance-coal/case.rs"]
+mod clearance_coal;
 #[path = "../compliance-two-ways/case.rs"]
 mod compliance_two_ways;
 #[path = "../fanuc-identification/case.rs"]
@@ -123,6 +125,10 @@ pub const CASES: &[Case] = &[
     Case {
         folder: "inverse-vs-opw",
         checks: inverse_vs_opw::checks,
+    },
+    Case {
+        folder: "clearance-coal",
+        checks: clearance_coal::checks,
     },
     Case {
         folder: "thermal-growth",

@@ -1,10 +1,11 @@
 //! Other crates at the same work. Each file: the arm as the peer writes it, its rows, how far it is off.
 //!
-//! `k` and `rs_opw`: postures in Rust; `ik_geo`: the same by subproblems, built where cmake is.
+//! `k` and `rs_opw`: postures in Rust; `ik_geo`: the same by subproblems, built where cmake is; `parry`: distances.
 
 #[cfg(feature = "ik-geo")]
 pub mod ik_geo;
 pub mod k;
+pub mod parry;
 pub mod rs_opw;
 
 use crate::agreement::apart;
@@ -18,6 +19,7 @@ pub fn candidates(poses: &[Pose]) -> Vec<Candidate<'_>> {
     #[cfg(feature = "ik-geo")]
     all.extend(ik_geo::candidates(poses));
     all.extend(k::candidates(poses));
+    all.extend(parry::candidates());
     all
 }
 

@@ -97,7 +97,23 @@ const AIMS: &[Aim] = &[
         100.0,
         300.0,
     ),
+    aim(
+        "arm of capsules, 1000 triangles, 10 mm kept along moves",
+        side(CLEARANCE, "", "arm of capsules, check along moves"),
+        1.0,
+        2.0,
+    ),
+    aim(
+        "arm of 20 000 triangles, 1000 triangles, 10 mm kept along moves",
+        side(CLEARANCE, "", "arm of meshes, check along moves"),
+        0.1,
+        0.3,
+    ),
 ];
+
+/// The rows of distances, and those of their peer.
+const CLEARANCE: &str = "armill clearance";
+const PARRY: &str = "parry3d-f64";
 
 /// An aim.
 const fn aim(text: &'static str, row: Side, must: f64, stretch: f64) -> Aim {
@@ -222,6 +238,34 @@ const GOALS: &[Goal] = &[
         theirs: side(PACKAGE, PACKAGE, MANY),
         must: 1.8,
         stretch: 1.95,
+    },
+    Goal {
+        text: "distance of a capsule and a mesh of 512 triangles against parry3d",
+        ours: side(CLEARANCE, "", "capsule, mesh of 512"),
+        theirs: side(PARRY, "", "capsule, mesh of 512"),
+        must: 10.0,
+        stretch: 20.0,
+    },
+    Goal {
+        text: "distance of a capsule and a mesh of 32 768 triangles against parry3d",
+        ours: side(CLEARANCE, "", "capsule, mesh of 32 768"),
+        theirs: side(PARRY, "", "capsule, mesh of 32 768"),
+        must: 100.0,
+        stretch: 300.0,
+    },
+    Goal {
+        text: "distance of two meshes of 2048 triangles against parry3d",
+        ours: side(CLEARANCE, "", "meshes of 2048"),
+        theirs: side(PARRY, "", "meshes of 2048"),
+        must: 20.0,
+        stretch: 50.0,
+    },
+    Goal {
+        text: "distance of a cylinder and a box against parry3d",
+        ours: side(CLEARANCE, "", "cylinder, box"),
+        theirs: side(PARRY, "", "cylinder, box"),
+        must: 0.5,
+        stretch: 1.0,
     },
     Goal {
         text: "dev, AVX2 path against the widest",

@@ -45,6 +45,7 @@ other branch, arm or tool, and no shares and uncertainties.
 
 - **armill**: as users get it, without options of the compiler; instructions are chosen while it runs
 - **plain Rust, rs-opw-kinematics, ik-geo, k**: `target-cpu=native`, release profile, arms made once, poses in their own types
+- **parry3d-f64**: the same settings; shapes and their trees made once, `query::distance` of two shapes at their poses
 - **numba**: `fastmath`, `error_model=\"numpy\"` (with Python's check for a division by zero the loop gets no vectors), poses as
   columns, output allocated once; with threads: `parallel` over contiguous blocks
 - **numpy**: poses as columns, blocks of 8192, output allocated once

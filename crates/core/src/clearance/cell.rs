@@ -62,6 +62,8 @@ pub struct Cell {
     pub(super) arm: Vec<ArmBody>,
     pub(super) attachment_from_body: Vec<IsometryMatrix3<f64>>,
     pub(super) hulls: Vec<Capsule>,
+    /// Radii of the balls around the hulls, m.
+    pub(super) balls: Vec<f64>,
     /// Pairs of bodies of the arm that are checked.
     pub(super) pairs: Vec<[usize; 2]>,
     /// Pairs of bodies of the arm that are in contact in every posture, and so not checked.
@@ -109,6 +111,9 @@ impl Still {
                 && best.is_none_or(|(best, _)| nearest.distance < best.distance)
             {
                 best = Some((nearest, index));
+                if nearest.distance == 0.0 {
+                    break;
+                }
             }
         }
         best
@@ -167,6 +172,18 @@ pub struct PlacedCell<'a> {
     pub cell: &'a Cell,
     /// The frame of the part in base.
     pub base_from_part: &'a Isometry,
+}
+
+#[cfg(test)]
+impl<'a> PlacedCell<'a> {
+    /// With the frame of the part at the base.
+    pub(super) fn at_base(cell: &'a Cell) -> PlacedCell<'a> {
+        static BASE: std::sync::LazyLock<Isometry> = std::sync::LazyLock::new(Isometry::identity);
+        PlacedCell {
+            cell,
+            base_from_part: &BASE,
+        }
+    }
 }
 
 #[cfg(test)]

@@ -28,7 +28,7 @@ const FINE: Effort = Effort {
     searched: 8,
     last_step: 1e-3,
 };
-/// To compare cuts.
+/// To compare cuts, and for bounds.
 const COARSE: Effort = Effort {
     outermost: 100,
     searched: 2,
@@ -64,6 +64,11 @@ pub struct Enclosed {
 /// The smallest capsule that was found around these points; `None` without any.
 pub fn enclosing_capsule(points: &[Point3<f64>]) -> Option<Capsule> {
     fitted(points, FINE)
+}
+
+/// The same with less effort, for a bound: somewhat larger.
+pub(super) fn roughly_enclosing_capsule(points: &[Point3<f64>]) -> Option<Capsule> {
+    fitted(points, COARSE)
 }
 
 /// At most this many capsules around a surface, each with its part; none of an empty one.

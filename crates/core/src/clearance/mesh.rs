@@ -9,10 +9,11 @@ use nalgebra::{IsometryMatrix3, Matrix3, Point3, Vector3};
 
 use super::bounds::{Bounds, Capsule};
 use super::convex::{Convex, Core, rounded};
-use super::nearest::{Nearest, Segment, Triangle};
+use super::enclosing::roughly_enclosing_capsule;
+use super::nearest::{Nearest, Triangle};
 
 /// Most triangles of a leaf of the tree.
-const LEAF: usize = 4;
+const LEAF: usize = 2;
 
 /// Directions of the rays that decide whether a point is inside: not along edges and faces of usual parts.
 const RAYS: [Vector3<f64>; 3] = [
@@ -79,7 +80,7 @@ impl Mesh {
             open.extend([children, children + 1]);
         }
         let points: Vec<_> = triangles.iter().flat_map(|triangle| triangle.0).collect();
-        let hull = enclosing_capsule(&points);
+        let hull = roughly_enclosing_capsule(&points)?;
         Some(Mesh {
             triangles,
             nodes,
@@ -153,6 +154,7 @@ impl Mesh {
         if self.contains(&inner) {
             return Some(Nearest::touching(inner));
         }
+        let ends = [hull.axis.from, hull.axis.to];
         let mut best = Best::within(limit);
         let mut open = vec![(hull.bound_to(self.bounds()), 0_u32)];
         while let Some((bound, index)) = open.pop() {
@@ -169,7 +171,9 @@ impl Mesh {
             }
             for triangle in self.leaf(node) {
                 let reach = hull.extent(&best.direction)[1];
-                if best.excludes(triangle.extent(&best.direction)[0] - reach) {
+                if best.excludes(triangle.extent(&best.direction)[0] - reach)
+                    || best.excludes(triangle.gap(&ends) - hull.radius)
+                {
                     continue;
                 }
                 best.take(match &body.core {
@@ -218,7 +222,10 @@ impl Mesh {
                     let theirs = Triangle(theirs.0.map(|corner| from_other * corner));
                     for ours in self.leaf(first) {
                         let direction = &best.direction;
-                        if best.excludes(theirs.extent(direction)[0] - ours.extent(direction)[1]) {
+                        if best.excludes(theirs.extent(direction)[0] - ours.extent(direction)[1])
+                            || best.excludes(ours.gap(&theirs.0))
+                            || best.excludes(theirs.gap(&ours.0))
+                        {
                             continue;
                         }
                         best.take(ours.nearest(&theirs));
@@ -364,53 +371,6 @@ fn is_crossed(triangle: &Triangle, from: &Point3<f64>, ray: &Vector3<f64>) -> bo
     let q = s.cross(&ab);
     let v = ray.dot(&q) / determinant;
     u >= 0.0 && v >= 0.0 && u + v <= 1.0 && ac.dot(&q) / determinant > 0.0
-}
-
-/// A capsule around these points, about the longest of their principal axes.
-fn enclosing_capsule(points: &[Point3<f64>]) -> Capsule {
-    let mean = points.iter().map(|point| point.coords).sum::<Vector3<f64>>() / points.len() as f64;
-    let spread = points.iter().fold(Matrix3::zeros(), |sum, point| {
-        let d = point.coords - mean;
-        sum + d * d.transpose()
-    });
-    let directions = spread.symmetric_eigen().eigenvectors;
-    // Vertices are not spread evenly over a surface: the axes of the frame are tried as well.
-    let tries =
-        (0..3)
-            .map(|i| directions.column(i).into_owned())
-            .chain([Vector3::x(), Vector3::y(), Vector3::z()]);
-    let centre = Bounds::of(points.iter().copied()).centre();
-    let capsules = tries.flat_map(|direction| {
-        [centre, mean.into()].map(|through: Point3<f64>| {
-            Capsule::around(
-                points,
-                &Segment {
-                    from: through,
-                    to: through + direction,
-                },
-            )
-        })
-    });
-    let volume = |capsule: &Capsule| {
-        let r = capsule.radius;
-        r * r * (2.0 * capsule.axis.half_length() + 4.0 / 3.0 * r)
-    };
-    let mut best: Option<Capsule> = None;
-    for capsule in capsules {
-        if best.is_none_or(|best| volume(&capsule) < volume(&best)) {
-            best = Some(capsule);
-        }
-    }
-    let mut best = best.unwrap_or(Capsule {
-        axis: Segment {
-            from: centre,
-            to: centre,
-        },
-        radius: 0.0,
-    });
-    // Rounding must not leave a point outside.
-    best.radius += 1e-9 * (1.0 + best.radius + 2.0 * best.axis.half_length());
-    best
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@
 //! | segment and segment | common perpendicular, clamped to the ends of one after the other |
 //! | point and triangle | projection if it is inside, else the edges |
 //! | segment and triangle | piercing point; else ends above the inside, and the three edges |
-//! | triangle and triangle | each edge of one and the other triangle |
+//! | triangle and triangle | piercing points; else pairs of edges, and corners above the inside of the other |
 //!
 //! Points in m, all in one frame. Where segments are parallel, any of their nearest points is valid. Exact but for rounding: segments
 //! within 1e-8 rad of parallel may be found as much as 1e-8 of their length too far apart.
@@ -206,17 +206,49 @@ impl Triangle {
         [a.min(b).min(c), a.max(b).max(c)]
     }
 
+    /// A lower bound of the distance of points from it, m: the gap between its plane and what is between these points.
+    pub fn gap(&self, points: &[Point3<f64>]) -> f64 {
+        let normal = self.area_vector();
+        let length = normal.norm();
+        let height = |point: &Point3<f64>| normal.dot(&(point - self.0[0]));
+        let (mut least, mut greatest) = (f64::INFINITY, f64::NEG_INFINITY);
+        for height in points.iter().map(height) {
+            (least, greatest) = (least.min(height), greatest.max(height));
+        }
+        let gap = least.max(-greatest);
+        // A degenerate triangle has no plane.
+        if gap > 0.0 && length > 0.0 {
+            gap / length
+        } else {
+            0.0
+        }
+    }
+
     /// The nearest points of two triangles.
     pub fn nearest(&self, other: &Triangle) -> Nearest {
-        let mut best: Option<Nearest> = None;
-        let mut take = |found: Nearest| best = Some(best.map_or(found, |best| best.or_nearer(found)));
-        for edge in self.edges() {
-            take(other.nearest_to_segment(&edge));
+        let (normal, others) = (self.area_vector(), other.area_vector());
+        let (own, theirs) = (self.edges(), other.edges());
+        let pierced = own.iter().find_map(|edge| other.pierced_by(edge, &others));
+        if let Some(at) = pierced.or_else(|| theirs.iter().find_map(|edge| self.pierced_by(edge, &normal))) {
+            return Nearest::touching(at);
         }
-        for edge in other.edges() {
-            take(self.nearest_to_segment(&edge).swapped());
+        let mut best = Nearest::between(self.0[0], other.0[0]);
+        for first in &own {
+            for second in &theirs {
+                best = best.or_nearer(first.nearest(second));
+            }
         }
-        best.unwrap_or_else(|| Nearest::between(self.0[0], other.0[0]))
+        for corner in &self.0 {
+            if let Some(foot) = other.foot(corner, &others) {
+                best = best.or_nearer(Nearest::between(*corner, foot));
+            }
+        }
+        for corner in &other.0 {
+            if let Some(foot) = self.foot(corner, &normal) {
+                best = best.or_nearer(Nearest::between(foot, *corner));
+            }
+        }
+        best
     }
 }
 

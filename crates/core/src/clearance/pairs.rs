@@ -3,6 +3,7 @@
 //! Pairs that touch in every posture do so by design, or by the size of their bodies: they are left out. Pairs that never keep the demanded
 //! clearance are near by design: they only must not touch. Both are decided by postures spread over the joint limits.
 
+use super::bounds::Capsule;
 use super::cell::{ArmBody, Cell, FixedBody, PlacedCell, Role, Still, matrix};
 use super::state::CellState;
 use crate::frame::Isometry;
@@ -32,12 +33,17 @@ impl Cell {
                 }
             }
         }
+        let hulls: Vec<Capsule> = arm.iter().map(|body| body.shape.hull()).collect();
         let mut cell = Cell {
             attachment_from_body: arm
                 .iter()
                 .map(|body| matrix(&body.attachment_from_body))
                 .collect(),
-            hulls: arm.iter().map(|body| body.shape.hull()).collect(),
+            balls: hulls
+                .iter()
+                .map(|hull| hull.axis.half_length() + hull.radius)
+                .collect(),
+            hulls,
             arm,
             pairs,
             always_in_contact: Vec::new(),

@@ -1,6 +1,6 @@
 //! The bodies of a cell with the arm in one posture: their distances.
 
-use nalgebra::IsometryMatrix3;
+use nalgebra::{IsometryMatrix3, Point3};
 
 use super::bounds::Capsule;
 use super::cell::{Cell, Clearance, PlacedCell, Role, matrix};
@@ -9,7 +9,6 @@ use super::shape::Placed;
 use crate::frame::Isometry;
 use crate::robot::deflected_arm::attachment_frame;
 use crate::robot::forward::{Frames, forward_into};
-use crate::robot::inverse::tool_on;
 use crate::robot::{Attachment, Robot};
 
 /// The bodies of a cell with the arm in one posture. Made once, used for any number of postures.
@@ -17,7 +16,7 @@ use crate::robot::{Attachment, Robot};
 pub struct CellState<'a> {
     cell: &'a Cell,
     robot: &'a Robot,
-    flange_from_tool: Isometry,
+    flange_from_tool: IsometryMatrix3<f64>,
     base_from_part: IsometryMatrix3<f64>,
     part_from_base: IsometryMatrix3<f64>,
     frames: Frames,
@@ -25,6 +24,8 @@ pub struct CellState<'a> {
     base_from_body: Vec<IsometryMatrix3<f64>>,
     /// The capsule around each body of the arm, base.
     hulls: Vec<Capsule>,
+    /// Their middles, base.
+    middles: Vec<Point3<f64>>,
     queue: Vec<(f64, Check)>,
 }
 
@@ -43,12 +44,13 @@ impl<'a> CellState<'a> {
         let mut state = CellState {
             cell,
             robot,
-            flange_from_tool: *flange_from_tool,
+            flange_from_tool: matrix(flange_from_tool),
             base_from_part: IsometryMatrix3::identity(),
             part_from_base: IsometryMatrix3::identity(),
             frames: Frames::for_robot(robot),
             base_from_body: vec![IsometryMatrix3::identity(); cell.arm.len()],
             hulls: cell.hulls.clone(),
+            middles: cell.hulls.iter().map(|hull| hull.axis.middle()).collect(),
             queue: Vec::new(),
         };
         state.set_part(base_from_part);
@@ -65,11 +67,12 @@ impl<'a> CellState<'a> {
     /// Moves the arm to these joint positions, rad (m), in the convention of the robot file.
     pub fn set_joints(&mut self, joints: &[f64]) {
         forward_into(self.robot, joints, &mut self.frames);
-        let base_from_tool = matrix(&tool_on(&self.frames, &self.flange_from_tool));
+        let base_from_tool = self.frames.base_from_flange * self.flange_from_tool;
         for (index, body) in self.cell.arm.iter().enumerate() {
             let frame = attachment_frame(body.attachment, &self.frames, &base_from_tool)
                 * self.cell.attachment_from_body[index];
             self.hulls[index] = self.cell.hulls[index].moved(&frame);
+            self.middles[index] = self.hulls[index].axis.middle();
             self.base_from_body[index] = frame;
         }
     }
@@ -142,6 +145,10 @@ impl<'a> CellState<'a> {
             if best.is_none_or(|(_, least)| kept < least) {
                 best = Some((found, kept));
             }
+            // Nothing is nearer than in contact.
+            if kept == 0.0 {
+                break;
+            }
         }
         self.queue = queue;
         best
@@ -158,10 +165,14 @@ impl<'a> CellState<'a> {
     /// All checks whose lower bound is not above `limit`, with their bounds.
     fn fill(&self, queue: &mut Vec<(f64, Check)>, limit: f64, more: f64) {
         for pair in &self.cell.pairs {
-            let [first, second] = pair.map(|index| &self.hulls[index]);
-            if first.bound_of_balls(second) > limit {
+            // Balls around both first, without a root.
+            let [from, to] = pair.map(|index| &self.middles[index]);
+            let [own, others] = pair.map(|index| self.cell.balls[index]);
+            let reach = limit + own + others;
+            if (to - from).norm_squared() > reach * reach {
                 continue;
             }
+            let [first, second] = pair.map(|index| &self.hulls[index]);
             let bound = first.distance(second);
             if bound <= limit {
                 // Contact counts as such, whatever a pair may keep.

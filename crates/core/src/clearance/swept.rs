@@ -144,12 +144,7 @@ mod tests {
     fn a_move_is_clear_if_a_thousand_samples_are_and_the_bound_of_the_way_holds() {
         let robot = arms::mh12();
         let cell = cell(&robot);
-        let here = Isometry::identity();
-        let placed = PlacedCell {
-            cell: &cell,
-            base_from_part: &here,
-        };
-        let mut state = CellState::new(placed, &robot, &here);
+        let mut state = CellState::new(PlacedCell::at_base(&cell), &robot, &Isometry::identity());
         let mut stream = Stream(61);
         let (mut clear, mut blocked) = (0, 0);
         for _ in 0..150 {
@@ -194,12 +189,7 @@ mod tests {
     fn a_move_that_does_not_move_is_measured_once() {
         let robot = arms::mh12();
         let cell = cell(&robot);
-        let here = Isometry::identity();
-        let placed = PlacedCell {
-            cell: &cell,
-            base_from_part: &here,
-        };
-        let mut state = CellState::new(placed, &robot, &here);
+        let mut state = CellState::new(PlacedCell::at_base(&cell), &robot, &Isometry::identity());
         let q = [0.0; 6];
         assert!(state.conflict_on_move(&q, &q, 0.0).is_none());
         assert!(state.conflict_on_move(&q, &q, 1.0).is_some());

@@ -139,7 +139,7 @@ pub const CLEARANCE: Quantity = Quantity {
             file: "core/src/clearance/state.rs",
             function: "CellState::clearance",
             theory: Some("clearance"),
-            validation: None,
+            validation: Some("clearance-coal"),
         },
     )
 };

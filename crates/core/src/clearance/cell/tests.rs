@@ -79,15 +79,6 @@ fn flange_from_tool() -> Isometry {
     Isometry::translation(0.0, 0.0, 0.28)
 }
 
-/// With the part where it is given.
-fn here(cell: &Cell) -> PlacedCell<'_> {
-    static HERE: std::sync::LazyLock<Isometry> = std::sync::LazyLock::new(Isometry::identity);
-    PlacedCell {
-        cell,
-        base_from_part: &HERE,
-    }
-}
-
 fn still() -> [FixedBody; 3] {
     [
         block("floor", [-2.0, -2.0, -0.1], [2.0, 2.0, 0.0], false),
@@ -102,7 +93,7 @@ fn cell(robot: &Robot) -> Cell {
 
 /// All pairs of bodies by hand, without bounds.
 fn least_of_all(cell: &Cell, robot: &Robot, q: &[f64]) -> (f64, [String; 2]) {
-    let mut state = CellState::new(here(cell), robot, &flange_from_tool());
+    let mut state = CellState::new(PlacedCell::at_base(cell), robot, &flange_from_tool());
     state.set_joints(q);
     let mut best = (f64::INFINITY, [String::new(), String::new()]);
     let mut take = |distance: f64, names: [&str; 2]| {
@@ -132,7 +123,7 @@ fn least_of_all(cell: &Cell, robot: &Robot, q: &[f64]) -> (f64, [String; 2]) {
 fn the_least_of_all_pairs_is_found_with_its_names() {
     let robot = arms::mh12();
     let cell = cell(&robot);
-    let mut state = CellState::new(here(&cell), &robot, &flange_from_tool());
+    let mut state = CellState::new(PlacedCell::at_base(&cell), &robot, &flange_from_tool());
     let mut stream = Stream(51);
     let mut collisions = 0;
     for _ in 0..2_000 {
@@ -148,7 +139,7 @@ fn the_least_of_all_pairs_is_found_with_its_names() {
         }
         for least in [0.0, 0.01, 0.1] {
             let demanded = DemandedClearance {
-                placed: here(&cell),
+                placed: PlacedCell::at_base(&cell),
                 least,
             };
             let conflict = ClearanceCheck::new(demanded, &robot, &flange_from_tool()).conflict(&q);
@@ -172,7 +163,7 @@ fn the_distance_by_hand_of_a_stretched_arm() {
     let robot = arms::mh12();
     let wall = block("wall", [1.3, -1.0, 0.0], [1.4, 1.0, 2.0], false);
     let cell = Cell::new(&robot, &flange_from_tool(), bodies().split_off(1), &[], &[wall]);
-    let mut state = CellState::new(here(&cell), &robot, &flange_from_tool());
+    let mut state = CellState::new(PlacedCell::at_base(&cell), &robot, &flange_from_tool());
     let found = state.clearance(f64::INFINITY).unwrap();
     assert_eq!(found.bodies.map(|index| cell.name(index)), ["cutter", "wall"]);
     assert!((found.nearest.distance - (1.3 - 1.175)).abs() < 1e-9, "{found:?}");
@@ -184,7 +175,7 @@ fn the_cutter_may_touch_the_part_and_the_holder_may_not() {
     // 1.10 m out the cutter is inside of the part, the end of the spindle (1.095 m) is 5 mm away from it.
     let part = block("part", [1.1, -0.2, 1.0], [1.4, 0.2, 1.5], true);
     let cell = Cell::new(&robot, &flange_from_tool(), bodies(), &[], &[part]);
-    let mut state = CellState::new(here(&cell), &robot, &flange_from_tool());
+    let mut state = CellState::new(PlacedCell::at_base(&cell), &robot, &flange_from_tool());
     let found = state.clearance(f64::INFINITY).unwrap();
     assert_eq!(found.bodies.map(|index| cell.name(index)), ["spindle", "part"]);
     assert!((found.nearest.distance - 0.005).abs() < 1e-9);
@@ -237,11 +228,11 @@ fn bodies_that_never_keep_the_clearance_only_must_not_touch() {
         .collect();
     assert_eq!(names, [["spindle", "wrist"]]);
     let demanded = DemandedClearance {
-        placed: here(&cell),
+        placed: PlacedCell::at_base(&cell),
         least: 0.05,
     };
     let mut check = ClearanceCheck::new(demanded, &robot, &flange_from_tool());
-    let mut state = CellState::new(here(&cell), &robot, &flange_from_tool());
+    let mut state = CellState::new(PlacedCell::at_base(&cell), &robot, &flange_from_tool());
     // The true distance is reported, and is no conflict: 100 mm + 20 mm from axis to spindle, less 80 mm.
     let found = state.clearance(f64::INFINITY).unwrap();
     assert!((found.nearest.distance - 0.04).abs() < 1e-9, "{found:?}");
@@ -268,7 +259,7 @@ fn links_next_to_each_other_are_not_checked() {
     ];
     let cell = Cell::new(&robot, &flange_from_tool(), near, &[], &[]);
     assert!(
-        CellState::new(here(&cell), &robot, &flange_from_tool())
+        CellState::new(PlacedCell::at_base(&cell), &robot, &flange_from_tool())
             .clearance(f64::INFINITY)
             .is_none()
     );
@@ -305,7 +296,7 @@ fn a_box_and_its_mesh_give_the_same_clearance() {
     let cells = [of(Shape::Box(bounds)), of(Shape::Mesh(Arc::new(mesh)))];
     let mut states = cells
         .each_ref()
-        .map(|cell| CellState::new(here(cell), &robot, &flange_from_tool()));
+        .map(|cell| CellState::new(PlacedCell::at_base(cell), &robot, &flange_from_tool()));
     let mut stream = Stream(52);
     for _ in 0..1_000 {
         let q = stream.joints(&robot);

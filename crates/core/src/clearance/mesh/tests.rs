@@ -2,6 +2,7 @@ use nalgebra::{Rotation3, Translation3};
 
 use super::*;
 use crate::arms::Stream;
+use crate::clearance::nearest::Segment;
 
 /// A ball of triangles: an octahedron, divided and pushed out to the radius.
 fn ball_triangles(radius: f64, divisions: usize) -> Vec<[Point3<f64>; 3]> {

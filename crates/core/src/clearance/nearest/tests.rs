@@ -112,3 +112,22 @@ fn nearly_parallel_segments_lose_no_more_than_is_said() {
         }
     }
 }
+
+#[test]
+fn a_gap_is_never_above_the_distance_and_that_of_parallel_planes() {
+    let mut stream = Stream(4);
+    let mut positive = 0;
+    for _ in 0..20_000 {
+        let (t, u, a) = (triangle(&mut stream), triangle(&mut stream), segment(&mut stream));
+        let gaps = [t.gap(&u.0), u.gap(&t.0)];
+        assert!(gaps[0].max(gaps[1]) <= t.nearest(&u).distance + 1e-12);
+        assert!(t.gap(&[a.from, a.to]) <= t.nearest_to_segment(&a).distance + 1e-12);
+        positive += usize::from(gaps[0] > 0.0);
+    }
+    assert!(positive > 2_000, "{positive}");
+    let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(Point3::from);
+    let above = corners.map(|corner| corner + Vector3::z() * 0.3);
+    assert!((Triangle(corners).gap(&above) - 0.3).abs() < 1e-15);
+    let degenerate = Triangle([corners[0], corners[0], corners[1]]);
+    assert_eq!(degenerate.gap(&above), 0.0);
+}

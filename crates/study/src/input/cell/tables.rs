@@ -1,4 +1,6 @@
 //! Tables of bodies: `[[obstacle]]`, `[[tool.body]]`, `[part]`.
+//!
+//! Each repeats the five keys of a shape: a table that refuses unknown keys cannot take some of them from another one (`flatten` of serde).
 
 use armill_formats::robot::shape_tables::{BoxTable, RoundTable};
 use schemars::JsonSchema;
