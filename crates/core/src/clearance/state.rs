@@ -28,6 +28,27 @@ pub struct CellState<'a> {
     queue: Vec<(f64, Check)>,
 }
 
+/// A bound that exceeds the demanded clearance by this is not made exact, m.
+const WORTH: f64 = 0.02;
+
+/// By how much a clearance exceeds the demanded one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Room {
+    /// A lower bound, m; exact where it is negative.
+    pub by: f64,
+    /// Whether it is not kept.
+    pub is_conflict: bool,
+}
+
+/// Limits of lower bounds, m.
+#[derive(Clone, Copy, Debug)]
+struct FillLimits {
+    /// Checks with a larger bound are left out.
+    queued: f64,
+    /// Bounds are refined until they reach this.
+    refined: f64,
+}
+
 /// Two bodies, or a body and those that stand still.
 #[derive(Clone, Copy, Debug)]
 enum Check {
@@ -121,11 +142,55 @@ impl<'a> CellState<'a> {
         self.measured(limit, least)
     }
 
+    /// By how much the clearance exceeds the demanded one, m: a lower bound, at most `enough`. Where it is negative, or bodies touch, it is
+    /// exact.
+    pub(super) fn room(&mut self, least: f64, enough: f64) -> Room {
+        let mut queue = std::mem::take(&mut self.queue);
+        queue.clear();
+        let limits = FillLimits {
+            queued: least + enough,
+            refined: least + WORTH.min(enough),
+        };
+        self.fill(&mut queue, limits, least);
+        queue.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut room = Room {
+            by: enough,
+            is_conflict: false,
+        };
+        for (bound, check) in &queue {
+            // What follows is at least as far; a bound that is worth more than the exact distance is used as it is.
+            if *bound >= least + room.by.min(WORTH) {
+                room.by = room.by.min(bound - least);
+                break;
+            }
+            let more = self.more_of(*check, least);
+            let limit = least + room.by;
+            let Some(found) = self.checked(*check, limit - more.min(limit)) else {
+                continue;
+            };
+            let distance = found.nearest.distance;
+            let kept = if distance > 0.0 { distance + more } else { 0.0 };
+            let by = match more > 0.0 && distance <= 0.0 {
+                // Near by design: apart again after the smallest motion.
+                true => 0.0,
+                false => kept - least,
+            };
+            room.is_conflict |= kept < least || kept == 0.0;
+            room.by = room.by.min(by);
+        }
+        self.queue = queue;
+        room
+    }
+
     /// The pair with the least kept clearance, and that clearance; pairs that are near by design keep `more` than their distance, m.
     fn measured(&mut self, limit: f64, more: f64) -> Option<(Clearance, f64)> {
         let mut queue = std::mem::take(&mut self.queue);
         queue.clear();
-        self.fill(&mut queue, limit, more);
+        let limits = FillLimits {
+            queued: limit,
+            refined: limit,
+        };
+        self.fill(&mut queue, limits, more);
         queue.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut best: Option<(Clearance, f64)> = None;
         for (bound, check) in &queue {
@@ -155,8 +220,9 @@ impl<'a> CellState<'a> {
         }
     }
 
-    /// All checks whose lower bound is not above `limit`, with their bounds.
-    fn fill(&self, queue: &mut Vec<(f64, Check)>, limit: f64, more: f64) {
+    /// All checks whose lower bound is not above the limit, with their bounds.
+    fn fill(&self, queue: &mut Vec<(f64, Check)>, limits: FillLimits, more: f64) {
+        let limit = limits.queued;
         for pair in &self.cell.pairs {
             let [first, second] = pair.map(|index| &self.hulls[index]);
             if first.bound_of_balls(second) > limit {
@@ -175,14 +241,14 @@ impl<'a> CellState<'a> {
                 continue;
             }
             if let Some(still) = &self.cell.obstacles {
-                let bound = still.field.bound_of(hull, &still.bodies, limit);
+                let bound = still.field.bound_of(hull, &still.bodies, limits.refined);
                 if bound <= limit {
                     queue.push((bound, Check::Obstacles(index)));
                 }
             }
             if let Some(still) = self.cell.part.as_ref().filter(|_| body.role != Role::Cutter) {
                 let in_part = hull.moved(&self.part_from_base);
-                let bound = still.field.bound_of(&in_part, &still.bodies, limit);
+                let bound = still.field.bound_of(&in_part, &still.bodies, limits.refined);
                 if bound <= limit {
                     queue.push((bound, Check::Part(index)));
                 }

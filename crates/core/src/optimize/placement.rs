@@ -22,8 +22,8 @@ use super::rank_by::{RankBy, changed_arms};
 use super::spins::Spins;
 use crate::frame::{Isometry, tool_orientation};
 use crate::kernel::{
-    PartPlacement, PathTotals, PathWrenches, PlacedPath, PlacedPoint, PlacementEvaluator, PlacementScreen,
-    PostureMargins, Question, SLOTS, WrenchAxes,
+    PartPlacement, PathTotals, PathWrenches, PlacedBranch, PlacedPath, PlacedPoint, PlacementClearance,
+    PlacementEvaluator, PlacementScreen, PostureMargins, Question, SLOTS, WrenchAxes,
 };
 use crate::load::{LoadFrame, PathLoad};
 use crate::path::{GivenSpin, LoadedTrack, Spin, Track};
@@ -256,7 +256,7 @@ impl Placeable<'_> {
             score: Score::NONE,
             uncertainty: None,
         };
-        let score = self.nominal(&mut evaluators.nominal, placement, self.objective.branches, None);
+        let score = self.best_branch(&mut evaluators, placement, self.objective.branches, None);
         score.map_or(nothing, |score| PlacementEvaluation {
             score,
             uncertainty: (self.question.arm.has_known_uncertainty() && score.unreachable == 0)
@@ -326,16 +326,13 @@ impl Placeable<'_> {
         };
         let arm = self.question.arm;
         let home = self.question.home;
-        // Along a path the clearance is checked of the placements that are good without it.
-        let clearance = || match self.objective.selection {
-            PostureSelection::ForPath => None,
-            PostureSelection::PerPoint(_) => self.question.clearance_check(),
-        };
+        let is_path = self.objective.selection == PostureSelection::ForPath;
+        let of_each = || self.question.clearance_check().filter(|_| !is_path);
         let evaluator =
-            |arm: Arm<'s>| PlacementEvaluator::new(arm, home, margins).keeping_clear(arm, home, clearance());
+            |arm: Arm<'s>| PlacementEvaluator::new(arm, home, margins).keeping_clear(arm, home, of_each());
         Evaluators {
-            screen: PlacementScreen::new(arm, margins)
-                .filter(|_| self.objective.selection == PostureSelection::ForPath),
+            screen: PlacementScreen::new(arm, margins).filter(|_| is_path),
+            clearance: PlacementClearance::new(self.question, margins).filter(|_| is_path),
             nominal: evaluator(arm),
             off: off
                 .iter()
@@ -374,12 +371,7 @@ impl Placeable<'_> {
                 return None;
             }
         }
-        let score = self.nominal(
-            &mut evaluators.nominal,
-            placement,
-            self.objective.branches,
-            bar.as_ref(),
-        )?;
+        let score = self.best_branch(evaluators, placement, self.objective.branches, bar.as_ref())?;
         let uncertainty = match self.objective.rank_by {
             RankBy::Nominal => 0.0,
             RankBy::PlusTwoSigma | RankBy::WithinTolerance(_) => {
@@ -407,7 +399,50 @@ impl Placeable<'_> {
         off.fold(in_proportion.hypot(structure.repeatability), f64::hypot)
     }
 
-    /// The score of the placement with this evaluator, with nominal values.
+    /// The score of the placement in the best of these branches, with nominal values and the demanded clearance.
+    ///
+    /// Clearance only increases the number of lost points, and is checked of the branch that is best without it; the next one is
+    /// checked if it may be better.
+    fn best_branch(
+        &self,
+        evaluators: &mut Evaluators<'_>,
+        placement: &PartPlacement,
+        branches: BranchPattern,
+        bar: Option<&Score>,
+    ) -> Option<Score> {
+        let Some(clearance) = &mut evaluators.clearance else {
+            return self.nominal(&mut evaluators.nominal, placement, branches, bar);
+        };
+        let mut left = self.each_branch(&mut evaluators.nominal, placement, branches, bar);
+        let mut best: Option<Score> = None;
+        let first = |scores: &[Score]| {
+            (0..scores.len()).reduce(|best, other| if scores[other].beats(&scores[best]) { other } else { best })
+        };
+        while let Some(next) = first(&left) {
+            let score = left.remove(next);
+            let bars = [best.as_ref(), bar];
+            if bars.into_iter().flatten().any(|bar| !score.beats(bar)) {
+                break;
+            }
+            let Some(branch) = score.branch else { return Some(score) };
+            let placed = PlacedBranch {
+                path: self.path,
+                placement,
+                branch,
+            };
+            let most = bars.into_iter().flatten().map(|bar| bar.unreachable).min();
+            let checked = Score {
+                unreachable: clearance.lost(placed, most.unwrap_or(usize::MAX)).max(score.unreachable),
+                ..score
+            };
+            if bars.into_iter().flatten().all(|bar| checked.beats(bar)) {
+                best = Some(checked);
+            }
+        }
+        best
+    }
+
+    /// The score of the placement with this evaluator, with nominal values and without the clearance of a path.
     fn nominal(
         &self,
         evaluator: &mut PlacementEvaluator<'_>,
@@ -415,31 +450,41 @@ impl Placeable<'_> {
         branches: BranchPattern,
         bar: Option<&Score>,
     ) -> Option<Score> {
+        let scores = self.each_branch(evaluator, placement, branches, bar);
+        scores
+            .into_iter()
+            .reduce(|best, score| if score.beats(&best) { score } else { best })
+    }
+
+    /// The same of each branch that may beat `bar`; of holes, and of arms without named branches, a single one.
+    fn each_branch(
+        &self,
+        evaluator: &mut PlacementEvaluator<'_>,
+        placement: &PartPlacement,
+        branches: BranchPattern,
+        bar: Option<&Score>,
+    ) -> Vec<Score> {
         if let PostureSelection::PerPoint(spins) = self.objective.selection {
             let spins: Vec<f64> = (0..spins.count).map(|index| spins.at(index)).collect();
             let totals = evaluator.evaluate_each(self.path, placement, branches, &spins);
-            return Some(Score {
+            return vec![Score {
                 unreachable: totals.unreachable,
                 cost: self.cost(&totals),
                 branch: None,
-            });
+            }];
         }
         let named = evaluator.has_branches();
         let keep = |totals: &PathTotals| bar.is_none_or(|bar| self.can_beat(bar, 0.0, totals));
         let totals = evaluator.evaluate(self.path, placement, branches, keep);
-        let mut best: Option<Score> = None;
-        for slot in 0..SLOTS {
-            let Some(totals) = &totals[slot] else { continue };
-            let score = Score {
+        let of_slot = |slot: usize| {
+            let totals = totals[slot].as_ref()?;
+            Some(Score {
                 unreachable: totals.unreachable,
                 cost: self.cost(totals),
                 branch: named.then_some(Branch::ALL[slot]),
-            };
-            if best.is_none_or(|best| score.beats(&best)) {
-                best = Some(score);
-            }
-        }
-        best
+            })
+        };
+        (0..SLOTS).filter_map(of_slot).collect()
     }
 
     /// Whether a posture can still beat `bar` if its cost so far is too high by at most `error` (m).
@@ -464,6 +509,8 @@ struct Evaluators<'a> {
     /// Used first where there is a bar and lanes support the path.
     screen: Option<PlacementScreen>,
     nominal: PlacementEvaluator<'a>,
+    /// Of a path, where a clearance is demanded.
+    clearance: Option<PlacementClearance<'a>>,
     off: Vec<PlacementEvaluator<'a>>,
 }
 

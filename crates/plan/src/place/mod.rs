@@ -347,7 +347,7 @@ impl<'a> PlacementSearch<'a> {
             }
         }
         let gain = followed.gain(&nominal, &recommended)?;
-        let answer_of = |outcome: &Outcome| OutcomeAnswer::of(&outcome.evaluation, setting.tolerance);
+        let answer_of = |outcome: &Outcome| OutcomeAnswer::of(outcome, setting);
         let (nominal, recommended) = (answer_of(&nominal), answer_of(&recommended));
         let (lost, before) = (recommended.unreachable_points, nominal.unreachable_points);
         let is_improvement = lost < before || (lost == before && gain.is_significant(least));
@@ -382,6 +382,7 @@ impl<'a> PlacementSearch<'a> {
             forces_stay: self.forces_stay(&there.part_placement(&best.spot.at)),
             seed: self.seed,
             points: track.len(),
+            demanded_clearance_mm: setting.cell.as_ref().map(|cell| decimals(to_mm(cell.least), 4)),
             rounds_taken_up,
             tool_turns_with_part: turn == ToolTurn::WithPart
                 && !matches!(track.placing.spin, Spin::AlongFeed(_)),
