@@ -16,7 +16,7 @@
 use std::collections::VecDeque;
 
 use super::demanded::ClearanceCheck;
-use super::state::Room;
+use super::state::{Check, Room};
 use crate::frame::Isometry;
 
 /// Measured postures that are remembered.
@@ -34,6 +34,8 @@ pub struct ClearanceAlong<'a> {
     /// Newest first.
     measured: VecDeque<Measured>,
     theta: Vec<f64>,
+    /// What was in the way last.
+    likely: Option<Check>,
 }
 
 /// A posture with its clearance.
@@ -51,6 +53,7 @@ impl<'a> ClearanceAlong<'a> {
             check,
             measured: VecDeque::with_capacity(REMEMBERED),
             theta: Vec::new(),
+            likely: None,
         }
     }
 
@@ -76,10 +79,11 @@ impl<'a> ClearanceAlong<'a> {
             way + ROUNDING < measured.room.by.abs()
         });
         if let Some(near) = near {
-            return !near.room.is_conflict;
+            return near.room.conflict.is_none();
         }
         self.check.state.set_joints(joints);
-        let room = self.check.state.room(self.check.least, ENOUGH);
+        let room = self.check.state.room(self.check.least, ENOUGH, self.likely);
+        self.likely = room.conflict.or(self.likely);
         let mut theta = match self.measured.len() {
             REMEMBERED => self.measured.pop_back().map(|oldest| oldest.theta),
             _ => None,
@@ -87,7 +91,7 @@ impl<'a> ClearanceAlong<'a> {
         .unwrap_or_default();
         theta.clone_from(&self.theta);
         self.measured.push_front(Measured { theta, room });
-        !room.is_conflict
+        room.conflict.is_none()
     }
 }
 

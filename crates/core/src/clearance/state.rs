@@ -34,10 +34,10 @@ const WORTH: f64 = 0.02;
 /// By how much a clearance exceeds the demanded one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Room {
-    /// A lower bound, m; exact where it is negative.
+    /// A lower bound, m; exact where it is not kept.
     pub by: f64,
-    /// Whether it is not kept.
-    pub is_conflict: bool,
+    /// What does not keep it.
+    pub conflict: Option<Check>,
 }
 
 /// Limits of lower bounds, m.
@@ -50,8 +50,8 @@ struct FillLimits {
 }
 
 /// Two bodies, or a body and those that stand still.
-#[derive(Clone, Copy, Debug)]
-enum Check {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Check {
     OfArm([usize; 2]),
     Obstacles(usize),
     Part(usize),
@@ -142,9 +142,15 @@ impl<'a> CellState<'a> {
         self.measured(limit, least)
     }
 
-    /// By how much the clearance exceeds the demanded one, m: a lower bound, at most `enough`. Where it is negative, or bodies touch, it is
-    /// exact.
-    pub(super) fn room(&mut self, least: f64, enough: f64) -> Room {
+    /// By how much the clearance exceeds the demanded one, m: a lower bound, at most `enough`. Where it is not kept, that of one of the pairs
+    /// that do not; `likely` is the first of these that is looked at.
+    pub(super) fn room(&mut self, least: f64, enough: f64, likely: Option<Check>) -> Room {
+        if let Some(found) = likely
+            .and_then(|check| self.room_of(check, least, 0.0))
+            .filter(|room| room.conflict.is_some())
+        {
+            return found;
+        }
         let mut queue = std::mem::take(&mut self.queue);
         queue.clear();
         let limits = FillLimits {
@@ -152,10 +158,10 @@ impl<'a> CellState<'a> {
             refined: least + WORTH.min(enough),
         };
         self.fill(&mut queue, limits, least);
-        queue.sort_by(|a, b| a.0.total_cmp(&b.0));
+        queue.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
         let mut room = Room {
             by: enough,
-            is_conflict: false,
+            conflict: None,
         };
         for (bound, check) in &queue {
             // What follows is at least as far; a bound that is worth more than the exact distance is used as it is.
@@ -163,23 +169,31 @@ impl<'a> CellState<'a> {
                 room.by = room.by.min(bound - least);
                 break;
             }
-            let more = self.more_of(*check, least);
-            let limit = least + room.by;
-            let Some(found) = self.checked(*check, limit - more.min(limit)) else {
-                continue;
-            };
-            let distance = found.nearest.distance;
-            let kept = if distance > 0.0 { distance + more } else { 0.0 };
-            let by = match more > 0.0 && distance <= 0.0 {
-                // Near by design: apart again after the smallest motion.
-                true => 0.0,
-                false => kept - least,
-            };
-            room.is_conflict |= kept < least || kept == 0.0;
-            room.by = room.by.min(by);
+            if let Some(found) = self.room_of(*check, least, room.by) {
+                room = found;
+            }
+            if room.conflict.is_some() {
+                break;
+            }
         }
         self.queue = queue;
         room
+    }
+
+    /// By how much the clearance of one check exceeds the demanded one, if that is less than `limit`, m, or it is not kept.
+    fn room_of(&self, check: Check, least: f64, limit: f64) -> Option<Room> {
+        let more = self.more_of(check, least);
+        let distance = self.checked(check, least + limit - more)?.nearest.distance;
+        let is_conflict = distance <= 0.0 || distance + more < least;
+        // A pair near by design that touches is apart again after the smallest motion.
+        let by = match distance > 0.0 {
+            true => distance + more - least,
+            false => more - least,
+        };
+        Some(Room {
+            by,
+            conflict: is_conflict.then_some(check),
+        })
     }
 
     /// The pair with the least kept clearance, and that clearance; pairs that are near by design keep `more` than their distance, m.

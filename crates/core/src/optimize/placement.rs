@@ -416,7 +416,13 @@ impl Placeable<'_> {
         let mut left = self.each_branch(&mut evaluators.nominal, placement, branches, bar);
         let mut best: Option<Score> = None;
         let first = |scores: &[Score]| {
-            (0..scores.len()).reduce(|best, other| if scores[other].beats(&scores[best]) { other } else { best })
+            (0..scores.len()).reduce(|best, other| {
+                if scores[other].beats(&scores[best]) {
+                    other
+                } else {
+                    best
+                }
+            })
         };
         while let Some(next) = first(&left) {
             let score = left.remove(next);
@@ -424,7 +430,9 @@ impl Placeable<'_> {
             if bars.into_iter().flatten().any(|bar| !score.beats(bar)) {
                 break;
             }
-            let Some(branch) = score.branch else { return Some(score) };
+            let Some(branch) = score.branch else {
+                return Some(score);
+            };
             let placed = PlacedBranch {
                 path: self.path,
                 placement,
@@ -432,7 +440,9 @@ impl Placeable<'_> {
             };
             let most = bars.into_iter().flatten().map(|bar| bar.unreachable).min();
             let checked = Score {
-                unreachable: clearance.lost(placed, most.unwrap_or(usize::MAX)).max(score.unreachable),
+                unreachable: clearance
+                    .lost(placed, most.unwrap_or(usize::MAX))
+                    .max(score.unreachable),
                 ..score
             };
             if bars.into_iter().flatten().all(|bar| checked.beats(bar)) {

@@ -108,18 +108,17 @@ impl OutcomeAnswer {
     pub(super) fn of(outcome: &Outcome, setting: &Setting) -> OutcomeAnswer {
         let (evaluated, cell) = (&outcome.evaluation, setting.cell.as_ref());
         let PlacementEvaluation { score, uncertainty } = evaluated;
-        let largest = cell.zip(outcome.conflicts.map(|conflicts| conflicts.largest));
+        let conflicts = cell.zip(outcome.conflicts);
         let cost = if score.cost.is_finite() { score.cost } else { 0.0 };
         OutcomeAnswer {
             cost_um: to_um(cost),
             cost_u_um: uncertainty.map(to_um),
             probability_above_tolerance: evaluated.probability_above(setting.tolerance),
             unreachable_points: score.unreachable,
-            in_collision: outcome.conflicts.map_or(0, |conflicts| conflicts.points),
-            least_clearance_mm: largest
-                .map(|(cell, conflict)| without_rounding(to_mm(cell.least - conflict.missing))),
-            nearest: largest
-                .map(|(cell, conflict)| conflict.bodies.map(|body| cell.cell.name(body).to_owned())),
+            in_collision: conflicts.map_or(0, |(_, conflicts)| conflicts.points),
+            least_clearance_mm: conflicts.map(|(_, conflicts)| without_rounding(to_mm(conflicts.distance))),
+            nearest: conflicts
+                .map(|(cell, conflicts)| conflicts.bodies.map(|body| cell.cell.name(body).to_owned())),
             branch: score.branch.map(|branch| branch.to_string()),
         }
     }

@@ -75,8 +75,10 @@ pub(super) struct Outcome {
 pub(super) struct PathConflicts {
     /// How many.
     pub points: usize,
-    /// What is in the way, and how much is missing, where most is missing.
-    pub largest: Conflict,
+    /// The two bodies where most of the demanded clearance is missing.
+    pub bodies: [usize; 2],
+    /// Their distance, m; 0 where they touch.
+    pub distance: f64,
 }
 
 impl FollowedPath<'_> {
@@ -87,9 +89,9 @@ impl FollowedPath<'_> {
         placement: &PartPlacement,
         score: &Score,
     ) -> Result<Option<PathConflicts>, Cancelled> {
-        if self.question.clearance.is_none() {
+        let Some(DemandedClearance { least, .. }) = self.question.clearance else {
             return Ok(None);
-        }
+        };
         let home = self.home(placement);
         let question = Question {
             cases: &[Wrench::ZERO],
@@ -115,9 +117,9 @@ impl FollowedPath<'_> {
                     Ok(_) => usable[index] = true,
                     Err(Unreachable::InCollision { missing: by, bodies }) => {
                         let here = Conflict { missing: by, bodies };
-                        let least = &mut missing[index];
-                        if least.is_none_or(|least| here.missing < least.missing) {
-                            *least = Some(here);
+                        let so_far = &mut missing[index];
+                        if so_far.is_none_or(|so_far| by < so_far.missing) {
+                            *so_far = Some(here);
                         }
                     }
                     Err(_) => {}
@@ -132,7 +134,8 @@ impl FollowedPath<'_> {
             .reduce(|most, other| if other.missing > most.missing { other } else { most });
         Ok(largest.map(|largest| PathConflicts {
             points: conflicts.len(),
-            largest,
+            bodies: largest.bodies,
+            distance: (least - largest.missing).max(0.0),
         }))
     }
 
@@ -153,9 +156,7 @@ impl FollowedPath<'_> {
                 choice: choice_of(&score, objective.branches),
                 home: home.as_deref().or(self.question.home),
                 // Scores of named branches have it.
-                clearance: self
-                    .clearance_at(placement)
-                    .filter(|_| score.branch.is_none()),
+                clearance: self.clearance_at(placement).filter(|_| score.branch.is_none()),
                 ..*self.question
             };
             let there = track.moved(placement.base_from_part, placement.spin);

@@ -58,7 +58,8 @@ impl<'q> PlacementClearance<'q> {
         }
         Some(PlacementClearance {
             clearance: ClearanceAlong::new(check),
-            lanes: LoadedBranches::of(&Question::unloaded(arm, home), kept, false).map(|lanes| (lanes, loads)),
+            lanes: LoadedBranches::of(&Question::unloaded(arm, home), kept, false)
+                .map(|lanes| (lanes, loads)),
             columns: Columns::whole(arm, home, [margins.wrist, margins.margin]),
             column: Column::default(),
             poses: Vec::with_capacity(POINTS),

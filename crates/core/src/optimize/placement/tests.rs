@@ -14,6 +14,8 @@ use crate::source::{Arm, StiffnessModel};
 use crate::spatial::Wrench;
 use crate::workpiece::Plane;
 
+mod in_a_cell;
+
 struct Cell {
     robot: Robot,
     tool: Isometry,
