@@ -233,7 +233,7 @@ impl PlacementAnswer {
     }
 
     /// What is in the way at a placement, if anything is: ` (40 points are too near; at the worst spindle and wall touch)`.
-    fn collision_in_words(&self, outcome: &OutcomeAnswer) -> String {
+    pub(crate) fn collision_in_words(&self, outcome: &OutcomeAnswer) -> String {
         let clearance = outcome.least_clearance_mm.zip(self.demanded_clearance_mm);
         let (Some([first, second]), Some((least, demanded))) = (&outcome.nearest, clearance) else {
             return String::new();
