@@ -17,6 +17,8 @@ use armill_study::run::run;
 
 /// The demanded clearance, mm.
 const LEAST_MM: f64 = 20.0;
+/// The branch of a search.
+const BRANCH: &str = "posture = { branch = \"front elbow-up no-flip\" }";
 /// Permitted ranges of x, y and z, mm.
 const RANGES_MM: [[f64; 2]; 3] = [[700.0, 1100.0], [-300.0, 300.0], [400.0, 1000.0]];
 
@@ -45,7 +47,7 @@ box_mm = {{ from = [600, -150, 0], to = [900, 150, {wall_mm}] }}
 kind = "path"
 name = "ring"
 circle.radius_mm = 60
-step_mm = 50
+step_mm = 100
 "#
     );
     read("study.toml", Path::new("."), text.as_bytes()).unwrap()
@@ -87,7 +89,7 @@ fn clearances_mm(study: &Study) -> Vec<Option<f64>> {
 
 #[test]
 fn the_placement_keeps_the_clearance_at_every_point_and_none_of_a_lattice_is_better() {
-    let study_there = study(800.0, [1000.0, 0.0, 500.0], "");
+    let study_there = study(800.0, [1000.0, 0.0, 500.0], BRANCH);
     let found = placed(&study_there, Watch::NONE).unwrap();
     assert_eq!(found.recommended.unreachable_points, 0, "{:?}", found.recommended);
     assert_eq!(
@@ -148,7 +150,7 @@ fn the_placement_keeps_the_clearance_at_every_point_and_none_of_a_lattice_is_bet
 
 #[test]
 fn where_no_placement_keeps_the_clearance_the_bodies_and_their_distance_are_reported() {
-    let study = study(2500.0, [1000.0, 0.0, 500.0], "");
+    let study = study(2500.0, [1000.0, 0.0, 500.0], BRANCH);
     let found = placed(&study, Watch::NONE).unwrap();
     let best = &found.recommended;
     assert!(
@@ -156,15 +158,11 @@ fn where_no_placement_keeps_the_clearance_the_bodies_and_their_distance_are_repo
         "{best:?}"
     );
     assert!(best.least_clearance_mm.unwrap() < LEAST_MM);
-    assert!(
-        best.nearest.as_ref().unwrap().contains(&"wall".to_owned()),
-        "{best:?}"
-    );
+    let [first, second] = best.nearest.as_ref().unwrap();
     let said = &found.sentences()[0];
     for words in [
         "no placement was found at which all points can be reached with the demanded clearance",
-        "at the worst ",
-        " and wall ",
+        &format!("at the worst {first} and {second} "),
     ] {
         assert!(said.contains(words), "{said}");
     }
@@ -172,7 +170,7 @@ fn where_no_placement_keeps_the_clearance_the_bodies_and_their_distance_are_repo
 
 #[test]
 fn a_search_in_a_cell_reports_progress_and_can_be_cancelled() {
-    let study = study(800.0, [1000.0, 0.0, 500.0], "");
+    let study = study(800.0, [1000.0, 0.0, 500.0], BRANCH);
     let (count, cancel) = (AtomicUsize::new(0), AtomicBool::new(false));
     let finished = |places: usize| {
         if count.fetch_add(places, Ordering::Relaxed) > 500 {
