@@ -2,7 +2,7 @@
 //!
 //! - [`posture`]: turn of the tool and branch along a path.
 //! - [`holes`]: the same at single points (holes).
-//! - [`placement`]: score of a placement of the part.
+//! - [`placement`]: score of a placement of the part; `tool_turn`: how the tool turns with it.
 //! - [`compensation`]: the commanded path for which the tool follows the nominal path.
 //! - [`nodes`]: the same with few targets and straight moves between them.
 //! - [`gain`](fn@gain): decrease of an objective by a change, with its uncertainty; [`sensitivity`](fn@sensitivity): the same
@@ -28,6 +28,7 @@ mod reversals;
 mod sensitivity;
 mod smooth;
 mod spins;
+mod tool_turn;
 mod winding;
 
 pub use compensation::{Compensated, Compensation, compensated, residual_of};
@@ -35,11 +36,10 @@ pub use gain::{FollowedTrack, Gain, LeastGain, gain, gain_along};
 pub use holes::{HolesFound, hole_postures};
 pub use lattice::Lattice;
 pub use nodes::{Shares, fitted};
-pub use placement::{
-    Placeable, PlacementEvaluation, PlacementObjective, PostureSelection, Score, ToolTurn, on_part,
-};
+pub use placement::{Placeable, PlacementEvaluation, PlacementObjective, PostureSelection, Score, on_part};
 pub use posture::{Component, Objective, PostureFound, PostureSearch, postures_along};
 pub use rank_by::RankBy;
 pub use reversals::reversals;
 pub use sensitivity::{InputKind, Sensitivity, SharedInputs, sensitivity};
 pub use spins::Spins;
+pub use tool_turn::ToolTurn;
