@@ -77,6 +77,7 @@ pub(crate) fn evaluate(
     let home = robot.home(options.home)?;
     let springs = robot.springs(py, options.compliances)?;
     let template = Question {
+        homes: None,
         arm: Arm {
             robot: robot.arm(),
             compliance: &[],

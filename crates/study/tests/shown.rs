@@ -200,6 +200,42 @@ fn a_part_out_of_reach_has_a_nearest_place_that_is_reached() {
 }
 
 #[test]
+fn the_nearest_place_keeps_clear_of_the_cell() {
+    let plain = r#"format = 1
+robot = "yaskawa/mh12"
+tolerance_um = 500
+plane = { centre_mm = [1000, 0, 500], tilt_deg = 90, half_size_mm = 100, step_mm = 50 }
+load = { cases_n = [[3, 5, 5]] }
+tool.flange_from_tool_mm_deg = [0, 0, 150, 0, 0, 0]
+"#;
+    let cell = r#"least_clearance_mm = 20
+[part]
+box_mm = { from = [-100, -100, -50], to = [100, 100, 0] }
+[[obstacle]]
+name = "wall"
+box_mm = { from = [600, -150, 0], to = [900, 150, 700] }
+"#;
+    let path = "[[analysis]]\nkind = \"path\"\nname = \"ring\"\ncircle.radius_mm = 60\nstep_mm = 50\nposture.branch = \"best\"\n";
+    let nearest = |cell: &str, centre: [f64; 3]| {
+        let study = format!("{plain}{cell}{path}").replace("[1000, 0, 500]", &format!("{centre:?}"));
+        let text = StudyText {
+            shown: "study.toml",
+            folder: Path::new("."),
+            bytes: study.as_bytes(),
+        };
+        let seen = view(text, &ViewQuestion::default(), Watch::NONE).unwrap().answer;
+        let answer = reachable(text, Some("ring"), Watch::NONE).unwrap();
+        (seen.paths[0].in_collision, answer.centre_mm.unwrap())
+    };
+    let here = [1000.0, 0.0, 500.0];
+    // Without the wall the ring is reached where it is.
+    assert_eq!(nearest("", here), (0, here));
+    let (in_collision, near) = nearest(cell, here);
+    assert!(in_collision > 0 && near != here, "{near:?}");
+    assert_eq!(nearest(cell, near).0, 0, "{near:?}");
+}
+
+#[test]
 fn what_is_outside_joint_limits_is_not_reported_as_within() {
     let found = example("mh12-groove");
     let change = ChangedValue {

@@ -34,6 +34,7 @@ mod materials;
 mod new_and_robots;
 mod path_accuracy;
 mod place;
+mod place_in_cell;
 mod pose;
 mod posture;
 mod refused;

@@ -132,16 +132,27 @@ impl Convex {
 
     /// The nearest points of two convex bodies.
     pub fn nearest(&self, other: &Convex) -> Nearest {
-        let cores = match (&self.core, &other.core) {
-            (Core::Segment(first), Core::Segment(second)) => first.nearest(second),
-            (Core::Segment(segment), Core::Triangle(triangle)) => triangle.nearest_to_segment(segment),
+        let found = self.nearest_within(other, f64::INFINITY);
+        found.expect("without a limit there is a nearest pair")
+    }
+
+    /// The same, if they are not farther apart than `limit`, m.
+    pub fn nearest_within(&self, other: &Convex, limit: f64) -> Option<Nearest> {
+        let cores = self.nearest_of_cores(other, limit + self.radius + other.radius)?;
+        Some(rounded(cores, self.radius, other.radius)).filter(|found| found.distance <= limit)
+    }
+
+    /// The nearest points of both cores; `None` only where they are farther apart than `limit`, m.
+    fn nearest_of_cores(&self, other: &Convex, limit: f64) -> Option<Nearest> {
+        match (&self.core, &other.core) {
+            (Core::Segment(first), Core::Segment(second)) => Some(first.nearest(second)),
+            (Core::Segment(segment), Core::Triangle(triangle)) => Some(triangle.nearest_to_segment(segment)),
             (Core::Triangle(triangle), Core::Segment(segment)) => {
-                triangle.nearest_to_segment(segment).swapped()
+                Some(triangle.nearest_to_segment(segment).swapped())
             }
-            (Core::Triangle(first), Core::Triangle(second)) => first.nearest(second),
-            (first, second) => nearest_of_cores(first, second),
-        };
-        rounded(cores, self.radius, other.radius)
+            (Core::Triangle(first), Core::Triangle(second)) => Some(first.nearest(second)),
+            (first, second) => cores_within(first, second, limit),
+        }
     }
 }
 
@@ -298,8 +309,8 @@ fn nearest_of<const N: usize>(all: [Simplex; N]) -> Simplex {
     best
 }
 
-/// The nearest points of two cores.
-pub(super) fn nearest_of_cores(first: &Core, second: &Core) -> Nearest {
+/// The nearest points of two cores; `None` where a gap proves that they are farther apart than `limit`, m.
+fn cores_within(first: &Core, second: &Core, limit: f64) -> Option<Nearest> {
     let start = first.inner_point() - second.inner_point();
     let start = if start == Vector3::zeros() {
         Vector3::x()
@@ -312,16 +323,19 @@ pub(super) fn nearest_of_cores(first: &Core, second: &Core) -> Nearest {
     for _ in 0..MOST_ITERATIONS {
         let distance = v.norm();
         if distance <= BOUNDS {
-            return Nearest::touching(simplex.nearest().points[0]);
+            return Some(Nearest::touching(simplex.nearest().points[0]));
         }
         let vertex = Vertex::towards(&-v, first, second);
         lower = lower.max(v.dot(&vertex.difference) / distance);
+        if lower > limit {
+            return None;
+        }
         if distance - lower <= BOUNDS {
             break;
         }
         let next = simplex.with(vertex);
         if next.count == 4 {
-            return Nearest::touching(next.nearest().points[0]);
+            return Some(Nearest::touching(next.nearest().points[0]));
         }
         let nearer = next.point();
         // Rounding can keep the simplex from coming nearer; then the bounds are as near as they come.
@@ -330,7 +344,7 @@ pub(super) fn nearest_of_cores(first: &Core, second: &Core) -> Nearest {
         }
         (simplex, v) = (next, nearer);
     }
-    simplex.nearest()
+    Some(simplex.nearest())
 }
 
 #[cfg(test)]

@@ -26,8 +26,8 @@ pub struct Conflict {
 /// Checks postures for a demanded clearance; one per thread.
 #[derive(Clone, Debug)]
 pub struct ClearanceCheck<'a> {
-    state: CellState<'a>,
-    least: f64,
+    pub(super) state: CellState<'a>,
+    pub(super) least: f64,
 }
 
 impl<'a> ClearanceCheck<'a> {

@@ -3,11 +3,12 @@
 //! Read in this order: [`nearest`] (segments and triangles, in closed form), [`convex`] (boxes and cylinders), [`bounds`] (lower
 //! bounds), [`enclosing`] (capsules around points), [`mesh`], [`shape`] (two shapes of any kind), [`field`] (many capsules against bodies that stand still),
 //! [`cell`] (all bodies of a cell), [`state`] (with the arm in a posture), [`pairs`] (which are checked), [`demanded`] (the check of a
-//! posture), [`swept`] (a joint move).
+//! posture), [`swept`] (a joint move), [`along`] (many postures near each other).
 //!
 //! Distances are exact but for rounding, well below a micrometre. They are those of the bodies as given: a capsule around a link
 //! is larger than the link.
 
+pub mod along;
 pub mod bounds;
 pub mod cell;
 pub mod convex;
@@ -21,6 +22,7 @@ pub mod shape;
 pub mod state;
 pub mod swept;
 
+pub use along::ClearanceAlong;
 pub use bounds::{Bounds, Capsule};
 pub use cell::{ArmBody, Cell, Clearance, FixedBody, PlacedCell, Role};
 pub use demanded::{ClearanceCheck, Conflict, DemandedClearance};

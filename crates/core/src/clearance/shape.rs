@@ -138,10 +138,7 @@ impl Placed {
     /// The nearest points of two shapes, that of this one first; `None` where they are farther apart than `limit`, m.
     pub fn nearest(&self, other: &Placed, limit: f64) -> Option<Nearest> {
         match (&self.solid, &other.solid) {
-            (Solid::Convex(first), Solid::Convex(second)) => {
-                let found = first.nearest(second);
-                (found.distance <= limit).then_some(found)
-            }
+            (Solid::Convex(first), Solid::Convex(second)) => first.nearest_within(second, limit),
             (
                 Solid::Convex(body),
                 Solid::Mesh {

@@ -29,9 +29,30 @@ pub struct CellState<'a> {
     queue: Vec<(f64, Check)>,
 }
 
-/// Two bodies, or a body and those that stand still.
+/// A bound that exceeds the demanded clearance by this is not made exact, m.
+const WORTH: f64 = 0.02;
+
+/// By how much a clearance exceeds the demanded one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Room {
+    /// A lower bound, m; exact where it is not kept.
+    pub by: f64,
+    /// What does not keep it.
+    pub conflict: Option<Check>,
+}
+
+/// Limits of lower bounds, m.
 #[derive(Clone, Copy, Debug)]
-enum Check {
+struct FillLimits {
+    /// Checks with a larger bound are left out.
+    queued: f64,
+    /// Bounds are refined until they reach this.
+    refined: f64,
+}
+
+/// Two bodies, or a body and those that stand still.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Check {
     OfArm([usize; 2]),
     Obstacles(usize),
     Part(usize),
@@ -124,11 +145,69 @@ impl<'a> CellState<'a> {
         self.measured(limit, least)
     }
 
+    /// By how much the clearance exceeds the demanded one, m: a lower bound, at most `enough`. Where it is not kept, that of one of the pairs
+    /// that do not; `likely` is the first of these that is looked at.
+    pub(super) fn room(&mut self, least: f64, enough: f64, likely: Option<Check>) -> Room {
+        if let Some(found) = likely
+            .and_then(|check| self.room_of(check, least, 0.0))
+            .filter(|room| room.conflict.is_some())
+        {
+            return found;
+        }
+        let mut queue = std::mem::take(&mut self.queue);
+        queue.clear();
+        let limits = FillLimits {
+            queued: least + enough,
+            refined: least + WORTH.min(enough),
+        };
+        self.fill(&mut queue, limits, least);
+        queue.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        let mut room = Room {
+            by: enough,
+            conflict: None,
+        };
+        for (bound, check) in &queue {
+            // What follows is at least as far; a bound that is worth more than the exact distance is used as it is.
+            if *bound >= least + room.by.min(WORTH) {
+                room.by = room.by.min(bound - least);
+                break;
+            }
+            if let Some(found) = self.room_of(*check, least, room.by) {
+                room = found;
+            }
+            if room.conflict.is_some() {
+                break;
+            }
+        }
+        self.queue = queue;
+        room
+    }
+
+    /// By how much the clearance of one check exceeds the demanded one, if that is less than `limit`, m, or it is not kept.
+    fn room_of(&self, check: Check, least: f64, limit: f64) -> Option<Room> {
+        let more = self.more_of(check, least);
+        let distance = self.checked(check, least + limit - more)?.nearest.distance;
+        let is_conflict = distance <= 0.0 || distance + more < least;
+        // A pair near by design that touches is apart again after the smallest motion.
+        let by = match distance > 0.0 {
+            true => distance + more - least,
+            false => more - least,
+        };
+        Some(Room {
+            by,
+            conflict: is_conflict.then_some(check),
+        })
+    }
+
     /// The pair with the least kept clearance, and that clearance; pairs that are near by design keep `more` than their distance, m.
     fn measured(&mut self, limit: f64, more: f64) -> Option<(Clearance, f64)> {
         let mut queue = std::mem::take(&mut self.queue);
         queue.clear();
-        self.fill(&mut queue, limit, more);
+        let limits = FillLimits {
+            queued: limit,
+            refined: limit,
+        };
+        self.fill(&mut queue, limits, more);
         queue.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut best: Option<(Clearance, f64)> = None;
         for (bound, check) in &queue {
@@ -162,8 +241,9 @@ impl<'a> CellState<'a> {
         }
     }
 
-    /// All checks whose lower bound is not above `limit`, with their bounds.
-    fn fill(&self, queue: &mut Vec<(f64, Check)>, limit: f64, more: f64) {
+    /// All checks whose lower bound is not above the limit, with their bounds.
+    fn fill(&self, queue: &mut Vec<(f64, Check)>, limits: FillLimits, more: f64) {
+        let limit = limits.queued;
         for pair in &self.cell.pairs {
             // Balls around both first, without a root.
             let [from, to] = pair.map(|index| &self.middles[index]);
@@ -186,14 +266,14 @@ impl<'a> CellState<'a> {
                 continue;
             }
             if let Some(still) = &self.cell.obstacles {
-                let bound = still.field.bound_of(hull, &still.bodies, limit);
+                let bound = still.field.bound_of(hull, &still.bodies, limits.refined);
                 if bound <= limit {
                     queue.push((bound, Check::Obstacles(index)));
                 }
             }
             if let Some(still) = self.cell.part.as_ref().filter(|_| body.role != Role::Cutter) {
                 let in_part = hull.moved(&self.part_from_base);
-                let bound = still.field.bound_of(&in_part, &still.bodies, limit);
+                let bound = still.field.bound_of(&in_part, &still.bodies, limits.refined);
                 if bound <= limit {
                     queue.push((bound, Check::Part(index)));
                 }

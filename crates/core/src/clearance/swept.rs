@@ -17,7 +17,7 @@
 
 use super::cell::Clearance;
 use super::state::CellState;
-use crate::robot::{Attachment, Robot};
+use crate::robot::{Attachment, Joint, Robot};
 
 /// A clearance may be less than demanded by this between two places that were measured, m.
 pub const RESOLUTION: f64 = 1e-4;
@@ -64,6 +64,31 @@ impl CellState<'_> {
             (0..moved).map(of_joint).sum::<f64>()
         });
         ways.fold(0.0, f64::max)
+    }
+
+    /// Of each joint the largest distance of a body that it moves from its origin in any posture inside the limits, m; of a prismatic joint 1.
+    /// No point of the arm moves farther than the sum of these by the motions of the joints, rad (m).
+    pub(super) fn reach_of_joints(&self) -> Vec<f64> {
+        let robot = self.robot();
+        let joints = robot.joints();
+        let at_limit = |lower: bool| -> Vec<f64> {
+            let limit = |joint: &Joint| match joint.limits {
+                Some(limits) if lower => limits.lower,
+                Some(limits) => limits.upper,
+                None => f64::INFINITY,
+            };
+            joints.iter().map(limit).collect()
+        };
+        let limits = [at_limit(true), at_limit(false)];
+        let of_joint = |joint: usize| {
+            if robot.slides(joint) {
+                return 1.0;
+            }
+            let moved = (0..self.cell().arm().len()).filter(|body| self.joints_before(*body) > joint);
+            let reach = |body: usize| self.farthest(body, joint, [&limits[0], &limits[1]]);
+            moved.map(reach).fold(0.0, f64::max)
+        };
+        (0..joints.len()).map(of_joint).collect()
     }
 
     /// Number of joints that move a body.

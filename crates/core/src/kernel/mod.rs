@@ -34,7 +34,9 @@ pub use column::{Column, ColumnLoad, Columns, PostureStatus, SLOTS};
 pub use evaluate_at_joints::{EvaluateError, evaluate_at_joints};
 pub use loaded::evaluate_loaded;
 pub use path_on_part::{PartPlacement, PathWrenches, PlacedPoint, PostureMargins, WrenchAxes};
-pub use placed::{PathTotals, PlacedPath, PlacementEvaluator, PlacementScreen};
+pub use placed::{
+    PathTotals, PlacedBranch, PlacedPath, PlacementClearance, PlacementEvaluator, PlacementScreen,
+};
 pub use postures_at::{PosturesAt, postures_at};
 pub use question::{BranchChoice, Question};
 

@@ -2,7 +2,7 @@
 //!
 //! - [`posture`]: spin and lean of the tool, external axes and branch along a path.
 //! - [`holes`]: the same at single points (holes).
-//! - [`placement`]: score of a placement of the part.
+//! - [`placement`]: score of a placement of the part; `tool_turn`: how the tool turns with it.
 //! - [`compensation`]: the commanded path for which the tool follows the nominal path.
 //! - [`nodes`]: the same with few targets and straight moves between them.
 //! - [`gain`](fn@gain): decrease of an objective by a change, with its uncertainty; [`sensitivity`](fn@sensitivity): the same
@@ -34,6 +34,7 @@ mod reversals;
 mod sensitivity;
 mod smooth;
 mod steps;
+mod tool_turn;
 mod walk;
 mod winding;
 mod window;
@@ -44,11 +45,10 @@ pub use gain::{FollowedTrack, Gain, LeastGain, gain, gain_along};
 pub use holes::{HolesFound, hole_postures};
 pub use lattice::Lattice;
 pub use nodes::{Shares, fitted};
-pub use placement::{
-    Placeable, PlacementEvaluation, PlacementObjective, PostureSelection, Score, ToolTurn, on_part,
-};
+pub use placement::{Placeable, PlacementEvaluation, PlacementObjective, PostureSelection, Score, on_part};
 pub use posture::{Component, Objective, PostureFound, PostureSearch, postures_along};
 pub use rank_by::RankBy;
 pub use reversals::reversals;
 pub use sensitivity::{InputKind, Sensitivity, SharedInputs, sensitivity};
 pub use steps::Steps;
+pub use tool_turn::ToolTurn;

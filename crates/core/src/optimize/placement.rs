@@ -13,7 +13,6 @@
 //!
 //! Forces are those of the nominal path, as in [`super::posture`]; the analysis of the placement found recomputes them.
 
-use nalgebra::{Unit, UnitQuaternion, Vector3};
 use rayon::prelude::*;
 
 use super::gain::Gain;
@@ -21,13 +20,12 @@ use super::posture::{Component, Objective};
 use super::rank_by::{RankBy, changed_arms};
 use super::steps::Steps;
 use super::walk::WITHIN;
-use crate::frame::{Isometry, tool_orientation};
 use crate::kernel::{
-    PartPlacement, PathTotals, PathWrenches, PlacedPath, PlacedPoint, PlacementEvaluator, PlacementScreen,
-    PostureMargins, Question, SLOTS, WrenchAxes,
+    PartPlacement, PathTotals, PathWrenches, PlacedBranch, PlacedPath, PlacedPoint, PlacementClearance,
+    PlacementEvaluator, PlacementScreen, PostureMargins, Question, SLOTS, WrenchAxes,
 };
 use crate::load::{LoadFrame, PathLoad};
-use crate::path::{GivenSpin, LoadedTrack, Spin, Track};
+use crate::path::LoadedTrack;
 use crate::robot::{Branch, BranchPattern};
 use crate::source::{Arm, ChangedArm};
 use crate::watch::{Cancelled, Watch};
@@ -136,67 +134,6 @@ pub fn on_part(path: LoadedTrack<'_>, component: Component, indices: &[usize]) -
     PlacedPath::new(points.collect(), wrenches_on_path)
 }
 
-/// How the tool is turned about its axis if its part is moved.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum ToolTurn {
-    /// With the part: along the feed, where whole orientations are given, and where the points have no common axis.
-    WithPart,
-    /// As by [`tool_orientation`] in base, plus this angle (rad).
-    InBase {
-        /// The tool relative to the part in the evaluation.
-        part_from_tool: UnitQuaternion<f64>,
-        /// That angle.
-        spin: f64,
-    },
-}
-
-impl ToolTurn {
-    /// The turn of the tool along `track`.
-    pub fn of(track: &Track) -> ToolTurn {
-        let first = track
-            .path
-            .points
-            .first()
-            .filter(|_| track.steady_normal().is_some());
-        // With a common axis all points turn equally: the first point represents all.
-        let spin = first.and_then(|first| match track.placing.spin {
-            Spin::Fixed(angle) => Some(angle),
-            Spin::Given(angle) => match first.spin {
-                Some(GivenSpin::Angle(given)) => Some(angle + given),
-                // A whole orientation is given relative to the part.
-                Some(GivenSpin::Orientation(_)) => None,
-                None => Some(angle),
-            },
-            Spin::AlongFeed(_) => None,
-        });
-        match spin {
-            Some(spin) => ToolTurn::InBase {
-                part_from_tool: (track.base_from_part.inverse() * track.stop(0).base_from_tool).rotation,
-                spin: spin + track.spins.as_ref().map_or(0.0, |spins| spins[0]),
-            },
-            None => ToolTurn::WithPart,
-        }
-    }
-
-    /// The placement with this pose of the part, and the tool turned by `spin` (rad) in addition.
-    pub fn placement(&self, base_from_part: Isometry, spin: f64) -> PartPlacement {
-        let more = match self {
-            ToolTurn::WithPart => 0.0,
-            ToolTurn::InBase { part_from_tool, spin } => {
-                let tool = base_from_part.rotation * part_from_tool;
-                let axis = Unit::new_normalize(tool * Vector3::z());
-                let turn = tool.inverse() * tool_orientation(axis, *spin);
-                2.0 * turn.k.atan2(turn.w)
-            }
-        };
-        PartPlacement {
-            base_from_part,
-            spin: spin + more,
-            rail: None,
-        }
-    }
-}
-
 impl Score {
     /// Without any placement.
     pub const NONE: Score = Score {
@@ -257,7 +194,7 @@ impl Placeable<'_> {
             score: Score::NONE,
             uncertainty: None,
         };
-        let score = self.nominal(&mut evaluators.nominal, placement, self.objective.branches, None);
+        let score = self.best_branch(&mut evaluators, placement, self.objective.branches, None);
         score.map_or(nothing, |score| PlacementEvaluation {
             score,
             uncertainty: (self.question.arm.has_known_uncertainty() && score.unreachable == 0)
@@ -327,16 +264,13 @@ impl Placeable<'_> {
         };
         let arm = self.question.arm;
         let home = self.question.home;
-        // Along a path the clearance is checked of the placements that are good without it.
-        let clearance = || match self.objective.selection {
-            PostureSelection::ForPath => None,
-            PostureSelection::PerPoint(_) => self.question.clearance_check(),
-        };
+        let is_path = self.objective.selection == PostureSelection::ForPath;
+        let of_each = || self.question.clearance_check().filter(|_| !is_path);
         let evaluator =
-            |arm: Arm<'s>| PlacementEvaluator::new(arm, home, margins).keeping_clear(arm, home, clearance());
+            |arm: Arm<'s>| PlacementEvaluator::new(arm, home, margins).keeping_clear(arm, home, of_each());
         Evaluators {
-            screen: PlacementScreen::new(arm, margins)
-                .filter(|_| self.objective.selection == PostureSelection::ForPath),
+            screen: PlacementScreen::new(arm, margins).filter(|_| is_path),
+            clearance: PlacementClearance::new(self.question, margins).filter(|_| is_path),
             nominal: evaluator(arm),
             off: off
                 .iter()
@@ -375,12 +309,7 @@ impl Placeable<'_> {
                 return None;
             }
         }
-        let score = self.nominal(
-            &mut evaluators.nominal,
-            placement,
-            self.objective.branches,
-            bar.as_ref(),
-        )?;
+        let score = self.best_branch(evaluators, placement, self.objective.branches, bar.as_ref())?;
         let uncertainty = match self.objective.rank_by {
             RankBy::Nominal => 0.0,
             RankBy::PlusTwoSigma | RankBy::WithinTolerance(_) => {
@@ -408,7 +337,60 @@ impl Placeable<'_> {
         off.fold(in_proportion.hypot(structure.repeatability), f64::hypot)
     }
 
-    /// The score of the placement with this evaluator, with nominal values.
+    /// The score of the placement in the best of these branches, with nominal values and the demanded clearance.
+    ///
+    /// Clearance only increases the number of lost points, and is checked of the branch that is best without it; the next one is
+    /// checked if it may be better.
+    fn best_branch(
+        &self,
+        evaluators: &mut Evaluators<'_>,
+        placement: &PartPlacement,
+        branches: BranchPattern,
+        bar: Option<&Score>,
+    ) -> Option<Score> {
+        let Some(clearance) = &mut evaluators.clearance else {
+            return self.nominal(&mut evaluators.nominal, placement, branches, bar);
+        };
+        let mut left = self.each_branch(&mut evaluators.nominal, placement, branches, bar);
+        let mut best: Option<Score> = None;
+        let first = |scores: &[Score]| {
+            (0..scores.len()).reduce(|best, other| {
+                if scores[other].beats(&scores[best]) {
+                    other
+                } else {
+                    best
+                }
+            })
+        };
+        while let Some(next) = first(&left) {
+            let score = left.remove(next);
+            let bars = [best.as_ref(), bar];
+            if bars.into_iter().flatten().any(|bar| !score.beats(bar)) {
+                break;
+            }
+            let Some(branch) = score.branch else {
+                return Some(score);
+            };
+            let placed = PlacedBranch {
+                path: self.path,
+                placement,
+                branch,
+            };
+            let most = bars.into_iter().flatten().map(|bar| bar.unreachable).min();
+            let checked = Score {
+                unreachable: clearance
+                    .lost(placed, most.unwrap_or(usize::MAX))
+                    .max(score.unreachable),
+                ..score
+            };
+            if bars.into_iter().flatten().all(|bar| checked.beats(bar)) {
+                best = Some(checked);
+            }
+        }
+        best
+    }
+
+    /// The score of the placement with this evaluator, with nominal values and without the clearance of a path.
     fn nominal(
         &self,
         evaluator: &mut PlacementEvaluator<'_>,
@@ -416,31 +398,41 @@ impl Placeable<'_> {
         branches: BranchPattern,
         bar: Option<&Score>,
     ) -> Option<Score> {
+        let scores = self.each_branch(evaluator, placement, branches, bar);
+        scores
+            .into_iter()
+            .reduce(|best, score| if score.beats(&best) { score } else { best })
+    }
+
+    /// The same of each branch that may beat `bar`; of holes, and of arms without named branches, a single one.
+    fn each_branch(
+        &self,
+        evaluator: &mut PlacementEvaluator<'_>,
+        placement: &PartPlacement,
+        branches: BranchPattern,
+        bar: Option<&Score>,
+    ) -> Vec<Score> {
         if let PostureSelection::PerPoint(spins) = self.objective.selection {
             let spins: Vec<f64> = (0..spins.count).map(|index| spins.at(index)).collect();
             let totals = evaluator.evaluate_each(self.path, placement, branches, &spins);
-            return Some(Score {
+            return vec![Score {
                 unreachable: totals.unreachable,
                 cost: self.cost(&totals),
                 branch: None,
-            });
+            }];
         }
         let named = evaluator.has_branches();
         let keep = |totals: &PathTotals| bar.is_none_or(|bar| self.can_beat(bar, 0.0, totals));
         let totals = evaluator.evaluate(self.path, placement, branches, keep);
-        let mut best: Option<Score> = None;
-        for slot in 0..SLOTS {
-            let Some(totals) = &totals[slot] else { continue };
-            let score = Score {
+        let of_slot = |slot: usize| {
+            let totals = totals[slot].as_ref()?;
+            Some(Score {
                 unreachable: totals.unreachable,
                 cost: self.cost(totals),
                 branch: named.then_some(Branch::ALL[slot]),
-            };
-            if best.is_none_or(|best| score.beats(&best)) {
-                best = Some(score);
-            }
-        }
-        best
+            })
+        };
+        (0..SLOTS).filter_map(of_slot).collect()
     }
 
     /// Whether a posture can still beat `bar` if its cost so far is too high by at most `error` (m).
@@ -465,6 +457,8 @@ struct Evaluators<'a> {
     /// Used first where there is a bar and lanes support the path.
     screen: Option<PlacementScreen>,
     nominal: PlacementEvaluator<'a>,
+    /// Of a path, where a clearance is demanded.
+    clearance: Option<PlacementClearance<'a>>,
     off: Vec<PlacementEvaluator<'a>>,
 }
 

@@ -94,7 +94,9 @@ impl AdviceAnswer {
     pub(super) fn sentences(&self) -> Vec<String> {
         let um = |of: &StatisticsAnswer| {
             of.max_in_plane_um
-                .map_or("nothing".to_owned(), |um| format!("{} µm", micrometres(um)))
+                .map_or("no permitted posture".to_owned(), |um| {
+                    format!("{} µm", micrometres(um))
+                })
         };
         let share = |of: &StatisticsAnswer| format!("{:.1} %", 100.0 * of.fraction_within);
         let limit = micrometres(self.tolerance_um);
@@ -113,13 +115,14 @@ impl AdviceAnswer {
             steps.push("keep part and tool; nothing better was found".to_owned());
         }
         let mut lines = vec![format!(
-            "{}: {}; {} of the path is then within {limit} µm, largest deviation {} (nominal: {}, {}).",
+            "{}: {}; {} of the path is then within {limit} µm, largest deviation {} (nominal: {}, {}{}).",
             self.analysis,
             steps.join(" and "),
             share(&self.recommended),
             um(&self.recommended),
             share(&self.nominal),
             um(&self.nominal),
+            self.placement.collision_in_words(&self.placement.nominal),
         )];
         lines.extend(self.steps.iter().filter_map(StepAnswer::sentence));
         lines.extend(self.out_of_tolerance_text());

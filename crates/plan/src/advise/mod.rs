@@ -214,12 +214,14 @@ fn steps(
         gain_u_um: None,
         costs,
     };
+    let comparable = placement.nominal.unreachable_points == placement.recommended.unreachable_points;
     let mut steps = vec![
         step("nominal", nominal, "nothing"),
         StepAnswer {
             is_advised: placement.is_improvement,
-            gain_um: Some(placement.gain_um),
-            gain_u_um: placement.gain_u_um,
+            // Over other points than the nominal path has, there is no gain.
+            gain_um: comparable.then_some(placement.gain_um),
+            gain_u_um: placement.gain_u_um.filter(|_| comparable),
             ..step("placement", at_place, "a new set-up of the part and its frame")
         },
     ];

@@ -28,7 +28,11 @@ pub(super) fn ranking(name: &str, kind: &str, cells: &[CellNumbers], verdict: &V
     };
     let reaches_nothing = |cell: &&CellNumbers| cell.reached == 0;
     if cells.iter().all(|cell| cell.reached == 0) {
-        return format!("{name}: no cell reaches any point of {of}.");
+        let collide = cells.iter().any(|cell| cell.counts.in_collision > 0);
+        return match collide {
+            true => format!("{name}: no cell reaches any point of {of} with the demanded clearance."),
+            false => format!("{name}: no cell reaches any point of {of}."),
+        };
     }
     let one_limit = cells.iter().all(|cell| cell.tolerance_um == first.tolerance_um);
     let part = |cell: &CellNumbers| match cell.fraction_within_and_inside_joint_limits {
@@ -82,14 +86,21 @@ pub(super) fn ranking(name: &str, kind: &str, cells: &[CellNumbers], verdict: &V
     let lost = cells.iter().filter(|cell| cell.inside_joint_limits < cell.points);
     let lost = lost.map(|cell| {
         let outside = cell.reached - cell.inside_joint_limits;
-        let reach = match cell.points - cell.reached {
+        let collisions = cell.counts.in_collision;
+        let reach = match cell.points - cell.reached - collisions {
             0 => None,
-            _ if reaches_nothing(&cell) => Some("reaches no point".to_owned()),
+            _ if reaches_nothing(&cell) && collisions == 0 => Some("reaches no point".to_owned()),
             n => Some(format!("does not reach {n} of {} points", cell.points)),
         };
         let limits =
             (outside > 0).then(|| format!("is outside joint limits at {outside} of {} points", cell.points));
-        let given: Vec<String> = reach.into_iter().chain(limits).collect();
+        let collisions = (collisions > 0).then(|| {
+            format!(
+                "does not keep the demanded clearance at {collisions} of {} points",
+                cell.points
+            )
+        });
+        let given: Vec<String> = reach.into_iter().chain(collisions).chain(limits).collect();
         format!("; {} {}", cell.cell, given.join(" and "))
     });
     let lost: String = lost.collect();

@@ -49,15 +49,22 @@ impl CompensationAnswer {
             ),
         })
         .collect();
-        for path in self
-            .paths
-            .iter()
-            .filter(|path| path.unreachable + path.outside_joint_limits > 0)
-        {
-            lines.push(format!(
-                "{}: {} of {} points are out of reach and remain unchanged; {} are outside joint limits",
-                path.name, path.unreachable, path.points, path.outside_joint_limits
-            ));
+        for path in &self.paths {
+            let name = &path.name;
+            let collisions = path.collisions.as_ref().map_or(0, |collisions| collisions.points);
+            let out_of_reach = path.unreachable - collisions;
+            if out_of_reach + path.outside_joint_limits > 0 {
+                lines.push(format!(
+                    "{name}: {out_of_reach} of {} points are out of reach and remain unchanged; {} are outside joint limits",
+                    path.points, path.outside_joint_limits
+                ));
+            }
+            lines.extend(path.collisions.iter().map(|collisions| {
+                format!(
+                    "{name}: {} of {} points remain unchanged, since no posture keeps the demanded clearance; at the worst {}",
+                    collisions.points, path.points, collisions.in_words
+                )
+            }));
         }
         lines.extend(self.paths.iter().flat_map(in_place));
         let parts = [

@@ -7,6 +7,7 @@ use armill_core::path::{Pace, Track};
 use armill_core::units::{to_deg, to_mm};
 use armill_formats::table::{Column, ColumnData, Table};
 use armill_programs::Written;
+use armill_study::analysis::clearance::{LeastClearance, in_collision};
 use armill_study::analysis::holes::HolesAnalysis;
 use armill_study::error::StudyError;
 use armill_study::file::resolve::Study;
@@ -38,6 +39,8 @@ pub struct CompensatedPath {
     pub contraction_ratio: Option<f64>,
     /// Points without posture, which are not changed.
     pub unreachable: usize,
+    /// Of these the points where no posture keeps the demanded clearance, if there are any.
+    pub collisions: Option<CollisionsAnswer>,
     /// Points outside joint limits after the correction.
     pub outside_joint_limits: usize,
     /// File of the commanded path.
@@ -46,6 +49,34 @@ pub struct CompensatedPath {
     pub in_place: Option<RewrittenProgramAnswer>,
     /// What a user must know, each a sentence.
     pub notes: Vec<String>,
+}
+
+/// Points where no posture keeps the demanded clearance.
+#[derive(Clone, Debug, Serialize)]
+pub struct CollisionsAnswer {
+    /// How many.
+    pub points: usize,
+    /// The least distance of two bodies there; 0 where they touch.
+    pub least_clearance_mm: f64,
+    /// The two bodies.
+    pub nearest: [String; 2],
+    /// Both in words.
+    #[serde(skip)]
+    pub in_words: String,
+}
+
+impl CollisionsAnswer {
+    /// Those of the answers at the points of a path with these settings; `None` without any.
+    pub(super) fn of(setting: &Setting, answers: &Answers) -> Option<CollisionsAnswer> {
+        let points = in_collision(answers);
+        let least = LeastClearance::of(setting, answers).filter(|_| points > 0)?;
+        Some(CollisionsAnswer {
+            points,
+            in_words: least.in_words(),
+            least_clearance_mm: least.distance_mm,
+            nearest: least.bodies,
+        })
+    }
 }
 
 /// Result for one path.

@@ -9,7 +9,7 @@ use armill_study::analysis::holes::answer::is_refused;
 use armill_study::analysis::runner::Runner;
 use armill_study::error::StudyError;
 
-use super::commanded::{Commanded, CompensatedPath, caution, position_columns};
+use super::commanded::{CollisionsAnswer, Commanded, CompensatedPath, caution, position_columns};
 use super::error_answer::ErrorAnswer;
 use armill_formats::table::{Table, csv};
 
@@ -83,6 +83,7 @@ pub(super) fn of_holes<'a>(
         last_round_um: to_um(commanded.last_move),
         contraction_ratio: commanded.contraction,
         unreachable: commanded.unmoved,
+        collisions: CollisionsAnswer::of(&path.setting, &commanded.along.answers),
         outside_joint_limits: commanded
             .along
             .answers

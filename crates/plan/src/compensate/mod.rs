@@ -25,7 +25,7 @@ mod holes;
 pub mod in_place;
 
 pub use answer::CompensationAnswer;
-pub use commanded::{Commanded, CompensatedPath};
+pub use commanded::{CollisionsAnswer, Commanded, CompensatedPath};
 pub use error_answer::ErrorAnswer;
 
 use armill_core::kernel::Answers;
@@ -154,6 +154,7 @@ fn of_path<'a>(
         last_round_um: to_um(found.last_move),
         contraction_ratio: found.contraction,
         unreachable: found.unmoved,
+        collisions: CollisionsAnswer::of(&path.setting, &found.along.answers),
         outside_joint_limits: found
             .along
             .answers

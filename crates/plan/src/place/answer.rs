@@ -1,13 +1,16 @@
 //! The best placement, as values of a result.
 
 use armill_core::optimize::{PlacementEvaluation, RankBy};
-use armill_core::units::to_um;
+use armill_core::units::{to_mm, to_um};
 use armill_study::analysis::words::micrometres;
+use armill_study::input::setting::Setting;
+use armill_study::number::without_rounding;
 use armill_study::uncertainty_words::{plus_minus, u_in_words};
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::certificate::{CertificateAnswer, GridAnswer};
+use super::followed::Outcome;
 use super::freedom::{FreeAnswer, PlaceAnswer};
 
 /// Where a path deviates least.
@@ -27,6 +30,8 @@ pub struct PlacementAnswer {
     pub margin_deg: f64,
     /// Points of the path.
     pub points: usize,
+    /// The clearance that postures must keep; none without a cell.
+    pub demanded_clearance_mm: Option<f64>,
     /// Where the study has the part, in the branches that it has there.
     pub nominal: OutcomeAnswer,
     /// At the best placement.
@@ -73,8 +78,14 @@ pub struct OutcomeAnswer {
     pub cost_u_um: Option<f64>,
     /// Probability that it is above the tolerance, if it is not certain.
     pub probability_above_tolerance: Option<f64>,
-    /// Points that the robot does not reach inside its limits and away from singularities.
+    /// Points that the robot does not reach inside its limits, away from singularities and with the demanded clearance.
     pub unreachable_points: usize,
+    /// Of these the points where two bodies are nearer than demanded.
+    pub in_collision: usize,
+    /// The least distance of two bodies at these points; 0 where they touch, none without such points.
+    pub least_clearance_mm: Option<f64>,
+    /// The two bodies.
+    pub nearest: Option<[String; 2]>,
     /// The branch; none for robots without named branches.
     pub branch: Option<String>,
 }
@@ -93,15 +104,21 @@ pub struct MarginAnswer {
 }
 
 impl OutcomeAnswer {
-    /// The result for an evaluated placement and this tolerance, m.
-    pub(super) fn of(evaluated: &PlacementEvaluation, limit: f64) -> OutcomeAnswer {
+    /// The result of a placement of the path of `setting`.
+    pub(super) fn of(outcome: &Outcome, setting: &Setting) -> OutcomeAnswer {
+        let (evaluated, cell) = (&outcome.evaluation, setting.cell.as_ref());
         let PlacementEvaluation { score, uncertainty } = evaluated;
+        let conflicts = cell.zip(outcome.conflicts);
         let cost = if score.cost.is_finite() { score.cost } else { 0.0 };
         OutcomeAnswer {
             cost_um: to_um(cost),
             cost_u_um: uncertainty.map(to_um),
-            probability_above_tolerance: evaluated.probability_above(limit),
+            probability_above_tolerance: evaluated.probability_above(setting.tolerance),
             unreachable_points: score.unreachable,
+            in_collision: conflicts.map_or(0, |(_, conflicts)| conflicts.points),
+            least_clearance_mm: conflicts.map(|(_, conflicts)| without_rounding(to_mm(conflicts.distance))),
+            nearest: conflicts
+                .map(|(cell, conflicts)| conflicts.bodies.map(|body| cell.cell.name(body).to_owned())),
             branch: score.branch.map(|branch| branch.to_string()),
         }
     }
@@ -121,7 +138,11 @@ impl PlacementAnswer {
                 micrometres(outcome.cost_um),
                 plus_minus(outcome.cost_u_um.map(micrometres))
             ),
-            lost => format!("no permitted posture at {lost} of {} points", self.points),
+            lost => format!(
+                "no permitted posture at {lost} of {} points{}",
+                self.points,
+                self.collision_in_words(outcome)
+            ),
         };
         let branch = |outcome: &OutcomeAnswer| {
             outcome
@@ -141,11 +162,16 @@ impl PlacementAnswer {
                 branch(&self.nominal),
             ),
             lost => format!(
-                "{}: no placement was found at which all points can be reached; the best, {}, has no permitted posture at {lost} of {} points{}.",
+                "{}: no placement was found at which all points can be reached{}; the best, {}, has no permitted posture at {lost} of {} points{}{}.",
                 self.analysis,
+                match self.recommended.in_collision {
+                    0 => "",
+                    _ => " with the demanded clearance",
+                },
                 self.place_in_words(),
                 self.points,
                 branch(&self.recommended),
+                self.collision_in_words(&self.recommended),
             ),
         }];
         if self.recommended.unreachable_points == 0 && self.nominal.unreachable_points == 0 {
@@ -204,6 +230,23 @@ impl PlacementAnswer {
             }
         });
         lines
+    }
+
+    /// What is in the way at a placement, if anything is: ` (40 points are too near; at the worst spindle and wall touch)`.
+    pub(crate) fn collision_in_words(&self, outcome: &OutcomeAnswer) -> String {
+        let clearance = outcome.least_clearance_mm.zip(self.demanded_clearance_mm);
+        let (Some([first, second]), Some((least, demanded))) = (&outcome.nearest, clearance) else {
+            return String::new();
+        };
+        let points = match outcome.in_collision {
+            1 => "one point is too near".to_owned(),
+            count => format!("{count} points are too near"),
+        };
+        let there = match least > 0.0 {
+            true => format!("are {least:.1} mm apart where {demanded:.1} mm are demanded"),
+            false => "touch".to_owned(),
+        };
+        format!(" ({points}; at the worst {first} and {second} {there})")
     }
 
     /// The gain, its uncertainty, and whether it counts.

@@ -3,7 +3,7 @@
 //! The score of a placement takes each point by itself, under the forces of the nominal path. Three things are
 //! left out there, and are added here:
 //!
-//! - the clearance of arm and tool, with the part at its place: a posture that does not keep it loses the point;
+//! - the clearance of arms without named branches, in the postures in which they follow the path;
 //! - the whole turns of the joints along a cut: a joint that would have to turn past its limit, less the margin, loses
 //!   the points where it does ([`FollowedPath::checked`]; part of the search itself);
 //! - the force-deflection equilibrium of a cut ([`FollowedPath::outcome`]): numbers of the result are those of an
@@ -11,15 +11,17 @@
 //!
 //! Holes are single points; of them the score is the result.
 
-use armill_core::clearance::{DemandedClearance, PlacedCell};
-use armill_core::kernel::{BranchChoice, PartPlacement, PlacedPath, Question};
+use armill_core::clearance::{Conflict, DemandedClearance, PlacedCell};
+use armill_core::kernel::{BranchChoice, PartPlacement, PlacedPath, Question, evaluate};
 use armill_core::map::{along_postures, turns_along};
+use armill_core::nalgebra::{UnitQuaternion, Vector3};
 use armill_core::optimize::{
     FollowedTrack, Gain, Placeable, PlacementEvaluation, PlacementObjective, PostureSelection, Score,
     gain_along, on_part,
 };
 use armill_core::path::{LoadedTrack, Track};
-use armill_core::robot::BranchPattern;
+use armill_core::robot::{BranchPattern, Unreachable};
+use armill_core::spatial::Wrench;
 use armill_core::watch::{Cancelled, Watch};
 
 use super::rail::home_at;
@@ -62,11 +64,81 @@ pub(super) struct Outcome {
     objective: PlacementObjective,
     /// The path there; none for holes, and where points are lost.
     there: Option<PathThere>,
+    /// Points without the demanded clearance, if there are any.
+    pub conflicts: Option<PathConflicts>,
     /// Cost and uncertainty.
     pub evaluation: PlacementEvaluation,
 }
 
+/// The points of a path that do not keep the demanded clearance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct PathConflicts {
+    /// How many.
+    pub points: usize,
+    /// The two bodies where most of the demanded clearance is missing.
+    pub bodies: [usize; 2],
+    /// Their distance, m; 0 where they touch.
+    pub distance: f64,
+}
+
 impl FollowedPath<'_> {
+    /// The points of the path at this placement where no permitted posture keeps the demanded clearance; `None` without any.
+    fn conflicts(
+        &self,
+        objective: &PlacementObjective,
+        placement: &PartPlacement,
+        score: &Score,
+    ) -> Result<Option<PathConflicts>, Cancelled> {
+        let Some(DemandedClearance { least, .. }) = self.question.clearance else {
+            return Ok(None);
+        };
+        let home = self.home(placement);
+        let question = Question {
+            cases: &[Wrench::ZERO],
+            choice: choice_of(score, objective.branches),
+            home: home.as_deref().or(self.question.home),
+            clearance: self.clearance_at(placement),
+            ..*self.question
+        };
+        let track = self.path.track.moved(placement.base_from_part, placement.spin);
+        let spins: Vec<f64> = match objective.selection {
+            PostureSelection::ForPath => vec![0.0],
+            PostureSelection::PerPoint(spins) => (0..spins.count).map(|index| spins.at(index)).collect(),
+        };
+        // Of each point: the least that is missing over all spins, 0 where one can be used.
+        let mut missing: Vec<Option<Conflict>> = vec![None; track.len()];
+        let mut usable = vec![false; track.len()];
+        for spin in spins {
+            let about = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), spin);
+            let pose = |index: usize| track.stop(index).base_from_tool * about;
+            let answers = evaluate(&question, track.len(), pose, self.quiet())?;
+            for (index, point) in answers.points.iter().enumerate() {
+                match *point {
+                    Ok(_) => usable[index] = true,
+                    Err(Unreachable::InCollision { missing: by, bodies }) => {
+                        let here = Conflict { missing: by, bodies };
+                        let so_far = &mut missing[index];
+                        if so_far.is_none_or(|so_far| by < so_far.missing) {
+                            *so_far = Some(here);
+                        }
+                    }
+                    Err(_) => {}
+                }
+            }
+        }
+        let lost = missing.iter().zip(&usable).filter(|(_, usable)| !**usable);
+        let conflicts: Vec<Conflict> = lost.filter_map(|(conflict, _)| *conflict).collect();
+        let largest = conflicts
+            .iter()
+            .copied()
+            .reduce(|most, other| if other.missing > most.missing { other } else { most });
+        Ok(largest.map(|largest| PathConflicts {
+            points: conflicts.len(),
+            bodies: largest.bodies,
+            distance: (least - largest.missing).max(0.0),
+        }))
+    }
+
     /// `score` with the points that are lost because joints cannot turn as far as the path requires.
     pub fn checked(
         &self,
@@ -83,7 +155,8 @@ impl FollowedPath<'_> {
             let question = Question {
                 choice: choice_of(&score, objective.branches),
                 home: home.as_deref().or(self.question.home),
-                clearance: self.clearance_at(placement),
+                // Scores of named branches have it.
+                clearance: self.clearance_at(placement).filter(|_| score.branch.is_none()),
                 ..*self.question
             };
             let there = track.moved(placement.base_from_part, placement.spin);
@@ -120,6 +193,10 @@ impl FollowedPath<'_> {
         let is_path = objective.selection == PostureSelection::ForPath;
         if !is_path || score.unreachable > 0 {
             return Ok(Outcome {
+                conflicts: match score.unreachable {
+                    0 => None,
+                    _ => self.conflicts(&objective, placement, &score)?,
+                },
                 path: nominal,
                 placement: *placement,
                 objective,
@@ -166,7 +243,13 @@ impl FollowedPath<'_> {
         let cost = objective
             .objective
             .along(objective.component, &there, &along.answers);
+        // In the search joints are those of lanes: the last word has the analysis of the path there.
+        let lost = along.answers.points.iter().filter(|point| point.is_err()).count();
         Ok(Outcome {
+            conflicts: match lost {
+                0 => None,
+                _ => self.conflicts(&objective, &placement, &score)?,
+            },
             path,
             placement,
             objective,
@@ -176,7 +259,11 @@ impl FollowedPath<'_> {
                 home,
             }),
             evaluation: PlacementEvaluation {
-                score: Score { cost, ..score },
+                score: Score {
+                    cost,
+                    unreachable: lost,
+                    ..score
+                },
                 uncertainty,
             },
         })

@@ -34,7 +34,8 @@ pub use freedom::{FreeAnswer, PlaceAnswer};
 pub use journal::Journal;
 pub use result::PlacementResult;
 
-use armill_core::kernel::{BranchChoice, PartPlacement};
+use armill_core::clearance::DemandedClearance;
+use armill_core::kernel::{BranchChoice, PartPlacement, Question};
 use armill_core::load::{LoadFrame, PathLoad};
 use armill_core::nalgebra::{Point3, UnitQuaternion, Vector3};
 use armill_core::optimize::{PlacementObjective, PostureSearch, ToolTurn, on_part};
@@ -66,6 +67,8 @@ use self::search::Effort;
 const USUAL_MM: f64 = 300.0;
 /// Points of a long path.
 const LONG: usize = 50_000;
+/// Places that are rounded as in a result are nearer to bodies by less than this, m: 0.05 µm, and 0.00005 deg at 5 m.
+const ROUNDED: f64 = 5e-6;
 /// A part that is turned by less is not turned, rad.
 const TURNED: f64 = 1e-6;
 
@@ -238,6 +241,14 @@ impl<'a> PlacementSearch<'a> {
         let on_part =
             |indices: &[usize]| on_part(LoadedTrack { track, load: &load }, objective.component, indices);
         let question = runner.question(&self.analysis.setting);
+        // The placement of the result is rounded.
+        let question = Question {
+            clearance: question.clearance.map(|demanded| DemandedClearance {
+                least: demanded.least + ROUNDED,
+                ..demanded
+            }),
+            ..question
+        };
         let (all, some) = (on_part(&all), on_part(&some));
         let followed = FollowedPath {
             question: &question,
@@ -347,7 +358,7 @@ impl<'a> PlacementSearch<'a> {
             }
         }
         let gain = followed.gain(&nominal, &recommended)?;
-        let answer_of = |outcome: &Outcome| OutcomeAnswer::of(&outcome.evaluation, setting.tolerance);
+        let answer_of = |outcome: &Outcome| OutcomeAnswer::of(outcome, setting);
         let (nominal, recommended) = (answer_of(&nominal), answer_of(&recommended));
         let (lost, before) = (recommended.unreachable_points, nominal.unreachable_points);
         let is_improvement = lost < before || (lost == before && gain.is_significant(least));
@@ -382,6 +393,7 @@ impl<'a> PlacementSearch<'a> {
             forces_stay: self.forces_stay(&there.part_placement(&best.spot.at)),
             seed: self.seed,
             points: track.len(),
+            demanded_clearance_mm: setting.cell.as_ref().map(|cell| decimals(to_mm(cell.least), 4)),
             rounds_taken_up,
             tool_turns_with_part: turn == ToolTurn::WithPart
                 && !matches!(track.placing.spin, Spin::AlongFeed(_)),

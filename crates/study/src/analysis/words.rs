@@ -23,11 +23,60 @@ pub fn largest_contributor(robot: &Robot, point: &PointAnswer, contributors: &[S
         })
 }
 
-/// Points that cannot be reached, as the beginning of a sentence; nothing if all can.
-pub fn unreached(lost: usize, of: usize) -> String {
-    match lost {
-        0 => String::new(),
-        lost => format!("{lost} of {of} points cannot be reached; "),
+/// Points without a result.
+#[derive(Clone, Copy, Debug)]
+pub struct LostPoints<'a> {
+    /// All of them.
+    pub lost: usize,
+    /// Those where no posture keeps the demanded clearance.
+    pub in_collision: usize,
+    /// All points.
+    pub of: usize,
+    /// The two bodies that are nearest to each other, and their distance, mm.
+    pub nearest: Option<(&'a [String; 2], f64)>,
+}
+
+impl LostPoints<'_> {
+    /// The beginning of a sentence about the others; nothing if there is no lost point.
+    pub fn before_others(self) -> String {
+        let LostPoints {
+            lost,
+            in_collision,
+            of,
+            ..
+        } = self;
+        let reached = match lost - in_collision {
+            0 => String::new(),
+            unreached => format!("{unreached} of {of} points cannot be reached; "),
+        };
+        match in_collision {
+            0 => reached,
+            count => format!("{reached}{count} of {of} points do not keep the demanded clearance; "),
+        }
+    }
+
+    /// The sentence where all points are lost; `whole` are the points, such as `point of the path`, and `subject` is the analysis with its
+    /// branch.
+    pub fn sentence(self, whole: &str, subject: &str) -> String {
+        if self.in_collision == 0 {
+            return format!("The robot reaches no {whole} ({subject}).");
+        }
+        let worst = self
+            .nearest
+            .map_or_else(String::new, |([first, second], distance)| {
+                let there = match distance > 0.0 {
+                    true => format!("are {distance:.1} mm apart"),
+                    false => "touch".to_owned(),
+                };
+                format!("; at the worst {first} and {second} {there}")
+            });
+        let count = match self.in_collision == self.of {
+            true => format!("at all {}", self.of),
+            false => format!("at {} of {}", self.in_collision, self.of),
+        };
+        format!(
+            "The robot can work at no {whole} ({subject}): no posture keeps the demanded clearance {count}{worst}."
+        )
     }
 }
 

@@ -286,7 +286,7 @@ fn warnings(study: &Study, answers: &AnalysisAnswers) -> Vec<String> {
         }
     }
     for map in &answers.maps {
-        if map.counts.within + map.counts.above_tolerance == 0 {
+        if map.counts.within + map.counts.above_tolerance + map.counts.in_collision == 0 {
             warnings.push(format!(
                 "{}: no point on the plane has a posture; check that its coordinates are in mm and relative to {}.",
                 map.name, map.setting.base
@@ -303,11 +303,11 @@ fn warnings(study: &Study, answers: &AnalysisAnswers) -> Vec<String> {
     }
     for volume in &answers.volumes {
         match volume.worst {
-            None => warnings.push(format!(
+            None if volume.counts.in_collision == 0 => warnings.push(format!(
                 "{}: no point of the box has a posture; check that its coordinates are in mm and relative to {}.",
                 volume.name, volume.setting.base
             )),
-            Some(_) => warnings.extend(lost_points(&volume.name, &volume.counts)),
+            _ => warnings.extend(lost_points(&volume.name, &volume.counts)),
         }
     }
     warnings.extend(answers.paths.iter().flat_map(analysis::path::warnings::warnings));

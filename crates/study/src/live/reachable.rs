@@ -2,8 +2,10 @@
 //!
 //! Some points of the analysis are moved together, without a turn: to the places of a coarse grid about the robot,
 //! nearest first, and from the first one that is reached back towards the present place. A point is reached in a
-//! posture of the requested branch inside the joint limits.
+//! posture of the requested branch inside the joint limits that keeps the demanded clearance of the cell; the part moves
+//! with the plane.
 
+use armill_core::clearance::ClearanceCheck;
 use armill_core::frame::{Isometry, tool_orientation};
 use armill_core::kernel::{BranchChoice, postures_at};
 use armill_core::nalgebra::Vector3;
@@ -51,8 +53,8 @@ pub fn reachable(
     watch: Watch<'_>,
 ) -> Result<ReachableAnswer, StudyError> {
     let edited = text.one_analysis(analysis)?;
-    let placement = Placement::of(&edited)?;
     let of_box = edited.table.in_box.as_ref().and_then(|of| of.centre_mm);
+    let mut placement = Placement::of(&edited)?;
     let key = match of_box {
         Some(_) => "box.centre_mm",
         None => "plane.centre_mm",
@@ -86,6 +88,39 @@ struct Placement<'a> {
     branches: BranchPattern,
     /// Flange poses at the present place, base.
     tools: Vec<Isometry>,
+    clearance: Option<MovedClearance<'a>>,
+}
+
+/// The check of the clearance, with the part where the points are moved.
+struct MovedClearance<'a> {
+    check: ClearanceCheck<'a>,
+    /// The part at the present place, base; none if it is not moved.
+    base_from_part: Option<Isometry>,
+}
+
+impl<'a> MovedClearance<'a> {
+    fn of(edited: &'a EditedAnalysis<'a>, setting: &'a Setting) -> Option<MovedClearance<'a>> {
+        let cell = setting.cell.as_ref()?;
+        let robot = &edited.study.robot.robot;
+        // A box has its own centre: its points are moved without the plane.
+        let is_box = edited
+            .table
+            .in_box
+            .as_ref()
+            .is_some_and(|of| of.centre_mm.is_some());
+        Some(MovedClearance {
+            check: ClearanceCheck::new(cell.demanded(), robot, &setting.flange_from_tool),
+            base_from_part: (!is_box).then_some(cell.base_from_part),
+        })
+    }
+
+    /// Moves the part by this (m, base) from its present place.
+    fn set_motion(&mut self, motion: &Vector3<f64>) {
+        if let Some(part) = &self.base_from_part {
+            let moved = Isometry::from_parts((part.translation.vector + motion).into(), part.rotation);
+            self.check.set_part(&moved);
+        }
+    }
 }
 
 impl<'a> Placement<'a> {
@@ -128,11 +163,12 @@ impl<'a> Placement<'a> {
             home: setting.home.as_deref(),
             branches,
             tools: tested.collect(),
+            clearance: MovedClearance::of(edited, setting),
         })
     }
 
     /// The smallest motion (m, base) found after which all points are reached; none if there is none.
-    fn nearest(&self, watch: Watch<'_>) -> Result<Option<Vector3<f64>>, StudyError> {
+    fn nearest(&mut self, watch: Watch<'_>) -> Result<Option<Vector3<f64>>, StudyError> {
         let robot = &self.edited.study.robot.robot;
         let whole = reach(robot).unwrap_or(REACH);
         let pitch = whole / f64::from(GRID);
@@ -158,7 +194,7 @@ impl<'a> Placement<'a> {
     }
 
     /// The shortest part of this motion after which all points are still reached, in whole millimetres.
-    fn back(&self, motion: &Vector3<f64>, watch: Watch<'_>) -> Result<Vector3<f64>, StudyError> {
+    fn back(&mut self, motion: &Vector3<f64>, watch: Watch<'_>) -> Result<Vector3<f64>, StudyError> {
         let whole = |part: f64| (motion * part).map(|m| from_mm(to_mm(m).round()));
         let (mut lost, mut reached) = (0.0, 1.0);
         for _ in 0..HALVINGS {
@@ -176,22 +212,27 @@ impl<'a> Placement<'a> {
     }
 
     /// Whether all points are reached after this motion (m, base).
-    fn fits(&self, motion: &Vector3<f64>, watch: Watch<'_>) -> Result<bool, StudyError> {
+    fn fits(&mut self, motion: &Vector3<f64>, watch: Watch<'_>) -> Result<bool, StudyError> {
         let robot = &self.edited.study.robot.robot;
+        if let Some(clearance) = &mut self.clearance {
+            clearance.set_motion(motion);
+        }
         for tool in &self.tools {
             let moved = Isometry::from_parts((tool.translation.vector + motion).into(), tool.rotation);
             let found = postures_at(robot, 1, |_| moved, self.home, watch)?;
-            let good = found
-                .names
-                .iter()
-                .zip(&found.within_limits)
-                .any(|(name, inside)| {
-                    *inside
-                        && match name {
-                            PostureName::Branch(branch) => self.branches.matches(*branch),
-                            PostureName::Sides(_) => true,
-                        }
-                });
+            let joints = found.joints.chunks(robot.joints().len());
+            let postures = found.names.iter().zip(&found.within_limits).zip(joints);
+            let good = postures.into_iter().any(|((name, inside), joints)| {
+                let permitted = match name {
+                    PostureName::Branch(branch) => self.branches.matches(*branch),
+                    PostureName::Sides(_) => true,
+                };
+                let mut is_clear = || match &mut self.clearance {
+                    Some(clearance) => clearance.check.conflict(joints).is_none(),
+                    None => true,
+                };
+                *inside && permitted && is_clear()
+            });
             if !good {
                 return Ok(false);
             }

@@ -8,11 +8,13 @@
 //! the others by the whole model (`whole_placer`). Any other arm is computed one pose after the other. All agree to
 //! rounding (`tests`).
 //!
-//! `path`: the points; `whole_placer`: the whole model in lanes.
+//! `path`: the points; `whole_placer`: the whole model in lanes; [`clear`]: the clearance there.
 
+mod clear;
 mod path;
 mod whole_placer;
 
+pub use clear::{PlacedBranch, PlacementClearance};
 pub use path::{PathTotals, PlacedPath};
 
 use super::column::{Column, Columns, PostureStatus, SLOTS};

@@ -1,18 +1,21 @@
 use std::f64::consts::PI;
 
-use nalgebra::{Point2, Point3, Vector2};
+use nalgebra::{Point2, Point3, Unit, UnitQuaternion, Vector2, Vector3};
 
 use super::*;
 use crate::arms::{self, Stream};
-use crate::frame::from_xyz_and_fixed_angles;
+use crate::frame::{Isometry, from_xyz_and_fixed_angles};
 use crate::kernel::BranchChoice;
 use crate::load::LoadCases;
 use crate::map::along_postures;
-use crate::path::{LoadedTrack, Pace, Placing, Shape};
+use crate::optimize::ToolTurn;
+use crate::path::{LoadedTrack, Pace, Placing, Shape, Spin, Track};
 use crate::robot::Robot;
 use crate::source::{Arm, StiffnessModel};
 use crate::spatial::Wrench;
 use crate::workpiece::Plane;
+
+mod in_a_cell;
 
 struct Cell {
     robot: Robot,

@@ -13,8 +13,8 @@ use armill_core::kernel::{Evaluation, PostureStatus};
 use armill_core::map::Counts;
 use armill_core::nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use armill_core::optimize::HolesFound;
-use armill_core::robot::Robot;
 use armill_core::robot::jacobian::wrist_bend;
+use armill_core::robot::{Robot, Unreachable};
 use armill_core::units::{to_deg, to_mm, to_um};
 use armill_core::workpiece::Plane;
 use schemars::JsonSchema;
@@ -261,7 +261,14 @@ fn hole(robot: &Robot, analysis: &HolesAnalysis, found: &HolesFound, index: usiz
                 PostureStatus::OutOfReach | PostureStatus::Usable => String::new(),
                 other => format!("; with other spins mostly {}", other.word().replace('_', " ")),
             };
-            format!("{miss}{most}")
+            let bodies = match (miss, &setting.cell) {
+                (Unreachable::InCollision { bodies, .. }, Some(placed)) => {
+                    let [first, second] = bodies.map(|body| placed.cell.name(body));
+                    format!(" ({first} and {second})")
+                }
+                _ => String::new(),
+            };
+            format!("{miss}{bodies}{most}")
         }),
         blocked_by: evaluation
             .and(found.statuses.get(index))

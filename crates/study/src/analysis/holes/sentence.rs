@@ -3,16 +3,25 @@
 use armill_core::robot::Robot;
 
 use crate::analysis::holes::answer::{HoleAnswer, HolesAnswer};
-use crate::analysis::words::{largest_contributor, micrometres};
+use crate::analysis::words::{LostPoints, largest_contributor, micrometres};
 use crate::uncertainty_words::u_in_words;
 
 /// How many holes are within the tolerance, the largest deviation with its hole, and what is out of reach.
 pub fn sentence(robot: &Robot, holes: &HolesAnswer) -> String {
     let Some(worst) = holes.worst_holes.first() else {
-        return format!(
-            "The robot reaches none of the {} holes ({}, branch {}).",
-            holes.holes, holes.name, holes.branch
-        );
+        if holes.counts.in_collision == 0 {
+            return format!(
+                "The robot reaches none of the {} holes ({}, branch {}).",
+                holes.holes, holes.name, holes.branch
+            );
+        }
+        let lost = LostPoints {
+            lost: holes.unreachable,
+            in_collision: holes.counts.in_collision,
+            of: holes.holes,
+            nearest: holes.nearest.as_ref().zip(holes.least_clearance_mm),
+        };
+        return lost.sentence("hole", &format!("{}, branch {}", holes.name, holes.branch));
     };
     let good = (holes.fraction_within * holes.holes as f64).round();
     let (within, lost) = match holes.unreachable + holes.refused {

@@ -3,17 +3,21 @@
 use armill_core::robot::Robot;
 
 use crate::analysis::map::answer::MapAnswer;
-use crate::analysis::words::{LimitCounts, largest_contributor, micrometres, unreached};
+use crate::analysis::words::{LimitCounts, LostPoints, largest_contributor, micrometres};
 use crate::uncertainty_words::u_in_words;
 
 /// Points that are not reached, fraction of a plane, least and largest deviation in it and along its normal, and how
 /// many points are outside joint limits.
 pub fn sentence(robot: &Robot, map: &MapAnswer) -> String {
+    let lost = LostPoints {
+        lost: map.counts.unreached(),
+        in_collision: map.counts.in_collision,
+        of: map.counts.total(),
+        nearest: map.nearest.as_ref().zip(map.least_clearance_mm),
+    };
     let (Some(worst), Some(best)) = (&map.worst, &map.best) else {
-        return format!(
-            "The robot reaches no point of the plane ({}, branch {}).",
-            map.name, map.branch
-        );
+        let subject = format!("{}, branch {}", map.name, map.branch);
+        return lost.sentence("point of the plane", &subject);
     };
     let evaluation = match map.fraction_within_and_inside_joint_limits {
         0.0 => format!(
@@ -43,7 +47,7 @@ pub fn sentence(robot: &Robot, map: &MapAnswer) -> String {
         "{}, branch {}: {}{evaluation}{limits}; the in-plane deviation ranges from {} to {} µm ({}) and is largest at ({:.0}, {:.0}, {:.0}) mm{along_normal}; largest contribution: {}.",
         map.name,
         map.branch,
-        unreached(map.counts.unreached(), map.counts.total()),
+        lost.before_others(),
         micrometres(best.in_plane_um),
         micrometres(worst.in_plane_um),
         u_in_words(worst.in_plane_u_um),

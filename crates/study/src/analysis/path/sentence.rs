@@ -3,16 +3,20 @@
 use armill_core::robot::Robot;
 
 use crate::analysis::path::answer::{CutAnswer, PathAnswer};
-use crate::analysis::words::{LimitCounts, largest_contributor, micrometres, unreached};
+use crate::analysis::words::{LimitCounts, LostPoints, largest_contributor, micrometres};
 use crate::uncertainty_words::u_in_words;
 
 /// Largest deviation along a path with its line, roundness of a circle, and the fraction within the tolerance.
 pub fn sentence(robot: &Robot, path: &PathAnswer) -> String {
+    let lost = LostPoints {
+        lost: path.unreachable,
+        in_collision: path.in_collision,
+        of: path.points,
+        nearest: path.nearest.as_ref().zip(path.least_clearance_mm),
+    };
     let Some(worst) = &path.worst else {
-        return format!(
-            "The robot reaches no point of the path ({}, branch {}).",
-            path.name, path.branch
-        );
+        let subject = format!("{}, branch {}", path.name, path.branch);
+        return lost.sentence("point of the path", &subject);
     };
     let (where_to, circle, line) = match &path.program {
         None => ("in the plane", "the circle", String::new()),
@@ -37,7 +41,7 @@ pub fn sentence(robot: &Robot, path: &PathAnswer) -> String {
         "{}, branch {}: {}the tool deviates by up to {} µm ({}) {where_to}{line}{roundness}; largest contribution: {}; {:.1} % of the path is within {} µm{limits}.{clearance}{process}",
         path.name,
         path.followed_branch.as_ref().unwrap_or(&path.branch),
-        unreached(path.unreachable, path.points),
+        lost.before_others(),
         micrometres(worst.in_plane_um),
         u_in_words(worst.in_plane_u_um),
         largest_contributor(robot, worst, &path.setting.contributors),

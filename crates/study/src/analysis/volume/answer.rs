@@ -9,6 +9,7 @@ use armill_core::units::to_mm;
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::analysis::clearance::LeastClearance;
 use crate::analysis::map::answer::CountsAnswer;
 use crate::analysis::point::{PointAnswer, ReachedPoint, SettingAnswer};
 use crate::input::setting::Setting;
@@ -30,6 +31,10 @@ pub struct VolumeAnswer {
     pub volume_within_mm3: f64,
     /// Points by reason; their sum is the total.
     pub counts: CountsAnswer,
+    /// The least distance of two bodies at a point; 0 where they touch, none without bodies.
+    pub least_clearance_mm: Option<f64>,
+    /// The two bodies.
+    pub nearest: Option<[String; 2]>,
     /// Points along x, y, z of the reference frame.
     pub point_counts: [usize; 3],
     /// Pitch.
@@ -47,6 +52,7 @@ pub struct VolumeAnswer {
 /// The result of the box of the analysis called `name`.
 pub fn answer(robot: &Robot, name: &str, setting: &Setting, volume: &VolumeMap) -> VolumeAnswer {
     let counts = volume.counts(setting.tolerance);
+    let clearance = LeastClearance::of(setting, &volume.answers);
     let point = |(index, evaluation)| {
         let reached = ReachedPoint {
             answers: &volume.answers,
@@ -64,6 +70,8 @@ pub fn answer(robot: &Robot, name: &str, setting: &Setting, volume: &VolumeMap) 
         outside_joint_limits: counts.outside_joint_limits,
         volume_within_mm3: volume.volume_within(setting.tolerance) * 1e9,
         counts: CountsAnswer::of(&counts),
+        least_clearance_mm: clearance.as_ref().map(|least| least.distance_mm),
+        nearest: clearance.map(|least| least.bodies),
         point_counts: volume.grid.counts,
         step_mm: to_mm(volume.grid.step),
         origin_mm: setting

@@ -3,16 +3,20 @@
 use armill_core::robot::Robot;
 
 use crate::analysis::volume::answer::VolumeAnswer;
-use crate::analysis::words::{LimitCounts, largest_contributor, micrometres, unreached};
+use crate::analysis::words::{LimitCounts, LostPoints, largest_contributor, micrometres};
 use crate::uncertainty_words::u_in_words;
 
 /// Points that are not reached, fraction of a box, and where in it the deviation is largest.
 pub fn sentence(robot: &Robot, volume: &VolumeAnswer) -> String {
+    let lost = LostPoints {
+        lost: volume.counts.unreached(),
+        in_collision: volume.counts.in_collision,
+        of: volume.counts.total(),
+        nearest: volume.nearest.as_ref().zip(volume.least_clearance_mm),
+    };
     let Some(worst) = &volume.worst else {
-        return format!(
-            "The robot reaches no point of the box ({}, branch {}).",
-            volume.name, volume.branch
-        );
+        let subject = format!("{}, branch {}", volume.name, volume.branch);
+        return lost.sentence("point of the box", &subject);
     };
     let limits = LimitCounts {
         outside: volume.outside_joint_limits,
@@ -24,7 +28,7 @@ pub fn sentence(robot: &Robot, volume: &VolumeAnswer) -> String {
         "{}, branch {}: {}{:.1} % of the box is within {} µm{limits}; the in-plane deviation is at most {} µm ({}), at ({:.0}, {:.0}, {:.0}) mm; largest contribution: {}.",
         volume.name,
         volume.branch,
-        unreached(volume.counts.unreached(), volume.counts.total()),
+        lost.before_others(),
         volume.fraction_within_and_inside_joint_limits * 100.0,
         micrometres(volume.setting.tolerance_um),
         micrometres(worst.in_plane_um),
