@@ -3,7 +3,7 @@
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::freedoms::LeanRange;
-use super::posture::PostureSearch;
+use super::posture_search::PostureSearch;
 use super::window::Window;
 use crate::frame::Isometry;
 use crate::kernel::{Column, ColumnLoad, Columns, PostureStatus};

@@ -16,7 +16,7 @@
 
 use nalgebra::Vector3;
 
-use super::posture::{Component, Objective};
+use super::posture_search::{Component, Objective};
 use crate::kernel::{Answers, BranchChoice, Question};
 use crate::map::along_postures;
 use crate::path::{LoadedTrack, Track};

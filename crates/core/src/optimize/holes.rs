@@ -17,7 +17,7 @@ use rayon::prelude::*;
 
 use super::column_at::{about_z, blocked_by, fill};
 use super::gain::{LeastGain, gain};
-use super::posture::{Component, PostureSearch};
+use super::posture_search::{Component, PostureSearch};
 use super::window::Window;
 use crate::kernel::{
     AT_LIMIT, Answers, BranchChoice, Column, Columns, PostureStatus, Question, SLOTS, evaluate,

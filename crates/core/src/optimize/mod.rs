@@ -9,7 +9,7 @@
 //!   of two robots.
 //! - [`reversals`](fn@reversals): number of reversals of each joint.
 //!
-//! Of the search along a path, in reading order: `steps` and `freedoms`: what may be chosen; `window`: the settings that are
+//! Of the search along a path, in reading order: `steps`, `freedoms` and `posture_search`: what may be chosen, and what was; `window`: the settings that are
 //! tried at a point; `grid`: which are neighbours; `column_at`: their postures; `links`: transitions between neighbouring
 //! points; `heading`: directions of the joints; `winding`: their whole turns; `chain`: the chain of postures with the
 //! lowest cost; `walk`: one pass along the path; `refined`: one after the other; `smooth`: settings without steps;
@@ -28,6 +28,7 @@ mod links;
 pub mod nodes;
 pub mod placement;
 pub mod posture;
+mod posture_search;
 mod rank_by;
 mod refined;
 mod reversals;
@@ -46,7 +47,8 @@ pub use holes::{HolesFound, hole_postures};
 pub use lattice::Lattice;
 pub use nodes::{Shares, fitted};
 pub use placement::{Placeable, PlacementEvaluation, PlacementObjective, PostureSelection, Score, on_part};
-pub use posture::{Component, Objective, PostureFound, PostureSearch, postures_along};
+pub use posture::postures_along;
+pub use posture_search::{Component, Objective, PostureFound, PostureSearch};
 pub use rank_by::RankBy;
 pub use reversals::reversals;
 pub use sensitivity::{InputKind, Sensitivity, SharedInputs, sensitivity};

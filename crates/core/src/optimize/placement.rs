@@ -16,7 +16,7 @@
 use rayon::prelude::*;
 
 use super::gain::Gain;
-use super::posture::{Component, Objective};
+use super::posture_search::{Component, Objective};
 use super::rank_by::{RankBy, changed_arms};
 use super::steps::Steps;
 use super::walk::WITHIN;

@@ -7,7 +7,7 @@ use super::column_at::fill;
 use super::freedoms::LeanRange;
 use super::grid::AXES;
 use super::lattice::Lattice;
-use super::posture::{Objective, PostureFound, PostureSearch};
+use super::posture_search::{Objective, PostureFound, PostureSearch};
 use super::reversals::reversals;
 use super::smooth::without_steps;
 use super::walk::{Cost, Seen, Walk};

@@ -15,7 +15,7 @@
 //! and growth are shared by cells of one robot only.
 
 use super::gain::{FollowedTrack, Gain};
-use super::posture::{Component, Objective};
+use super::posture_search::{Component, Objective};
 use crate::kernel::Question;
 use crate::source::UncertainInput;
 use crate::watch::{Cancelled, Watch};

@@ -6,7 +6,7 @@ use super::chain::{Beginning, Chain, Cheapest, Together, Turns};
 use super::column_at::{blocked_by, fill};
 use super::grid::{AXES, Shift, UNSHIFTED};
 use super::links::{Between, FAR, JointRate};
-use super::posture::PostureSearch;
+use super::posture_search::PostureSearch;
 use super::winding::WindingJoints;
 use super::window::{Setting, Window};
 use crate::kernel::{Column, Columns, PostureStatus, Question, SLOTS};

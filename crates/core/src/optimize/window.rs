@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 
 use super::freedoms::MOST_MOVING;
 use super::grid::{AXES, Grid, Shift, UNSHIFTED};
-use super::posture::PostureSearch;
+use super::posture_search::PostureSearch;
 use super::steps::Steps;
 
 /// Steps to either side of the chain before, first, and where that leads nowhere.

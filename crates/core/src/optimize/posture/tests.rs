@@ -1,18 +1,18 @@
 use std::f64::consts::{PI, TAU};
 use std::sync::atomic::AtomicBool;
 
-use nalgebra::{Point2, Point3, UnitQuaternion};
+use nalgebra::{Point2, Point3, UnitQuaternion, Vector3};
 
 use super::*;
 use crate::arms;
 use crate::frame::Isometry;
-use crate::kernel::BranchChoice;
+use crate::kernel::{BranchChoice, PostureStatus};
 use crate::load::{LoadCases, LoadFrame, PathLoad};
 use crate::map::{AlongPath, along_postures, obstacles};
-use crate::optimize::reversals;
 use crate::optimize::walk::WITHIN;
-use crate::path::{LoadedTrack, Pace, Placing, SampledPath, Shape, Spin};
-use crate::robot::{Limits, Robot};
+use crate::optimize::{Component, Objective, Steps, reversals};
+use crate::path::{LoadedTrack, Pace, Placing, SampledPath, Shape, Spin, Track};
+use crate::robot::{Branch, BranchPattern, Limits, Robot};
 use crate::source::{Arm, StiffnessModel};
 use crate::spatial::Wrench;
 use crate::workpiece::Plane;

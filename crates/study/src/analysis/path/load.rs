@@ -66,7 +66,7 @@ impl<'a> LoadSource<'a> {
             .or(common.load.map(LoadSource::Load))
     }
 
-    /// The end of the tool, as far as the load tells it.
+    /// The end of the tool, as far as it is known from the load.
     pub fn tool_end(self) -> ToolEnd {
         match self {
             LoadSource::Cut(cut) | LoadSource::Measured(_, Some(cut)) => {
