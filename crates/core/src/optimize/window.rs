@@ -60,9 +60,8 @@ impl Window {
     /// All spins of a search, with lean and external axes of this setting.
     pub fn of_spins_at(search: &PostureSearch, setting: &Setting) -> Window {
         let mut window = Window::all(search);
-        for axis in 1..AXES {
-            window.whole[axis] = Steps::one(setting[axis]);
-        }
+        let others = window.whole.iter_mut().zip(setting).skip(1);
+        others.for_each(|(steps, value)| *steps = Steps::one(*value));
         window
     }
 

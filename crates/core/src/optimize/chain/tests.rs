@@ -63,7 +63,7 @@ fn made(seed: u64, kept_slots: bool) -> Made {
     let mut up_to = |most: f64| 1 + (random.next() * most) as usize;
     let counts = [up_to(4.0), up_to(3.0), 1, up_to(1.5), 1, 1];
     let turns = Turns {
-        grid: Grid::new(counts, seed % 2 == 0 && random.next() < 0.5),
+        grid: Grid::new(counts, seed.is_multiple_of(2) && random.next() < 0.5),
         kept_slots,
         price: 0.1 * random.next(),
         back_price: 0.0,
@@ -105,7 +105,7 @@ fn made(seed: u64, kept_slots: bool) -> Made {
         [step, -step, 0, 0, 0, 0]
     };
     let shifts = (0..columns).map(|_| {
-        if seed % 2 == 0 {
+        if seed.is_multiple_of(2) {
             UNSHIFTED
         } else {
             shift(&mut random)
