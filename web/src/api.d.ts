@@ -1802,11 +1802,78 @@ export interface components {
              * @description Penalty for the reversal of a joint: as much as this additional deviation over 1 mm of the path; 0 if left out.
              */
             reversal_um_mm?: number | null;
+            /** @description Lean of the tool about the programmed axis; none if left out. */
+            lean?: components["schemas"]["LeanTable"] | null;
+            /** @description External axes that move along the path; if left out, they stay at `home_deg`. */
+            axes?: components["schemas"]["AxisTable"][];
         };
         /** @description Component of the deviation that is evaluated. */
         ComponentName: "in-plane" | "cross-track" | "axial";
         /** @description The objective: the quantity to minimise. */
         ObjectiveName: "worst" | "mean" | "above-tolerance";
+        /** @description Lean of the tool about the programmed axis. */
+        LeanTable: {
+            /** @description Least and greatest lead, towards the feed; 0 if left out. */
+            lead_deg?: [
+                number,
+                number
+            ] | null;
+            /** @description Least and greatest tilt, to the left of the feed; 0 if left out. */
+            tilt_deg?: [
+                number,
+                number
+            ] | null;
+            /**
+             * Format: double
+             * @description Step of either; 2.5 if left out.
+             */
+            step_deg?: number | null;
+            /**
+             * Format: double
+             * @description Largest change of either along the path; 0.5 if left out.
+             */
+            deg_per_mm?: number | null;
+            /** @description The end of the tool, where the study has no cut. */
+            cutter?: components["schemas"]["EndTable"] | null;
+        };
+        /** @description The end of a tool with a rounded corner. */
+        EndTable: {
+            /**
+             * Format: double
+             * @description Its diameter.
+             */
+            diameter_mm: number;
+            /**
+             * Format: double
+             * @description Radius of its corner: half the diameter is a ball nose.
+             */
+            corner_radius_mm: number;
+        };
+        /** @description An external axis that moves along the path. */
+        AxisTable: {
+            /** @description Name of its joint in the robot file: a prismatic joint that carries the robot. */
+            joint: string;
+            /** @description First and last position; the limits of the joint if left out. */
+            range_mm?: [
+                number,
+                number
+            ] | null;
+            /**
+             * Format: double
+             * @description Step between positions; 50 if left out.
+             */
+            step_mm?: number | null;
+            /**
+             * Format: double
+             * @description Largest motion along the path; 1 if left out.
+             */
+            mm_per_mm?: number | null;
+            /**
+             * @description Whether it stands still within a cut and moves between cuts alone.
+             * @default false
+             */
+            still: boolean;
+        };
         /** @description Options of a placement. */
         PlaceOptions: {
             /** @description As `[place]` of a study, whose values are used for what is left out. */
@@ -3650,6 +3717,18 @@ export interface components {
                 number,
                 number
             ];
+            /** @description Least and greatest chosen lean towards the feed; null if the tool may not lean. */
+            lead_range_deg: [
+                number,
+                number
+            ] | null;
+            /** @description Least and greatest chosen lean to the left of the feed; null if the tool may not lean. */
+            tilt_range_deg: [
+                number,
+                number
+            ] | null;
+            /** @description The external axes that may move, and how far they do. */
+            axes: components["schemas"]["MovedAxisAnswer"][];
             /**
              * @description Whether the path is followed with this result: where it has fewer obstacles, or the same number and a gain that
              *     exceeds `least_gain_um`.
@@ -3678,6 +3757,16 @@ export interface components {
             unreachable_stretches: components["schemas"]["UnreachableStretch"][];
             /** @description Lines at which the arm has to stop and change its posture. */
             breaks: number[];
+        };
+        /** @description An external axis that a search moves along a path. */
+        MovedAxisAnswer: {
+            /** @description Name of its joint. */
+            joint: string;
+            /** @description Least and greatest chosen position. */
+            range_mm: [
+                number,
+                number
+            ];
         };
         /** @description Statistics of a path. */
         StatisticsAnswer: {
@@ -3799,6 +3888,16 @@ export interface components {
             volume_within_mm3: number;
             /** @description Points by reason; their sum is the total. */
             counts: components["schemas"]["CountsAnswer"];
+            /**
+             * Format: double
+             * @description The least distance of two bodies at a point; 0 where they touch, none without bodies.
+             */
+            least_clearance_mm: number | null;
+            /** @description The two bodies. */
+            nearest: [
+                string,
+                string
+            ] | null;
             /** @description Points along x, y, z of the reference frame. */
             point_counts: [
                 number,

@@ -121,7 +121,7 @@ fn what_cannot_lean_or_move_is_refused_with_its_key() {
     for (keys, expected) in cases {
         let said = problems(here, &circle(&keys));
         assert!(
-            said.contains(expected) && said.contains("posture.search"),
+            said.contains(expected) && said.contains("study.toml:7:"),
             "{keys}: {said}"
         );
     }

@@ -30,7 +30,7 @@
 //! #         robot: &robot, compliance: robot.compliance().unwrap(), flange_from_tool: &tool,
 //! #         model: armill_core::source::StiffnessModel::DRIVES,
 //! #     },
-//! #     home: None, uncertainty: armill_core::load::InputUncertainty::NONE, cases: &cases, normal: -Vector3::x_axis(),
+//! #     home: None, homes: None, uncertainty: armill_core::load::InputUncertainty::NONE, cases: &cases, normal: -Vector3::x_axis(),
 //! #     choice: BranchChoice::Best,
 //! #     clearance: None,
 //! # };
