@@ -106,8 +106,9 @@ impl AdviceAnswer {
         }
         if let Some(turns) = &self.turns {
             steps.push(format!(
-                "use a tool spin of {} along the path, with {}",
+                "use a tool spin of {}{} along the path, with {}",
                 turns.turn_in_words(),
+                turns.freedoms_in_words(),
                 turns.gain_in_words()
             ));
         }

@@ -36,7 +36,11 @@ pub(super) fn measures(
         all.push(Measure {
             measure: "spin",
             sentence: with_gain(
-                format!("Use a tool spin of {} along the path", turns.turn_in_words()),
+                format!(
+                    "Use a tool spin of {}{} along the path",
+                    turns.turn_in_words(),
+                    turns.freedoms_in_words()
+                ),
                 gain_of("spin"),
             ),
             analysis: None,
