@@ -130,13 +130,13 @@ impl SearchTable {
         (robot, tool): (Option<&Robot>, ToolEnd),
     ) -> Option<PostureSearch> {
         let search = self.resolve(log, tolerance, branches);
-        let lean = match &self.lean {
-            Some(table) => Some(freedoms::lean(log, table, tool)?),
-            None => None,
-        };
+        let lean = self.lean.as_ref().map(|table| freedoms::lean(log, table, tool));
         let axes = robot.map(|robot| freedoms::axes(log, &self.axes, robot));
         Some(PostureSearch {
-            lean,
+            lean: match lean {
+                Some(found) => Some(found?),
+                None => None,
+            },
             axes: axes.unwrap_or_default()?,
             ..search?
         })

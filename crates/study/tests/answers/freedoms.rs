@@ -141,6 +141,15 @@ fn what_cannot_lean_or_move_is_refused_with_its_key() {
 }
 
 #[test]
+fn problems_of_lean_and_axes_are_reported_together() {
+    let keys = ", lean = {}, axes = [{ joint = \"E8\" }, { joint = \"E9\" }]";
+    let said = problems(Path::new("."), &circle(keys));
+    for expected in ["neither `lead_deg`", "no joint `E8`", "no joint `E9`"] {
+        assert!(said.contains(expected), "{said}");
+    }
+}
+
+#[test]
 fn holes_neither_lean_nor_move_axes() {
     let text = format!(
         "{PLATE}[[analysis]]\nkind = \"holes\"\nname = \"row\"\nload = {{ frame = \"feed\", cases_n = [[0, 0, 100]] }}\n\
