@@ -1,8 +1,8 @@
 """Clearance of armill against the library coal, with the collision meshes of real arms.
 
-    python -m venv /tmp/coal && /tmp/coal/bin/pip install coal==3.0.3 xacro==2.1.1 trimesh==5.2.0 numpy==2.4.6
+    python -m venv coal && coal/bin/pip install coal==3.0.3 xacro==2.1.1 trimesh==5.2.0 numpy==2.4.6
     cargo build --release --package armill-validation --example clearances
-    /tmp/coal/bin/python validation/clearance-coal/compare.py FOLDER [--count 10000]
+    coal/bin/python validation/clearance-coal/compare.py FOLDER [--count 10000]
 
 FOLDER contains the ROS packages of ARMS and those that they include, next to each other.
 

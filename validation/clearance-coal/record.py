@@ -1,6 +1,6 @@
 """Writes pairs.tsv and arm.tsv: distances of coal for the shapes of case.rs.
 
-    /tmp/coal/bin/python validation/clearance-coal/record.py       (environment as of compare.py)
+    coal/bin/python validation/clearance-coal/record.py       (environment as of compare.py)
 
 The shapes and the bodies of the arm are those of case.rs, typed again. Lengths in m, angles in deg; distances in mm with nine decimals.
 """

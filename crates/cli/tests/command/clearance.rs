@@ -74,7 +74,7 @@ fn no_program_is_written_through_a_body() {
     open.armill(&["compensate", "study.toml", "--program", "ring.src"])
         .fine();
     assert!(open.at("ring.src").is_file());
-    // A post beside the ring, which the spindle would touch.
+    // A post next to the ring, which the spindle would touch.
     let post = obstacle("post", "{ from = [1050, -10, 400], to = [1070, 10, 700] }");
     let blocked = cell(&post);
     let said = blocked.armill(&["compensate", "study.toml", "--program", "ring.src"]);

@@ -94,4 +94,4 @@ pub fn postures_along(
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

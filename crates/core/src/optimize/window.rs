@@ -13,7 +13,7 @@ use super::posture_search::PostureSearch;
 use super::steps::Steps;
 
 /// Steps to either side of the chain before, first, and where that leads nowhere.
-const BESIDE: [usize; 2] = [2, 4];
+const HALF_WIDTHS: [usize; 2] = [2, 4];
 /// Rounding of a full circle, rad.
 const ROUNDED: f64 = 1e-9;
 
@@ -30,7 +30,7 @@ pub(super) struct Window {
     /// Index of the first value along each axis at every point of the path; `None`: all settings.
     firsts: Option<Vec<Shift>>,
     /// Steps to either side of the chain before.
-    beside: usize,
+    half_width: usize,
 }
 
 impl Window {
@@ -48,7 +48,7 @@ impl Window {
             whole,
             strides,
             firsts: None,
-            beside: BESIDE[0],
+            half_width: HALF_WIDTHS[0],
         }
     }
 
@@ -69,7 +69,7 @@ impl Window {
     pub fn halved(&self, chain: &[Setting]) -> Window {
         Window {
             strides: self.strides.map(|stride| stride.div_ceil(2)),
-            beside: BESIDE[0],
+            half_width: HALF_WIDTHS[0],
             ..self.clone()
         }
         .near(chain)
@@ -78,7 +78,7 @@ impl Window {
     /// The same steps, farther from the chain.
     pub fn widened(&self, chain: &[Setting]) -> Window {
         Window {
-            beside: BESIDE[1],
+            half_width: HALF_WIDTHS[1],
             ..self.clone()
         }
         .near(chain)
@@ -87,11 +87,11 @@ impl Window {
     fn near(self, chain: &[Setting]) -> Window {
         let first = |axis: usize, value: f64| {
             let steps = self.steps(axis);
-            let width = steps.count.min(2 * self.beside + 1);
+            let width = steps.count.min(2 * self.half_width + 1);
             if width == steps.count {
                 return 0;
             }
-            let first = ((value - steps.first) / steps.step).round() as isize - self.beside as isize;
+            let first = ((value - steps.first) / steps.step).round() as isize - self.half_width as isize;
             match axis == 0 && self.goes_around() {
                 true => first,
                 false => first.clamp(0, (steps.count - width) as isize),
@@ -149,7 +149,7 @@ impl Window {
     fn width(&self, axis: usize) -> usize {
         let count = self.steps(axis).count;
         match self.firsts {
-            Some(_) => count.min(2 * self.beside + 1),
+            Some(_) => count.min(2 * self.half_width + 1),
             None => count,
         }
     }

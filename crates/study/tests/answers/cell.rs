@@ -72,7 +72,7 @@ fn the_clearance_of_every_point_of_a_map_is_that_by_hand() {
 
 #[test]
 fn links_of_the_library_are_in_the_way_as_well() {
-    // A post beside the forearm, far from the tool.
+    // A post next to the forearm, far from the tool.
     let post = "[[obstacle]]\nname = \"post\"\ncylinder_mm = { from = [400, 330, 0], to = [400, 330, 1500], diameter = 50 }\n";
     let text = format!("{CELL}{post}").replace("../../validation/urdf-forward/mh12.urdf", "yaskawa/mh12");
     let text = text.replace("centre_mm = [900, 0, 300]", "centre_mm = [800, 250, 300]");

@@ -17,6 +17,9 @@ use crate::source::{Arm, StiffnessModel};
 use crate::spatial::Wrench;
 use crate::workpiece::Plane;
 
+/// Feed of the paths, m/s.
+pub(in crate::optimize) const FEED: f64 = 0.04;
+
 /// An arm with speed limits that machines a plate in front of it.
 struct Cell {
     robot: Robot,
@@ -90,9 +93,10 @@ fn square() -> Track {
     track(shape.sampled(0.01), Point3::new(0.85, 0.0, 0.3))
 }
 
-fn track(mut path: SampledPath, centre: Point3<f64>) -> Track {
+/// A path on a horizontal plate, cut at [`FEED`].
+pub(in crate::optimize) fn track(mut path: SampledPath, centre: Point3<f64>) -> Track {
     for point in &mut path.points {
-        point.pace = Pace::Feed(0.04);
+        point.pace = Pace::Feed(FEED);
     }
     let plane = Plane::tilted(centre, PI / 2.0);
     Track {
@@ -107,7 +111,8 @@ fn track(mut path: SampledPath, centre: Point3<f64>) -> Track {
     }
 }
 
-fn search(objective: Objective) -> PostureSearch {
+/// A search over all spins in steps of 10 deg.
+pub(in crate::optimize) fn search(objective: Objective) -> PostureSearch {
     PostureSearch {
         spins: Steps {
             first: -PI,

@@ -7,14 +7,12 @@ use crate::arms;
 use crate::kernel::BranchChoice;
 use crate::load::{LoadCases, LoadFrame, PathLoad};
 use crate::map::{along_path, obstacles};
-use crate::optimize::{Component, MovingAxis, Steps, postures_along};
-use crate::path::{Pace, Placing, RoundedEnd, Shape, Spin};
-use crate::robot::{BranchPattern, Robot};
+use crate::optimize::posture::tests::{FEED, search, track};
+use crate::optimize::{MovingAxis, Steps, postures_along};
+use crate::path::{RoundedEnd, Shape};
+use crate::robot::Robot;
 use crate::source::{Arm, StiffnessModel};
 use crate::spatial::Wrench;
-use crate::workpiece::Plane;
-
-const FEED: f64 = 0.04;
 
 /// An arm on a rail of 6 m along base y, all joints with a speed limit.
 fn on_rail() -> Robot {
@@ -38,41 +36,7 @@ fn load() -> PathLoad {
 /// A line along base y on a horizontal plate, of this length (m): x of the part is there y of base.
 fn line(centre: Point3<f64>, length: f64, step: f64) -> Track {
     let half = Point2::new(0.5 * length, 0.0);
-    let mut path = Shape::Polyline(vec![-half, half]).sampled(step);
-    for point in &mut path.points {
-        point.pace = Pace::Feed(FEED);
-    }
-    let plane = Plane::tilted(centre, PI / 2.0);
-    Track {
-        path,
-        placing: Placing {
-            spin: Spin::Fixed(0.4),
-            ..Placing::on_plane(&plane)
-        },
-        base_from_part: plane.base_from_part,
-        spins: None,
-        homes: None,
-    }
-}
-
-fn search(objective: Objective) -> PostureSearch {
-    PostureSearch {
-        spins: Steps {
-            first: -PI,
-            step: PI / 18.0,
-            count: 36,
-        },
-        lean: None,
-        axes: Vec::new(),
-        component: Component::InPlane,
-        objective,
-        branches: BranchPattern::default(),
-        turn_rate: 20.0,
-        turn_price: 1e-9,
-        back_price: 0.0,
-        wrist: 0.05,
-        margin: 0.0,
-    }
+    track(Shape::Polyline(vec![-half, half]).sampled(step), centre)
 }
 
 fn rail(step: f64) -> MovingAxis {
