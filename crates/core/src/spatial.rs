@@ -10,7 +10,7 @@
 
 use std::ops::{Add, Mul, Sub};
 
-use nalgebra::{Matrix6, Point3, Vector3, Vector6};
+use nalgebra::{Matrix6, Point3, Rotation3, Vector3, Vector6};
 
 use crate::frame::Isometry;
 
@@ -61,6 +61,14 @@ impl Twist {
             self.angular.y,
             self.angular.z,
         )
+    }
+
+    /// The same motion in other axes: its components turned by `rotation`.
+    pub fn turned(&self, rotation: &Rotation3<f64>) -> Twist {
+        Twist {
+            linear: rotation * self.linear,
+            angular: rotation * self.angular,
+        }
     }
 
     /// The same motion, at a reference point `by` further away (m, same basis).

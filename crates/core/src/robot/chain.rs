@@ -17,6 +17,7 @@
 
 use nalgebra::{Matrix3, Matrix6, Point3, Translation3, UnitQuaternion, Vector3};
 
+use super::ground::Ground;
 use crate::frame::Isometry;
 use crate::spatial::adjoint;
 
@@ -170,6 +171,8 @@ pub struct Chain {
     motions: Vec<Motion>,
     links: Vec<Link>,
     last_joint_from_flange: Fixed,
+    ground: Ground,
+    external: usize,
 }
 
 /// Longest constant of a chain, m (rad): a gantry is shorter, and squares of it stay far from overflow.
@@ -240,7 +243,36 @@ impl Chain {
             motions,
             links,
             last_joint_from_flange: Fixed::new(&fixed),
+            ground: Ground::at_base(),
+            external: 0,
         })
+    }
+
+    /// This chain with the ground at another link; the joints in front of it are external axes.
+    pub(super) fn with_ground(self, ground: Ground) -> Chain {
+        Chain {
+            external: self.external.max(ground.joints),
+            ground,
+            ..self
+        }
+    }
+
+    /// This chain with its first joints as external axes, of any kind: those of a turntable that carries an arm.
+    pub(super) fn with_external(self, joints: usize) -> Chain {
+        Chain {
+            external: joints.max(self.ground.joints),
+            ..self
+        }
+    }
+
+    /// The link that does not move.
+    pub fn ground(&self) -> &Ground {
+        &self.ground
+    }
+
+    /// Number of joints in front of the arm that are external axes as stated; prismatic ones are so without that.
+    pub(super) fn external(&self) -> usize {
+        self.external
     }
 
     /// The elementary motions, base to flange.

@@ -83,6 +83,18 @@ pub enum RobotError {
         /// Joints of the chain.
         joints: usize,
     },
+    /// External axes, and no arm behind them.
+    #[error("all {joints} joints are external axes: no joint is left for the arm")]
+    AllExternal {
+        /// Joints of the chain.
+        joints: usize,
+    },
+    /// A positioner with coupled joints.
+    #[error("joint {joint} of the positioner is coupled to another")]
+    CoupledPositioner {
+        /// Name of the joint.
+        joint: String,
+    },
     /// A joint coupled to itself or to a later joint.
     #[error("joint {joint} is coupled to joint number {other}: it can only be coupled to an earlier joint")]
     Coupling {
@@ -103,7 +115,15 @@ impl Robot {
         motions: Vec<Motion>,
         joints: Vec<Joint>,
     ) -> Result<Robot, RobotError> {
-        let chain = Chain::new(motions)?;
+        Robot::of_chain(name, Chain::new(motions)?, joints)
+    }
+
+    /// [`Robot::new`] of a chain, with its ground and external axes.
+    pub(super) fn of_chain(
+        name: impl Into<String>,
+        chain: Chain,
+        joints: Vec<Joint>,
+    ) -> Result<Robot, RobotError> {
         if chain.links().len() != joints.len() {
             return Err(RobotError::JointCount {
                 in_chain: chain.links().len(),
@@ -178,6 +198,21 @@ impl Robot {
         Ok(self)
     }
 
+    /// This robot with its first joints as external axes, of any kind: those of a turntable that carries an arm.
+    ///
+    /// # Errors
+    /// As many external axes as joints, or more.
+    pub fn with_external_joints(mut self, external: usize) -> Result<Robot, RobotError> {
+        if external >= self.joints.len() {
+            return Err(RobotError::AllExternal {
+                joints: self.joints.len(),
+            });
+        }
+        self.chain = self.chain.with_external(external);
+        self.inverse = Inverse::recognise(&self.chain);
+        Ok(self)
+    }
+
     /// This robot with further reference frames for positions.
     #[must_use]
     pub fn with_frames(mut self, frames: Vec<NamedFrame>) -> Robot {
@@ -248,10 +283,17 @@ impl Robot {
         self.chain.slides(index)
     }
 
-    /// Whether joint `index` is one of a rail or gantry: prismatic, in front of the joints of the arm, at home wherever
-    /// inverse kinematics has a choice.
-    pub fn carries_the_arm(&self, index: usize) -> bool {
+    /// Whether joint `index` is an external axis: one of a rail or gantry that carries the arm, or of a positioner that
+    /// carries the part; in front of the joints of the arm, at home wherever inverse kinematics has a choice.
+    pub fn is_external(&self, index: usize) -> bool {
         index < self.inverse.rail_joints()
+    }
+
+    /// The external axes in the order of a controller: those that carry the arm, then those of the positioner, each
+    /// from the ground on.
+    pub fn external_axes(&self) -> impl Iterator<Item = usize> + use<> {
+        let of_part = self.chain.ground().joints;
+        (of_part..self.inverse.rail_joints().max(of_part)).chain((0..of_part).rev())
     }
 
     /// Chain position `theta` of joint `index` at the joint positions `q`.

@@ -14,6 +14,9 @@
 //! | `p` | TCP in base | m |
 //! | `tau_k` | torque on drive or spring k | N m (N) |
 //!
+//! A joint of a positioner, between the part and the ground, carries the masses on the other side: those of the part and of the
+//! links between it and the part. Its motion moves them against its screw: `tau_k = -s_k . [ M_k g ; S_k x g ]`.
+//!
 //! Source: principle of virtual work; `docs/theory/gravity.md`.
 
 use nalgebra::{IsometryMatrix3, Vector3};
@@ -73,6 +76,16 @@ pub fn carry_into(
 /// Torque of the carried weight on a drive or spring with this screw at the TCP, N m (N).
 pub fn torque(screw: &Twist, carried: &Carried, g: &Vector3<f64>) -> f64 {
     screw.dot(&carried.weight(g))
+}
+
+/// Torque of the weight on the joint `joint` of a positioner with this screw at the TCP, N m (N); `carried` by rank.
+pub fn torque_of_positioner(screw: &Twist, carried: &[Carried], joint: usize, g: &Vector3<f64>) -> f64 {
+    let (all, behind) = (carried[0], carried[joint + 1]);
+    let in_front = Carried {
+        mass: all.mass - behind.mass,
+        moment: all.moment - behind.moment,
+    };
+    -torque(screw, &in_front, g)
 }
 
 #[cfg(test)]

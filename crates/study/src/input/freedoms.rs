@@ -167,11 +167,11 @@ pub(super) fn axes(log: &mut ProblemLog<'_>, tables: &[AxisTable], robot: &Robot
 fn axis(log: &mut ProblemLog<'_>, key: &str, table: &AxisTable, robot: &Robot) -> Option<MovingAxis> {
     let names = |external: bool| {
         let joints = robot.joints().iter().enumerate();
-        let named = joints.filter(move |(joint, _)| !external || robot.carries_the_arm(*joint));
+        let named = joints.filter(move |(joint, _)| !external || robot.is_external(*joint));
         named.map(|(_, joint)| joint.name.as_str()).collect::<Vec<_>>()
     };
     let found = robot.joints().iter().position(|joint| joint.name == table.joint);
-    let external = found.filter(|joint| robot.carries_the_arm(*joint));
+    let external = found.filter(|joint| robot.is_external(*joint));
     let Some(joint) = external else {
         let message = match found {
             Some(_) => format!(

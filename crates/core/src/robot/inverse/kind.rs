@@ -7,7 +7,7 @@
 //! | [`Inverse::SphericalWrist`] | the axes of three joints at one end meet in a point, within 10 mm | up to eight, without names |
 //! | [`Inverse::OneFixed`] | seven revolute joints, one of which can be fixed so that a spherical wrist remains | those of the other six |
 //! | [`Inverse::Searched`] | any other chain | those that descents from many starts find |
-//! | [`Inverse::OnRail`] | more than six joints, prismatic ones first | the prismatic joints are fixed, the rest has its own inverse |
+//! | [`Inverse::OnRail`] | external axes first: prismatic joints of a chain of more than six, joints of a positioner, joints stated to be external | the external axes are fixed, the rest has its own inverse |
 
 use std::fmt;
 
@@ -31,16 +31,16 @@ pub enum Inverse {
     OneFixed(Box<FixedJoint>),
     /// From many starts.
     Searched,
-    /// On fixed prismatic joints.
+    /// On fixed external axes.
     OnRail(Box<Rail>),
 }
 
-/// Prismatic joints that carry an arm.
+/// External axes in front of an arm: a rail or gantry that carries it, a positioner that carries the part.
 #[derive(Clone, Debug)]
 pub struct Rail {
-    /// Number of prismatic joints.
+    /// Number of external axes.
     pub(super) joints: usize,
-    /// The motions of the rail, base to arm.
+    /// The motions of the external axes, base to arm.
     pub(super) motions: Vec<Motion>,
     /// The chain on the rail.
     pub(super) chain: Chain,
@@ -49,7 +49,7 @@ pub struct Rail {
 }
 
 impl Rail {
-    /// Number of prismatic joints.
+    /// Number of external axes.
     pub(crate) fn joints(&self) -> usize {
         self.joints
     }
@@ -99,13 +99,10 @@ impl Inverse {
 
     fn on_rail(chain: &Chain) -> Option<Inverse> {
         let slides = |motion: &Motion| matches!(motion, Motion::Along(..));
+        let external = chain.external();
         let to_spare = chain.links().len().saturating_sub(ENOUGH);
-        let joints = chain
-            .links()
-            .iter()
-            .take(to_spare)
-            .take_while(|link| slides(&link.motion))
-            .count();
+        let more = chain.links().iter().take(to_spare).skip(external);
+        let joints = external + more.take_while(|link| slides(&link.motion)).count();
         let (motions, rest) = (joints > 0).then(|| chain.split(joints))??;
         let inverse = Inverse::recognise(&rest);
         Some(Inverse::OnRail(Box::new(Rail {
@@ -124,7 +121,7 @@ impl Inverse {
         }
     }
 
-    /// Number of prismatic joints that carry the arm.
+    /// Number of external axes in front of the arm.
     pub(crate) fn rail_joints(&self) -> usize {
         match self {
             Inverse::OnRail(rail) => rail.joints,

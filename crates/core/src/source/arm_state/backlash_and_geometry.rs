@@ -63,7 +63,7 @@ impl ArmState<'_> {
         })
     }
 
-    /// From the base to the flange without the travel of prismatic joints, m, base.
+    /// From the ground to the flange without the travel of prismatic joints, m, base.
     fn constant_lengths(&self) -> Vector3<f64> {
         let tool_from_flange = self.arm.flange_from_tool.inverse().translation.vector;
         let flange = self.base_from_tool * Point3::from(tool_from_flange);
@@ -71,8 +71,10 @@ impl ArmState<'_> {
             let slides = self.arm.robot.slides(joint);
             slides.then(|| self.screws[joint].linear * *theta)
         };
-        let travelled: Vector3<f64> = self.theta.iter().enumerate().filter_map(travel).sum();
-        flange.coords - travelled
+        let of_positioner = self.arm.robot.chain().ground().joints;
+        let of_arm = self.theta.iter().enumerate().skip(of_positioner);
+        let travelled: Vector3<f64> = of_arm.filter_map(travel).sum();
+        flange.coords - self.base_from_ground.translation.vector - travelled
     }
 
     /// Writes the worst-case positions of the links where load and gravity displace the tool by `by_load` (m, base).

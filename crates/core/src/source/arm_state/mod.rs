@@ -28,7 +28,7 @@ pub use input_uncertainty::LoadedPosture;
 use nalgebra::{IsometryMatrix3, Matrix3, Matrix6, Point3, Rotation3, Vector3};
 
 use super::equilibrium::{AtRest, Equilibrium, Unstable};
-use super::gravity::{Carried, carry_into, torque};
+use super::gravity::{Carried, carry_into, torque, torque_of_positioner};
 use super::stiffness_model::{Arm, Gravity};
 use crate::load::TipCompliance;
 use crate::robot::deflected_arm::{attachment_frame, spring_screw};
@@ -54,6 +54,7 @@ pub struct ArmState<'a> {
     joints: Vec<f64>,
     theta: Vec<f64>,
     base_from_tool: IsometryMatrix3<f64>,
+    base_from_ground: IsometryMatrix3<f64>,
     screws: Vec<Twist>,
     weight: Option<Weight<'a>>,
     /// Torque of gravity on each drive and spring; zeros without gravity.
@@ -71,7 +72,7 @@ struct Weight<'a> {
     carried: Vec<Carried>,
     /// Deflection of each drive and spring by gravity alone; `None` where one is unstable.
     sag: Option<Vec<f64>>,
-    /// At tool setting: displacement of the tool by each, and the same per unit of compliance.
+    /// At tool setting: displacement of the tool by each, and the same per unit of compliance, in the axes of the ground.
     at_reference: Option<Vec<(Twist, Vector3<f64>)>>,
 }
 
@@ -99,6 +100,7 @@ impl<'a> ArmState<'a> {
             joints: vec![0.0; joints],
             theta: vec![0.0; joints],
             base_from_tool: IsometryMatrix3::identity(),
+            base_from_ground: IsometryMatrix3::identity(),
             screws: vec![Twist::ZERO; size],
             weight: arm.model.gravity.as_ref().map(weight),
             before: vec![0.0; size],
@@ -111,7 +113,12 @@ impl<'a> ArmState<'a> {
         };
         if let Some(gravity) = &arm.model.gravity {
             arm_state.set_joints(&gravity.reference);
-            let there = arm_state.sagging();
+            let ground_from_base = arm_state.base_from_ground.rotation.inverse();
+            let there = arm_state.sagging().map(|there| {
+                let each = there.into_iter();
+                each.map(|(moved, per_unit)| (moved.turned(&ground_from_base), ground_from_base * per_unit))
+                    .collect()
+            });
             if let Some(weight) = &mut arm_state.weight {
                 weight.at_reference = there;
             }
@@ -159,6 +166,8 @@ impl<'a> ArmState<'a> {
         let turn = frames.base_from_flange.rotation * self.flange_from_tool;
         let base_from_tool = IsometryMatrix3::from_parts(tcp.coords.into(), turn);
         self.base_from_tool = base_from_tool;
+        let ground = robot.chain().ground();
+        self.base_from_ground = ground.in_base(frames);
         let frame = |attachment: Attachment| attachment_frame(attachment, frames, &base_from_tool);
         for (screw, spring) in self.screws[joints..].iter_mut().zip(&structure.springs) {
             *screw = spring_screw(&spring.direction, &frame(spring.attachment), tcp.coords);
@@ -171,9 +180,13 @@ impl<'a> ArmState<'a> {
             return;
         };
         carry_into(&structure.masses, frame, tcp.coords, &mut weight.carried);
+        let g = self.base_from_ground.rotation * weight.gravity.acceleration;
         for ((before, screw), attachment) in self.before.iter_mut().zip(&self.screws).zip(&self.attachments) {
             let carried = &weight.carried[attachment.rank(joints)];
-            *before = torque(screw, carried, &weight.gravity.acceleration);
+            *before = torque(screw, carried, &g);
+        }
+        for (joint, before) in self.before.iter_mut().enumerate().take(ground.joints) {
+            *before = torque_of_positioner(&self.screws[joint], &weight.carried, joint, &g);
         }
         if let Some(c) = &structure.compensator {
             self.before[c.joint] += c.torque(self.theta[c.joint]);
@@ -236,9 +249,10 @@ impl<'a> ArmState<'a> {
         let (Some(sag), Some(there)) = (&weight.sag, &weight.at_reference) else {
             return Err(Unstable::Buckles);
         };
+        let turn = &self.base_from_ground.rotation;
         let each = self.screws.iter().zip(sag).zip(there);
         Ok(Some(
-            each.map(|((screw, sag), (there, _))| *screw * *sag - *there)
+            each.map(|((screw, sag), (there, _))| *screw * *sag - there.turned(turn))
                 .sum(),
         ))
     }
@@ -334,7 +348,9 @@ impl<'a> ArmState<'a> {
 
     fn sagged(&self, k: usize) -> Option<(f64, (Twist, Vector3<f64>))> {
         let weight = self.weight.as_ref()?;
-        Some((weight.sag.as_ref()?[k], weight.at_reference.as_ref()?[k]))
+        let turn = &self.base_from_ground.rotation;
+        let (there, per_unit) = weight.at_reference.as_ref()?[k];
+        Some((weight.sag.as_ref()?[k], (there.turned(turn), turn * per_unit)))
     }
 
     /// Displacement by gravity of each drive and spring, and the same per unit of compliance, m; none without gravity, or

@@ -1,0 +1,53 @@
+//! The ground: the link of a chain that does not move, where arm and positioner stand.
+//!
+//! The base of an arm alone stands on the ground. If a positioner carries the part, the base of the whole chain is the
+//! table of the positioner, and the ground is a link between the joints of the positioner and those of the arm:
+//!
+//! ```text
+//! table (base) - joints of the positioner, from the table back - ground - joints of the arm - flange
+//! ```
+//!
+//! Gravity is constant in the ground, and the links of the arm grow from there. Positions in the ground are relative to the
+//! base of the arm ([`crate::robot::positioner`]).
+
+use nalgebra::IsometryMatrix3;
+
+use super::forward::Frames;
+use crate::frame::Isometry;
+
+/// Where the ground is in a chain.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ground {
+    /// Number of joints between the base of the chain and the ground: those of the positioner; 0 without one.
+    pub joints: usize,
+    /// The ground in the frame of the last of these joints; in the base of the chain without any.
+    pub joint_from_ground: Isometry,
+}
+
+impl Ground {
+    /// The ground of an arm without a positioner: its base.
+    pub fn at_base() -> Ground {
+        Ground {
+            joints: 0,
+            joint_from_ground: Isometry::identity(),
+        }
+    }
+
+    /// Whether the base of the chain is the ground.
+    pub fn is_base(&self) -> bool {
+        self.joints == 0
+    }
+
+    /// The ground in the base of the chain, in a posture with these frames.
+    pub fn in_base(&self, frames: &Frames) -> IsometryMatrix3<f64> {
+        match self.joints.checked_sub(1) {
+            None => IsometryMatrix3::identity(),
+            Some(last) => {
+                let rotation = self.joint_from_ground.rotation.to_rotation_matrix();
+                let joint_from_ground =
+                    IsometryMatrix3::from_parts(self.joint_from_ground.translation, rotation);
+                frames.base_from_joint[last] * joint_from_ground
+            }
+        }
+    }
+}
