@@ -2,7 +2,6 @@
 
 use armill_core::robot::Robot;
 use armill_core::units::{from_deg, from_mm};
-use armill_formats::robot::RobotDescription;
 
 use crate::error::StudyError;
 
@@ -36,6 +35,14 @@ impl JointUnit {
         compliance_scale: 1e6,
     };
 
+    /// A position in rad (m) from one in this unit.
+    pub fn to_si(self, value: f64) -> f64 {
+        match self {
+            JointUnit::SLIDING => from_mm(value),
+            _ => from_deg(value),
+        }
+    }
+
     /// The units of joint `index` of `robot`.
     pub fn of(robot: &Robot, index: usize) -> JointUnit {
         if robot.slides(index) {
@@ -46,12 +53,19 @@ impl JointUnit {
     }
 }
 
-/// Joint positions in rad (m) from those given in deg (mm).
+/// Joint positions in rad (m) from those given in deg (mm); those of a positioner may be left out, and are then those of
+/// the study.
 ///
 /// # Errors
 /// Not one a joint.
-pub fn joint_positions(described: &RobotDescription, given: &[f64]) -> Result<Vec<f64>, StudyError> {
-    let robot = &described.robot;
+pub fn joint_positions(robot: &Robot, given: &[f64]) -> Result<Vec<f64>, StudyError> {
+    let of_positioner = robot.chain().ground().joints;
+    if of_positioner > 0 && given.len() + of_positioner == robot.joints().len() {
+        let home = robot.home(None);
+        let of_arm = given.iter().enumerate();
+        let of_arm = of_arm.map(|(joint, value)| JointUnit::of(robot, joint + of_positioner).to_si(*value));
+        return Ok(home[..of_positioner].iter().copied().chain(of_arm).collect());
+    }
     let names: Vec<&str> = robot.joints().iter().map(|joint| joint.name.as_str()).collect();
     if given.len() != names.len() {
         let message = format!(
@@ -65,14 +79,10 @@ pub fn joint_positions(described: &RobotDescription, given: &[f64]) -> Result<Ve
             format!("one each for {}", names.join(", ")),
         ));
     }
-    let to_si = |(i, value): (usize, &f64)| {
-        if robot.slides(i) {
-            from_mm(value)
-        } else {
-            from_deg(value)
-        }
-    };
-    Ok(given.iter().enumerate().map(to_si).collect())
+    let si = given.iter().enumerate();
+    Ok(si
+        .map(|(joint, value)| JointUnit::of(robot, joint).to_si(*value))
+        .collect())
 }
 
 #[cfg(test)]

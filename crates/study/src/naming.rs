@@ -7,19 +7,22 @@ use armill_core::robot::{BranchPattern, Robot};
 /// Name of the frame on the robot's floor plane, which every robot has.
 pub const BASE_LINK: &str = "base_link";
 
-/// The frame `name` that coordinates count from, in base.
+/// The frame `name` that coordinates count from, in base. If a positioner carries the part, base is its table, and
+/// `base_link` is where the base of the robot is as seen from there, with the positioner at home.
 ///
 /// # Errors
 /// The names that the robot knows.
 pub fn base_from_reference(robot: &Robot, name: &str) -> Result<Isometry, String> {
+    let found = robot.frames().iter().find(|frame| frame.name == name);
+    if let Some(frame) = found {
+        return Ok(frame.base_from_frame);
+    }
     if name == BASE_LINK {
         return Ok(Isometry::identity());
     }
-    let found = robot.frames().iter().find(|frame| frame.name == name);
-    found.map(|frame| frame.base_from_frame).ok_or_else(|| {
-        let named = robot.frames().iter().map(|frame| format!(", {}", frame.name));
-        format!("{BASE_LINK}{}", named.collect::<String>())
-    })
+    let others = robot.frames().iter().filter(|frame| frame.name != BASE_LINK);
+    let named = others.map(|frame| format!(", {}", frame.name));
+    Err(format!("{BASE_LINK}{}", named.collect::<String>()))
 }
 
 /// Name of the reference frame of a controller, if that is not `base_link`.

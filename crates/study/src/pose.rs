@@ -193,7 +193,7 @@ pub(crate) fn answer_in(
     let mut postures_at = |base_from_tool: &Isometry| -> Result<Vec<Posture>, StudyError> {
         // The preferred positions are used only if joints can be chosen.
         let home = question.home_deg.as_deref();
-        let home = home.map(|home| joint_positions(described, home)).transpose()?;
+        let home = home.map(|home| joint_positions(robot, home)).transpose()?;
         let tool = ToolAt {
             flange_from_tool: &question.flange_from_tool,
             near: None,
@@ -207,7 +207,7 @@ pub(crate) fn answer_in(
     let found = match &question.at {
         At::JointsDeg(joints) => vec![posture_at(
             robot,
-            &joint_positions(described, joints)?,
+            &joint_positions(robot, joints)?,
             &question.flange_from_tool,
         )],
         At::Tool { tcp, axis, spin } => {
@@ -269,7 +269,7 @@ fn stiffness_model(
     let gravity = |joints: &Vec<f64>| -> Result<Gravity, StudyError> {
         Ok(Gravity {
             acceleration: -Vector3::z() * FREE_FALL,
-            reference: joint_positions(described, joints)?,
+            reference: joint_positions(&described.robot, joints)?,
         })
     };
     Ok(StiffnessModel {

@@ -3,6 +3,7 @@
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::freedoms::LeanRange;
+use super::ground_spin::GroundSpin;
 use super::posture_search::PostureSearch;
 use super::window::Window;
 use crate::frame::Isometry;
@@ -32,6 +33,8 @@ pub(super) fn fill(
     let mut part = Column::default();
     column.clear(0, 0);
     let mut home = maker.robot().home(maker.home());
+    let robot = maker.robot();
+    let ground_spin = GroundSpin::of(robot, path.track, maker.home_of_question());
     for first in (0..grid.len()).step_by(spins.count) {
         let setting = window.setting(grid.indices(first), index);
         for (axis, moving) in search.axes.iter().enumerate() {
@@ -48,8 +51,9 @@ pub(super) fn fill(
             Some(_) => path.track.leaning_stop(index, (lean, end), path.load),
             None => path.track.loaded_stop(index, path.load),
         };
+        let ahead = ground_spin.at(&home, &(stop.base_from_tool * Vector3::z()));
         let poses: Vec<Isometry> = (0..spins.count)
-            .map(|turn| stop.base_from_tool * about_z(spins.at(turn)))
+            .map(|turn| stop.base_from_tool * about_z(spins.at(turn) + ahead))
             .collect();
         let push = ColumnLoad { cases: &cases, along };
         maker.fill(&poses, &push, &mut part);

@@ -19,7 +19,8 @@ const AT_SPEED: f64 = 1.0 + 1e-9;
 pub(super) struct JointRate {
     /// Largest speed, rad/s (m/s).
     most: Option<f64>,
-    slides: bool,
+    /// Whether its position is no result of the inverse kinematics: it cannot jump.
+    is_set: bool,
     /// Whether it can also be a whole turn away.
     wraps: bool,
 }
@@ -30,12 +31,13 @@ const WRAPPING: f64 = 1.5;
 impl JointRate {
     pub fn all(robot: &Robot) -> Vec<JointRate> {
         let of = |(index, joint): (usize, &Joint)| {
-            let slides = robot.slides(index);
+            // The settings of the search give the positions of external axes, and their rate.
+            let is_set = robot.slides(index) || robot.is_external(index);
             let enough = |limits: Limits| limits.upper - limits.lower >= WRAPPING * TAU;
             JointRate {
                 most: joint.max_speed,
-                slides,
-                wraps: !slides && joint.limits.is_none_or(enough),
+                is_set,
+                wraps: !is_set && joint.limits.is_none_or(enough),
             }
         };
         robot.joints().iter().enumerate().map(of).collect()
@@ -63,7 +65,7 @@ impl JointRate {
             .most
             .zip(time)
             .is_none_or(|(most, time)| by.abs() <= most * time * AT_SPEED);
-        in_time && (self.slides || by.abs() < far)
+        in_time && (self.is_set || by.abs() < far)
     }
 }
 

@@ -10,7 +10,7 @@
 //! - [`reversals`](fn@reversals): number of reversals of each joint.
 //!
 //! Of the search along a path, in reading order: `steps`, `freedoms` and `posture_search`: what may be chosen, and what was; `window`: the settings that are
-//! tried at a point; `grid`: which are neighbours; `column_at`: their postures; `links`: transitions between neighbouring
+//! tried at a point; `grid`: which are neighbours; `ground_spin`: spins where a positioner turns the part; `column_at`: their postures; `links`: transitions between neighbouring
 //! points; `heading`: directions of the joints; `winding`: their whole turns; `chain`: the chain of postures with the
 //! lowest cost; `walk`: one pass along the path; `refined`: one after the other; `smooth`: settings without steps;
 //! `lattice`: data for pictures. `rank_by`: uncertainty of the cost of a placement.
@@ -21,6 +21,7 @@ pub mod compensation;
 mod freedoms;
 mod gain;
 mod grid;
+mod ground_spin;
 mod heading;
 pub mod holes;
 mod lattice;

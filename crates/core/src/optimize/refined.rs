@@ -2,10 +2,13 @@
 
 use std::f64::consts::TAU;
 
+use nalgebra::Vector3;
+
 use super::chain::Cheapest;
 use super::column_at::fill;
 use super::freedoms::LeanRange;
 use super::grid::AXES;
+use super::ground_spin::GroundSpin;
 use super::lattice::Lattice;
 use super::posture_search::{Objective, PostureFound, PostureSearch};
 use super::reversals::reversals;
@@ -22,6 +25,8 @@ use crate::watch::{Cancelled, Watch};
 const MOST_STATES: usize = 8_000_000;
 /// Values along each axis of the first lattice, where it is refined.
 const COARSE: [usize; AXES] = [36, 5, 5, 7, 5, 5];
+/// How often the steps of an external axis are halved for the first lattice, at most.
+const MOST_FINER: usize = 4;
 /// Points of the path in the passes before the last one, and the ends of all cuts.
 const COARSE_POINTS: usize = 120;
 /// Points of the lattice for pictures, where it must be computed for them.
@@ -35,11 +40,11 @@ pub(super) fn refined(
     watch: Watch<'_>,
 ) -> Result<PostureFound, Cancelled> {
     let all: Vec<usize> = (0..path.track.len()).collect();
+    let keys = key_points(path.track);
     let mut window = Window::all(search);
     if !window.is_of_spins() && window.grid().len() * SLOTS * all.len() > MOST_STATES {
-        window = Window::coarse(search, COARSE);
+        window = coarse(search, keys.len());
     }
-    let keys = key_points(path.track);
     let quiet = Watch {
         finished: &|_| (),
         ..watch
@@ -72,6 +77,23 @@ pub(super) fn refined(
     }
     let wider = last(&window.widened(&near), quiet)?;
     Ok(if lost(&wider) < lost(&found) { wider } else { found })
+}
+
+/// The window of the first pass at this number of points: external axes in steps as small as the number of states permits.
+fn coarse(search: &PostureSearch, points: usize) -> Window {
+    let mut most = COARSE;
+    let mut window = Window::coarse(search, most);
+    for _ in 0..MOST_FINER {
+        for axis in 3..AXES {
+            let mut more = most;
+            more[axis] *= 2;
+            let finer = Window::coarse(search, more);
+            if finer.grid().len() * SLOTS * points <= MOST_STATES {
+                (most, window) = (more, finer);
+            }
+        }
+    }
+    window
 }
 
 /// The best chain of a pass without a price on reversals, and the cost of its states.
@@ -147,10 +169,11 @@ impl Last<'_> {
         let count = chain.states.iter().flatten().count().max(1);
         let leans = self.search.lean.map(|LeanRange { end, .. }| {
             let leans = smooth(1).into_iter().zip(smooth(2));
-            (leans.map(|(lead, tilt)| Lean { lead, tilt }).collect(), end)
+            let leans: Vec<Lean> = leans.map(|(lead, tilt)| Lean { lead, tilt }).collect();
+            (leans, end)
         });
+        let robot = self.question.arm.robot;
         let homes = (!self.search.axes.is_empty()).then(|| {
-            let robot = self.question.arm.robot;
             let mut homes = robot.home(self.question.home).repeat(settings.len());
             for (axis, moving) in self.search.axes.iter().enumerate() {
                 let width = robot.joints().len();
@@ -161,8 +184,20 @@ impl Last<'_> {
             }
             homes
         });
+        let mut spins = smooth(0);
+        if let Some(homes) = &homes {
+            let track = match &leans {
+                Some((leans, end)) => &self.path.track.leaning(leans, *end),
+                None => self.path.track,
+            };
+            let ground_spin = GroundSpin::of(robot, track, self.question.home);
+            for (index, home) in homes.chunks(robot.joints().len()).enumerate() {
+                let axis = track.stop(index).base_from_tool * Vector3::z();
+                spins[index] += ground_spin.at(home, &axis);
+            }
+        }
         PostureFound {
-            spins: smooth(0),
+            spins,
             leans,
             homes,
             branches: chain.states.iter().map(branch).collect(),
@@ -263,5 +298,7 @@ fn nothing(track: &Track, seen: &Seen) -> PostureFound {
     }
 }
 
+#[cfg(test)]
+mod ring;
 #[cfg(test)]
 mod tests;

@@ -12,8 +12,11 @@
 
 use nalgebra::IsometryMatrix3;
 
+use super::compensator::Mass;
 use super::forward::Frames;
+use super::spring::{Attachment, Spring};
 use crate::frame::Isometry;
+use crate::spatial::Twist;
 
 /// Where the ground is in a chain.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,6 +51,42 @@ impl Ground {
                     IsometryMatrix3::from_parts(self.joint_from_ground.translation, rotation);
                 frames.base_from_joint[last] * joint_from_ground
             }
+        }
+    }
+
+    /// The attachment of what stands on the ground, such as the base of the arm.
+    pub fn attachment(&self) -> Attachment {
+        self.joints
+            .checked_sub(1)
+            .map_or(Attachment::Base, Attachment::Joint)
+    }
+
+    /// A spring of the arm; one at its base is at the ground, wherever that is in the chain.
+    pub fn spring_of_arm(&self, spring: &Spring) -> Spring {
+        if spring.attachment != Attachment::Base {
+            return *spring;
+        }
+        let turn = self.joint_from_ground.rotation;
+        let at_ground = Twist {
+            linear: turn * spring.direction.linear,
+            angular: turn * spring.direction.angular,
+        };
+        Spring {
+            attachment: self.attachment(),
+            direction: at_ground.moved(-self.joint_from_ground.translation.vector),
+            ..*spring
+        }
+    }
+
+    /// A mass of the arm; one at its base is on the ground, wherever that is in the chain.
+    pub fn mass_of_arm(&self, mass: &Mass) -> Mass {
+        match mass.attachment {
+            Attachment::Base => Mass {
+                attachment: self.attachment(),
+                centre: self.joint_from_ground * mass.centre,
+                ..*mass
+            },
+            _ => *mass,
         }
     }
 }

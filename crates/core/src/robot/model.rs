@@ -28,6 +28,7 @@ pub struct Robot {
     frames: Vec<NamedFrame>,
     nominal: BranchPattern,
     inverse: Inverse,
+    rest: Option<Vec<f64>>,
 }
 
 /// Why a robot description is not consistent. Joint positions are in rad (m for prismatic joints).
@@ -143,6 +144,7 @@ impl Robot {
             frames: Vec::new(),
             nominal: BranchPattern::FRONT_ELBOW_UP,
             inverse,
+            rest: None,
         })
     }
 
@@ -224,6 +226,12 @@ impl Robot {
     #[must_use]
     pub fn with_nominal_branch(mut self, nominal: BranchPattern) -> Robot {
         self.nominal = nominal;
+        self
+    }
+
+    /// This robot with other joint positions where none are given, rad (m), than the middle of each range.
+    pub(super) fn with_rest(mut self, rest: Vec<f64>) -> Robot {
+        self.rest = Some(rest);
         self
     }
 
@@ -310,10 +318,16 @@ impl Robot {
         joint.sign.factor() * (theta - joint.zero_offset) - coupled
     }
 
-    /// `home`, rad (m); without it the middle of each range, zero where there is none.
-    pub(crate) fn home(&self, home: Option<&[f64]>) -> Vec<f64> {
-        let middle = |joint: &Joint| joint.limits.map_or(0.0, |limits| limits.middle());
-        home.map_or_else(|| self.joints.iter().map(middle).collect(), <[f64]>::to_vec)
+    /// `home`, rad (m); without it the positions of a positioner in its study, and of all other joints the middle of
+    /// each range, zero where there is none.
+    pub fn home(&self, home: Option<&[f64]>) -> Vec<f64> {
+        home.or(self.rest.as_deref())
+            .map_or_else(|| self.middles(), <[f64]>::to_vec)
+    }
+
+    /// Joint positions where none are given, rad (m); `None`: the middle of each range.
+    pub(super) fn rest(&self) -> Option<&[f64]> {
+        self.rest.as_deref()
     }
 
     /// The joint nearest to one of its limits, or farthest outside, and its margin: rad, m of a

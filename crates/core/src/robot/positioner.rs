@@ -18,19 +18,17 @@
 //!
 //! Source: a chain read from its other end, `(A_1 A_2 ... A_m)^-1 = A_m^-1 ... A_2^-1 A_1^-1`; virtual work.
 
-use nalgebra::{DMatrix, Point3};
+use nalgebra::DMatrix;
 
 use super::backlash::Backlash;
 use super::chain::{Amount, Axis, Chain, Motion};
 use super::compensator::Mass;
-use super::forward::{Frames, chain_forward_into};
 use super::ground::Ground;
 use super::joint::{Joint, JointCompliance, Sign};
 use super::model::{NamedFrame, Robot, RobotError};
 use super::spring::{Attachment, Spring};
 use super::structure::Structure;
 use crate::frame::{Isometry, fixed_angles};
-use crate::spatial::Twist;
 
 /// A joint that is rigid as far as is known.
 const RIGID: JointCompliance = JointCompliance {
@@ -62,6 +60,32 @@ impl Positioner<'_> {
             .collect();
         self.base_from_root * self.robot.chain().base_from_flange(&theta)
     }
+
+    /// Where an attachment of the positioner is in the whole chain, and its frame there.
+    pub fn attached(&self, attachment: Attachment) -> (Attachment, Isometry) {
+        let count = self.joints();
+        let joint = match attachment {
+            Attachment::Base => {
+                let root = constants(&self.base_from_root.inverse());
+                let motions = self.robot.chain().motions().iter().rev();
+                let motions: Vec<Motion> = motions
+                    .map(|motion| backwards(motion, count))
+                    .chain(root)
+                    .collect();
+                let joint_from_ground = last_joint_from_end(&motions, count);
+                return (
+                    moved(Attachment::Base, count),
+                    joint_from_ground * self.base_from_root,
+                );
+            }
+            Attachment::Joint(joint) => joint,
+            Attachment::Flange | Attachment::Tool => return (Attachment::Base, Isometry::identity()),
+        };
+        // The frame of the next joint before its motion is that of the one before it, read from the table.
+        let behind = (count - 1).checked_sub(joint + 1);
+        let next_from_here = constants_between(self.robot.chain(), joint).inverse();
+        (behind.map_or(Attachment::Base, Attachment::Joint), next_from_here)
+    }
 }
 
 impl Robot {
@@ -87,12 +111,11 @@ impl Robot {
             .map(|motion| backwards(motion, count))
             .collect();
         motions.extend(constants(&positioner.base_from_root.inverse()));
-        let joint_from_ground = last_joint_from_end(&motions, count);
-        motions.extend(self.chain().motions().iter().map(|motion| after(motion, count)));
         let ground = Ground {
             joints: count,
-            joint_from_ground,
+            joint_from_ground: last_joint_from_end(&motions, count),
         };
+        motions.extend(self.chain().motions().iter().map(|motion| after(motion, count)));
         let joints = own.joints().iter().rev().map(reversed);
         let joints = joints.chain(self.joints().iter().map(|joint| behind(joint, count)));
         let chain = Chain::new(motions)?.with_ground(ground);
@@ -116,28 +139,29 @@ impl Robot {
         robot
             .with_frames(frames)
             .with_nominal_branch(self.nominal_branch())
-            .with_structure(self.structure_behind(positioner, &joint_from_ground))
+            .with_rest(
+                positioner
+                    .home
+                    .iter()
+                    .rev()
+                    .copied()
+                    .chain(self.home(None))
+                    .collect(),
+            )
+            .with_structure(self.structure_behind(positioner, &ground))
     }
 
     /// The structure of this arm behind the positioner, with the masses and the backlash of the positioner.
-    fn structure_behind(&self, positioner: &Positioner<'_>, joint_from_ground: &Isometry) -> Structure {
+    fn structure_behind(&self, positioner: &Positioner<'_>, ground: &Ground) -> Structure {
         let count = positioner.joints();
         let (own, other) = (self.structure(), positioner.robot.structure());
         let springs = own.springs.iter().map(|spring| Spring {
             attachment: moved(spring.attachment, count),
-            direction: match spring.attachment {
-                Attachment::Base => from_ground(&spring.direction, joint_from_ground),
-                _ => spring.direction,
-            },
-            compliance: spring.compliance,
+            ..ground.spring_of_arm(spring)
         });
         let masses = own.masses.iter().map(|mass| Mass {
             attachment: moved(mass.attachment, count),
-            centre: match mass.attachment {
-                Attachment::Base => joint_from_ground * mass.centre,
-                _ => mass.centre,
-            },
-            mass: mass.mass,
+            ..ground.mass_of_arm(mass)
         });
         let carried = other
             .masses
@@ -253,38 +277,25 @@ pub fn moved(attachment: Attachment, count: usize) -> Attachment {
     }
 }
 
-/// A twist at the origin of the ground, in its axes, at the origin and in the axes of the joint before it.
-fn from_ground(twist: &Twist, joint_from_ground: &Isometry) -> Twist {
-    let turned = Twist {
-        linear: joint_from_ground.rotation * twist.linear,
-        angular: joint_from_ground.rotation * twist.angular,
-    };
-    turned.moved(-joint_from_ground.translation.vector)
+/// What is constant between joint `joint` of a chain and the next one, or the flange.
+fn constants_between(chain: &Chain, joint: usize) -> Isometry {
+    let motions = chain.motions().iter();
+    let behind = motions
+        .skip_while(|motion| motion.amount() != Amount::Joint(joint))
+        .skip(1);
+    let constants = behind.map_while(|motion| match motion.amount() {
+        Amount::Constant(value) => Some(motion.displacement(value)),
+        Amount::Joint(_) => None,
+    });
+    constants.fold(Isometry::identity(), |end, displacement| end * displacement)
 }
 
-/// A mass of the positioner on the chain from its table; none if it stands on the ground.
+/// A mass of the positioner on the whole chain; none if it stands on the ground.
 fn mass_of_positioner(mass: &Mass, positioner: &Positioner<'_>) -> Option<Mass> {
-    let chain = positioner.robot.chain();
-    let count = positioner.joints();
-    let joint = match mass.attachment {
-        Attachment::Base => return None,
-        Attachment::Joint(joint) => joint,
-        Attachment::Flange | Attachment::Tool => count,
-    };
-    // Frames with every joint at chain position zero: what is between two of them is constant.
-    let mut frames = Frames::for_joints(count);
-    chain_forward_into(chain, |_| 0.0, &mut frames);
-    let at = |joint: usize| match frames.base_from_joint.get(joint) {
-        Some(frame) => *frame,
-        None => frames.base_from_flange,
-    };
-    let centre: Point3<f64> = at(joint + 1).inverse() * (at(joint) * mass.centre);
-    Some(Mass {
-        attachment: match (count - 1).checked_sub(joint + 1) {
-            Some(joint) => Attachment::Joint(joint),
-            None => Attachment::Base,
-        },
-        centre: if joint == count { mass.centre } else { centre },
+    let (attachment, new_from_old) = positioner.attached(mass.attachment);
+    (mass.attachment != Attachment::Base).then(|| Mass {
+        attachment,
+        centre: new_from_old * mass.centre,
         mass: mass.mass,
     })
 }

@@ -206,8 +206,16 @@ impl Resolver<'_> {
             Some(LoadSource::Load(table)) => Some(table),
             _ => None,
         };
+        let base_from_link = self.base_from_link();
+        if let Some(LoadSource::Measured(table, _)) = push
+            && table.frame.frame() == LoadFrame::Base
+            && base_from_link != Isometry::identity()
+        {
+            let message = "forces in the axes of base_link are not known of a part on a positioner";
+            log.problem("program.measured.frame", message, "`part` or `feed`");
+        }
         let load = match given {
-            Some(table) => load_cases(log, table),
+            Some(table) => load_cases(log, table, &base_from_link),
             None => Some(LoadCases {
                 frame: LoadFrame::Base,
                 cases: Vec::new(),
@@ -234,7 +242,11 @@ impl Resolver<'_> {
             frame,
             ..load.clone()
         };
-        let uncertainty = uncertainty.of_components(u_n, frame, &plane.base_from_part)?;
+        let uncertainty = match frame {
+            // Components along the axes of base_link, like those of a part that is there.
+            LoadFrame::Base => uncertainty.of_components(u_n, LoadFrame::Part, &base_from_link)?,
+            frame => uncertainty.of_components(u_n, frame, &plane.base_from_part)?,
+        };
         let cases = with_frame.in_base(&plane.base_from_part)?;
         let flange_from_tool =
             tool.map_or_else(Isometry::identity, |t| pose_mm_deg(&t.flange_from_tool_mm_deg));
@@ -312,6 +324,14 @@ impl Resolver<'_> {
         found.map_err(report).ok()
     }
 
+    /// The base of the robot in the base of the chain: as seen from the table of a positioner at home; the same without one.
+    fn base_from_link(&self) -> Isometry {
+        let found = self
+            .robot
+            .map(|found| crate::base_from_reference(&found.robot, crate::BASE_LINK));
+        found.and_then(Result::ok).unwrap_or_else(Isometry::identity)
+    }
+
     /// The value of the analysis for a key of the posture, else that of the study.
     pub fn of_posture<T>(&self, get: impl Fn(&'_ PostureTable) -> Option<&T>) -> Option<&T> {
         let own = self.table.posture.as_ref().and_then(&get);
@@ -333,7 +353,7 @@ impl Resolver<'_> {
     /// The position of a rail and the preferred positions of redundant joints; `None` also if that has problems.
     fn home(&self, log: &mut ProblemLog<'_>) -> Option<Vec<f64>> {
         let given = self.of_posture(|posture| posture.home_deg.as_ref())?;
-        match crate::joint_unit::joint_positions(self.robot?, given) {
+        match crate::joint_unit::joint_positions(&self.robot?.robot, given) {
             Ok(home) => Some(home),
             Err(StudyError::Value { message, hint }) => {
                 log.problem("posture.home_deg", message, &hint);

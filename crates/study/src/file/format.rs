@@ -140,9 +140,24 @@ pub struct PositionerTable {
     /// in degrees.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub base_from_root_mm_deg: [f64; 6],
-    /// Its joint positions, one for each joint; mm for prismatic joints.
+    /// Its joint positions, one for each joint; mm for prismatic joints. A search may move them.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub joints_deg: Vec<f64>,
+    /// Masses of part, stock and fixture on its table, for gravity.
+    #[serde(default)]
+    pub mass: Vec<TableMassTable>,
+}
+
+/// A mass on the table of a positioner.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TableMassTable {
+    /// Mass.
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub mass_kg: f64,
+    /// Centre of mass in the frame of the table.
+    #[schemars(inner(range(min = -1e6, max = 1e6)))]
+    pub centre_mm: [f64; 3],
 }
 
 /// Joint compliances given by the study: one for each joint, or those of a class.

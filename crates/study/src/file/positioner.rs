@@ -1,29 +1,26 @@
 //! A turntable or positioner that carries the part: a second kinematic chain.
 //!
-//! Its table is a frame that coordinates can be relative to. Its deflection under the cut adds to that of the arm: the
-//! part moves by `-w` where the tool moves by `w`, so each of its joints is a spring under the arm, at its own
-//! axis in base.
+//! Robot and positioner become one chain, from the table to the flange ([`armill_core::robot::positioner`]): its base is the
+//! table, so that what is given of the part is constant while the table moves. Its joints are external axes in front of
+//! those of the robot; they stand at `joints_deg` unless a search moves them.
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | `base_from_root` | position of the positioner, `base_from_root_mm_deg` | m, rad |
-//! | `q` | its joint positions, `joints_deg`; constant within a study | rad (m) |
-//! | `S_k`, `c_k` | screw of its joint k about the origin of base, its compliance | -, rad/(N m) |
+//! | `q` | its joint positions, `joints_deg` | rad (m) |
 //!
-//! Its other springs, its masses and gravity are neglected: only the compliances of its joints are included.
+//! Its other springs and its repeatability are neglected.
 
 use std::path::Path;
 
+use armill_core::clearance::ArmBody;
 use armill_core::frame::Isometry;
-use armill_core::nalgebra::Point3;
-use armill_core::robot::forward::forward;
-use armill_core::robot::inverse::tool_on;
-use armill_core::robot::jacobian::screws_at;
+use armill_core::robot::RobotError;
 use armill_core::robot::model::NamedFrame;
-use armill_core::robot::{Attachment, Spring};
-use armill_core::spatial::Twist;
-use armill_core::units::{to_deg, to_mm};
-use armill_formats::robot::RobotDescription;
+use armill_core::robot::positioner::{Positioner, moved};
+use armill_core::robot::{Attachment, Mass, Robot};
+use armill_core::units::{from_mm, to_deg, to_mm};
+use armill_formats::robot::{BodyNote, JointNote, RobotDescription};
 use armill_formats::sources::Source;
 
 use crate::error::StudyError;
@@ -31,93 +28,183 @@ use crate::file::format::PositionerTable;
 use crate::input::problem_log::ProblemLog;
 use crate::input::quantities::pose_mm_deg;
 use crate::joint_unit::joint_positions;
+use crate::naming::BASE_LINK;
 use crate::robots;
 
 /// The name of its table as a reference frame.
 pub const TABLE: &str = "table";
 
-/// The robot with the table of this positioner as a frame, its joints as springs, and its sources; unchanged where
-/// something is wrong.
+/// A positioner that was found, and where it stands.
+pub(super) struct FoundPositioner {
+    described: RobotDescription,
+    base_from_root: Isometry,
+    home: Vec<f64>,
+}
+
+/// The positioner of this table; `None` where something is wrong, which is reported.
 ///
 /// # Errors
 /// The problems of the positioner's file.
-pub(super) fn with_positioner(
+pub(super) fn find(
     log: &mut ProblemLog<'_>,
     table: &PositionerTable,
     folder: &Path,
-    mut found: RobotDescription,
-) -> Result<RobotDescription, StudyError> {
-    let robot = &found.robot;
-    let described = match robots::find(&table.robot, folder) {
+    robot: &Robot,
+) -> Result<Option<FoundPositioner>, StudyError> {
+    let mut described = match robots::find(&table.robot, folder) {
         Ok(found) => found,
         Err(StudyError::Value { message, hint }) => {
             log.problem("positioner.robot", message, &hint);
-            return Ok(found);
+            return Ok(None);
         }
         Err(problems) => return Err(problems),
     };
-    let q = match joint_positions(&described, &table.joints_deg) {
-        Ok(q) => q,
+    let home = match joint_positions(&described.robot, &table.joints_deg) {
+        Ok(home) => home,
         Err(StudyError::Value { message, hint }) => {
             log.problem("positioner.joints_deg", message, &hint);
-            return Ok(found);
+            return Ok(None);
         }
         Err(problems) => return Err(problems),
     };
-    let positioner = &described.robot;
-    if let Some((joint, outside)) = positioner.limit_margin(&q).filter(|(_, margin)| *margin < 0.0) {
-        let name = &positioner.joints()[joint].name;
-        let beyond = if positioner.slides(joint) {
-            format!("{:.1} mm", to_mm(-outside))
-        } else {
-            format!("{:.1} deg", -to_deg(outside))
-        };
-        let message = format!("the positioner's joint {name} is {beyond} outside its range");
+    check_limits(log, &described.robot, &home);
+    let names = |robot: &Robot| {
+        robot
+            .joints()
+            .iter()
+            .map(|joint| joint.name.clone())
+            .collect::<Vec<_>>()
+    };
+    let own = names(robot);
+    if let Some(name) = names(&described.robot)
+        .into_iter()
+        .find(|name| own.contains(name))
+    {
+        let message = format!("robot and positioner both have a joint `{name}`");
         log.problem(
-            "positioner.joints_deg",
+            "positioner.robot",
             message,
-            "see `armill robots FILE` for its limits",
+            "rename it in the file of the positioner",
         );
+        return Ok(None);
     }
     if robot.frames().iter().any(|frame| frame.name == TABLE) {
         let message = format!("the robot has a frame `{TABLE}` already");
         log.problem("positioner", message, "rename the frame in the robot file");
+        return Ok(None);
+    }
+    let mut structure = described.robot.structure().clone();
+    structure.masses.extend(table.mass.iter().map(|mass| Mass {
+        attachment: Attachment::Flange,
+        mass: mass.mass_kg,
+        centre: mass.centre_mm.map(from_mm).into(),
+    }));
+    described.robot = described.robot.with_structure(structure).map_err(refused)?;
+    Ok(Some(FoundPositioner {
+        described,
+        base_from_root: pose_mm_deg(&table.base_from_root_mm_deg),
+        home,
+    }))
+}
+
+/// Reports the joint that is farthest outside its range.
+fn check_limits(log: &mut ProblemLog<'_>, positioner: &Robot, home: &[f64]) {
+    let Some((joint, outside)) = positioner.limit_margin(home).filter(|(_, margin)| *margin < 0.0) else {
+        return;
+    };
+    let name = &positioner.joints()[joint].name;
+    let beyond = if positioner.slides(joint) {
+        format!("{:.1} mm", to_mm(-outside))
+    } else {
+        format!("{:.1} deg", -to_deg(outside))
+    };
+    let message = format!("the positioner's joint {name} is {beyond} outside its range");
+    let hint = "see `armill robots FILE` for its limits";
+    log.problem("positioner.joints_deg", message, hint);
+}
+
+fn refused(error: RobotError) -> StudyError {
+    StudyError::value(error.to_string(), "see the positioner's file and its position")
+}
+
+impl FoundPositioner {
+    fn positioner(&self) -> Positioner<'_> {
+        Positioner {
+            robot: &self.described.robot,
+            base_from_root: &self.base_from_root,
+            home: &self.home,
+        }
     }
 
-    let base_from_root = pose_mm_deg(&table.base_from_root_mm_deg);
-    let frames = forward(positioner, &q);
-    let base_from_table = base_from_root * tool_on(&frames, &Isometry::identity());
-    let mut all = robot.frames().to_vec();
-    all.push(NamedFrame {
-        name: TABLE.to_owned(),
-        base_from_frame: base_from_table,
-    });
-    let mut structure = robot.structure().clone();
-    if let Some(compliances) = positioner.compliance() {
-        // Screws about the origin of base, first in axes of the positioner's root.
-        let origin: Point3<f64> = base_from_root.inverse_transform_point(&Point3::origin());
-        let screws = screws_at(positioner, &frames, &origin);
-        structure
-            .springs
-            .extend(screws.iter().zip(compliances).map(|(screw, compliance)| Spring {
-                attachment: Attachment::Base,
-                direction: Twist {
-                    linear: base_from_root * screw.linear,
-                    angular: base_from_root * screw.angular,
-                },
-                compliance: *compliance,
-            }));
+    /// This arm behind the positioner, with the frames `base_link` and `table`.
+    ///
+    /// # Errors
+    /// What the chain cannot have, such as coupled joints of the positioner.
+    pub(super) fn under(&self, arm: &Robot) -> Result<Robot, StudyError> {
+        let robot = arm
+            .on_positioner(&self.positioner(), BASE_LINK)
+            .map_err(refused)?;
+        let mut frames = robot.frames().to_vec();
+        frames.push(NamedFrame {
+            name: TABLE.to_owned(),
+            base_from_frame: Isometry::identity(),
+        });
+        Ok(robot.with_frames(frames))
     }
-    let refused = |error: armill_core::robot::RobotError| {
-        StudyError::value(error.to_string(), "see the positioner's file and its position")
-    };
-    let with_positioner = robot.clone().with_frames(all).with_structure(structure);
-    found.robot = with_positioner.map_err(refused)?;
-    found
-        .sources
-        .extend(described.sources.into_iter().map(|source| Source {
-            key: format!("positioner:{}", source.key),
-            ..source
+
+    /// The robot behind the positioner, with its sources, notes and bodies.
+    ///
+    /// # Errors
+    /// See [`FoundPositioner::under`].
+    pub(super) fn described(&self, mut found: RobotDescription) -> Result<RobotDescription, StudyError> {
+        let own = &self.described;
+        let count = own.robot.joints().len();
+        let motions = found.robot.chain().motions().len();
+        found.robot = self.under(&found.robot)?;
+        let added = found.robot.chain().motions().len() - motions;
+        found.symbols.splice(0..0, vec![None; added]);
+        let key = |key: &Option<String>| key.as_ref().map(|key| own_key(key));
+        let notes = own.joint_notes.iter().rev().map(|note| JointNote {
+            source: key(&note.source),
+            compliance_source: key(&note.compliance_source),
+            compliance_u_source: key(&note.compliance_u_source),
+            other_limits: Vec::new(),
+        });
+        let notes: Vec<JointNote> = notes.collect();
+        found.joint_notes.splice(0..0, notes);
+        for body in &mut found.bodies {
+            if body.attachment == Attachment::Base {
+                body.attachment_from_body =
+                    found.robot.chain().ground().joint_from_ground * body.attachment_from_body;
+            }
+            body.attachment = moved(body.attachment, count);
+        }
+        let first = found.bodies.len();
+        found.bodies.extend(own.bodies.iter().map(|body| {
+            let (attachment, new_from_old) = self.positioner().attached(body.attachment);
+            ArmBody {
+                attachment,
+                attachment_from_body: new_from_old * body.attachment_from_body,
+                ..body.clone()
+            }
         }));
-    Ok(found)
+        found
+            .body_notes
+            .extend(own.body_notes.iter().map(|note| BodyNote {
+                source: own_key(&note.source),
+                ..note.clone()
+            }));
+        let apart = own.apart.iter().map(|pair| pair.map(|body| body + first));
+        found.apart.extend(apart);
+        found.sources.extend(own.sources.iter().map(|source| Source {
+            key: own_key(&source.key),
+            ..source.clone()
+        }));
+        Ok(found)
+    }
+}
+
+/// The key of a source of the positioner among those of the robot.
+fn own_key(key: &str) -> String {
+    format!("positioner:{key}")
 }

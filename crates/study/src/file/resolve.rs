@@ -5,6 +5,7 @@
 
 use std::borrow::Cow;
 use std::path::Path;
+use std::sync::Arc;
 
 use armill_formats::controller::ControllerTable;
 use armill_formats::document::{Document, Problem, Problems};
@@ -186,11 +187,19 @@ impl Parsed {
         let tables = self.analysis_tables();
         let requested = only.map(|name| self.index_of(name)).transpose()?;
         let mut log = ProblemLog::new(document, None);
-        let robot = find_robot(&mut log, file, folder)?;
-        let actual = match &robot {
+        let mut robot = find_robot(&mut log, file, folder)?;
+        let mut actual = match &robot {
             Some(robot) => find_calibrated(&mut log, file, robot, folder)?,
             None => None,
         };
+        if let Some((table, arm)) = file.positioner.as_ref().zip(robot.as_ref())
+            && let Some(found) = positioner::find(&mut log, table, folder, &arm.robot)?
+        {
+            robot = robot.map(|arm| found.described(arm)).transpose()?;
+            if let Some(actual) = &mut actual {
+                actual.robot = Arc::new(found.under(&actual.robot)?);
+            }
+        }
         let bodies = match &robot {
             Some(robot) => CellBodies::read(&mut log, &file.cell_tables(&tables), robot, folder)?,
             None => None,
@@ -330,11 +339,10 @@ fn without_repeats(problems: Vec<Problem>) -> Vec<Problem> {
     kept
 }
 
-/// The robot of the study, with the compliances and the positioner of the study, if given; `None` if it is not
-/// found, reported at its key.
+/// The robot of the study, with the compliances of the study, if given; `None` if it is not found, reported at its key.
 ///
 /// # Errors
-/// The problems of a robot file; compliances or a positioner that the robot refuses.
+/// The problems of a robot file; compliances that the robot refuses.
 fn find_robot(
     log: &mut ProblemLog<'_>,
     file: &StudyFile,
@@ -361,9 +369,6 @@ fn find_robot(
             StudyError::value(error.to_string(), hint)
         };
         found.robot = found.robot.with_other_compliance(joints).map_err(refused)?;
-    }
-    if let Some(table) = &file.positioner {
-        found = positioner::with_positioner(log, table, folder, found)?;
     }
     Ok(Some(found))
 }

@@ -6,11 +6,12 @@ use std::ops::RangeInclusive;
 use armill_core::optimize::{LeanRange, MOST_MOVING, MovingAxis, Steps};
 use armill_core::path::RoundedEnd;
 use armill_core::robot::Robot;
-use armill_core::units::{from_deg, from_mm, from_per_mm, to_mm};
+use armill_core::units::{from_deg, from_mm, from_per_mm};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::input::problem_log::ProblemLog;
+use crate::joint_unit::JointUnit;
 
 /// Lean of the tool about the programmed axis.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
@@ -48,9 +49,9 @@ pub struct EndTable {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AxisTable {
-    /// Name of its joint in the robot file: a prismatic joint that carries the robot.
+    /// Name of its joint: one that carries the robot, or one of the positioner.
     pub joint: String,
-    /// First and last position; the limits of the joint if left out.
+    /// First and last position of a prismatic joint; its limits if left out.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub range_mm: Option<[f64; 2]>,
     /// Step between positions; 50 if left out.
@@ -59,6 +60,15 @@ pub struct AxisTable {
     /// Largest motion along the path; 1 if left out.
     #[schemars(range(min = 1e-6, max = 1e3))]
     pub mm_per_mm: Option<f64>,
+    /// First and last position of a revolute joint; its limits if left out.
+    #[schemars(inner(range(min = -1e4, max = 1e4)))]
+    pub range_deg: Option<[f64; 2]>,
+    /// Step between positions; 5 if left out.
+    #[schemars(range(min = 0.01, max = 360.0))]
+    pub step_deg: Option<f64>,
+    /// Largest motion along the path; 1 if left out.
+    #[schemars(range(min = 1e-6, max = 1e3))]
+    pub deg_per_mm: Option<f64>,
     /// Whether it stands still within a cut and moves between cuts alone.
     #[serde(default)]
     pub still: bool,
@@ -75,9 +85,9 @@ pub enum ToolEnd {
     NotGiven,
 }
 
-/// Steps of a lean and of a rail where the study gives none.
-const STEPS: (f64, f64) = (2.5, 50.0);
-/// Change along the path of a lean (deg/mm) and of a rail (mm/mm) where the study gives none.
+/// Steps of a lean (deg), of a prismatic (mm) and of a revolute axis (deg) where the study gives none.
+const STEPS: (f64, f64, f64) = (2.5, 50.0, 5.0);
+/// Change along the path of a lean (deg/mm) and of an external axis (mm/mm, deg/mm) where the study gives none.
 const RATES: (f64, f64) = (0.5, 1.0);
 /// Most values of an axis.
 const MOST: f64 = 2000.0;
@@ -165,66 +175,174 @@ pub(super) fn axes(log: &mut ProblemLog<'_>, tables: &[AxisTable], robot: &Robot
 }
 
 fn axis(log: &mut ProblemLog<'_>, key: &str, table: &AxisTable, robot: &Robot) -> Option<MovingAxis> {
-    let names = |external: bool| {
-        let joints = robot.joints().iter().enumerate();
-        let named = joints.filter(move |(joint, _)| !external || robot.is_external(*joint));
-        named.map(|(_, joint)| joint.name.as_str()).collect::<Vec<_>>()
+    let joint = external_joint(log, key, table, robot)?;
+    let unit = JointUnit::of(robot, joint);
+    let own = match robot.slides(joint) {
+        true => table.in_mm(),
+        false => table.in_deg(),
     };
-    let found = robot.joints().iter().position(|joint| joint.name == table.joint);
-    let external = found.filter(|joint| robot.is_external(*joint));
-    let Some(joint) = external else {
-        let message = match found {
-            Some(_) => format!(
-                "joint `{}` of robot `{}` is not an external axis",
-                table.joint,
-                robot.name()
-            ),
-            None => format!("robot `{}` has no joint `{}`", robot.name(), table.joint),
+    let other = match robot.slides(joint) {
+        true => table.in_deg(),
+        false => table.in_mm(),
+    };
+    if let Some(given) = other.given() {
+        let kind = if robot.slides(joint) {
+            "prismatic"
+        } else {
+            "revolute"
         };
-        let hint = match names(true) {
-            external if external.is_empty() => {
-                "an external axis is a prismatic joint in front of the six of the robot; this robot has none"
-                    .to_owned()
-            }
-            external => format!("its external axes: {}", external.join(", ")),
-        };
-        log.problem(&format!("{key}.joint"), message, &hint);
+        let message = format!(
+            "joint `{}` is {kind}: its positions are in {}",
+            table.joint, unit.name
+        );
+        let hint = format!("{} = ... in place of {given}", own.names[other.place_of(given)]);
+        log.problem(&format!("{key}.{given}"), message, &hint);
         return None;
-    };
-    let limits = robot.joints()[joint].limits;
-    let range = match (table.range_mm, limits) {
-        (Some([first, last]), Some(limits)) => {
-            let [lower, upper] = [limits.lower, limits.upper].map(to_mm);
-            let outside = first < lower - ROUNDED || last > upper + ROUNDED;
-            if outside {
-                let message = format!(
-                    "the range from {first} to {last} mm is not inside the limits of joint `{}`, {lower} to {upper} mm",
-                    table.joint
-                );
-                log.problem(
-                    &format!("{key}.range_mm"),
-                    message,
-                    "bounds inside those of the joint",
-                );
-                return None;
-            }
-            [first, last]
-        }
-        (Some(range), None) => range,
-        (None, Some(limits)) => [limits.lower, limits.upper].map(to_mm),
-        (None, None) => {
-            let message = format!("joint `{}` has no limits", table.joint);
-            log.problem(key, message, "give range_mm = [0, 3000]");
-            return None;
-        }
-    };
-    let step = table.step_mm.unwrap_or(STEPS.1);
+    }
+    let range = range_inside(
+        log,
+        &format!("{key}.{}", own.names[0]),
+        table,
+        (own, robot, joint),
+    )?;
+    let step = own.step.unwrap_or(own.default_step);
     Some(MovingAxis {
         joint,
-        positions: steps(log, &format!("{key}.range_mm"), range, step, from_mm)?,
-        rate: table.mm_per_mm.unwrap_or(RATES.1),
+        positions: steps(log, &format!("{key}.{}", own.names[0]), range, step, |value| {
+            unit.to_si(value)
+        })?,
+        rate: own.rate(),
         still: table.still,
     })
+}
+
+/// The keys of an axis in one unit.
+#[derive(Clone, Copy)]
+struct AxisKeys {
+    names: [&'static str; 3],
+    range: Option<[f64; 2]>,
+    step: Option<f64>,
+    per_mm: Option<f64>,
+    default_step: f64,
+    /// Rate in SI of one unit per mm.
+    unit_per_mm: f64,
+}
+
+impl AxisTable {
+    fn in_mm(&self) -> AxisKeys {
+        AxisKeys {
+            names: ["range_mm", "step_mm", "mm_per_mm"],
+            range: self.range_mm,
+            step: self.step_mm,
+            per_mm: self.mm_per_mm,
+            default_step: STEPS.1,
+            unit_per_mm: 1.0,
+        }
+    }
+
+    fn in_deg(&self) -> AxisKeys {
+        AxisKeys {
+            names: ["range_deg", "step_deg", "deg_per_mm"],
+            range: self.range_deg,
+            step: self.step_deg,
+            per_mm: self.deg_per_mm,
+            default_step: STEPS.2,
+            unit_per_mm: from_per_mm(from_deg(1.0)),
+        }
+    }
+}
+
+impl AxisKeys {
+    /// The first of these keys that the table gives.
+    fn given(&self) -> Option<&'static str> {
+        let given = [self.range.is_some(), self.step.is_some(), self.per_mm.is_some()];
+        let mut names = self.names.into_iter().zip(given);
+        names.find(|(_, given)| *given).map(|(name, _)| name)
+    }
+
+    fn place_of(&self, name: &str) -> usize {
+        self.names.iter().position(|own| *own == name).unwrap_or_default()
+    }
+
+    /// Largest motion along the path, m/m (rad/m).
+    fn rate(&self) -> f64 {
+        self.per_mm.unwrap_or(RATES.1) * self.unit_per_mm
+    }
+}
+
+/// The external axis of this name.
+fn external_joint(log: &mut ProblemLog<'_>, key: &str, table: &AxisTable, robot: &Robot) -> Option<usize> {
+    let found = robot.joints().iter().position(|joint| joint.name == table.joint);
+    let external = found.filter(|joint| robot.is_external(*joint));
+    if external.is_some() {
+        return external;
+    }
+    let message = match found {
+        Some(_) => format!(
+            "joint `{}` of robot `{}` is not an external axis",
+            table.joint,
+            robot.name()
+        ),
+        None => format!("robot `{}` has no joint `{}`", robot.name(), table.joint),
+    };
+    let names: Vec<&str> = robot
+        .external_axes()
+        .map(|joint| robot.joints()[joint].name.as_str())
+        .collect();
+    let hint = match names.is_empty() {
+        true => {
+            "an external axis is a joint of `[positioner]`, or one in front of the six of the robot: a prismatic one, or \
+             one with external = true in the robot file; this robot has none"
+                .to_owned()
+        }
+        false => format!("its external axes: {}", names.join(", ")),
+    };
+    log.problem(&format!("{key}.joint"), message, &hint);
+    None
+}
+
+/// The range of an axis in its own unit, inside the limits of its joint.
+fn range_inside(
+    log: &mut ProblemLog<'_>,
+    key: &str,
+    table: &AxisTable,
+    (own, robot, joint): (AxisKeys, &Robot, usize),
+) -> Option<[f64; 2]> {
+    let unit = JointUnit::of(robot, joint);
+    let limits = robot.joints()[joint].limits;
+    let limits = limits.map(|limits| [limits.lower, limits.upper].map(|limit| limit * unit.scale));
+    match (own.range, limits) {
+        (Some([first, last]), Some([lower, upper])) => {
+            if first < lower - ROUNDED || last > upper + ROUNDED {
+                let message = format!(
+                    "the range from {first} to {last} {unit} is not inside the limits of joint `{}`, {} to {} {unit}",
+                    table.joint,
+                    tidy(lower),
+                    tidy(upper),
+                    unit = unit.name
+                );
+                log.problem(key, message, "bounds inside those of the joint");
+                return None;
+            }
+            Some([first, last])
+        }
+        (Some(range), None) => Some(range),
+        (None, Some(limits)) => Some(limits.map(tidy)),
+        (None, None) => {
+            let message = format!("joint `{}` has no limits", table.joint);
+            let hint = match robot.slides(joint) {
+                true => "give range_mm = [0, 3000]",
+                false => "give range_deg = [-180, 180]",
+            };
+            log.problem(key, message, hint);
+            None
+        }
+    }
+}
+
+/// A limit without the rounding of its conversion to SI and back.
+fn tidy(value: f64) -> f64 {
+    (value * 1e9).round() / 1e9
 }
 
 /// Values from the first to at most the last of a range.

@@ -5,7 +5,7 @@
 
 use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
 use armill_core::load::{LoadCases, LoadFrame};
-use armill_core::nalgebra::{Point3, Vector3};
+use armill_core::nalgebra::{Point3, UnitQuaternion, Vector3};
 use armill_core::spatial::Wrench;
 use armill_core::units::{from_deg, from_mm};
 use armill_core::workpiece::{Grid, Plane};
@@ -131,10 +131,15 @@ pub fn plane_at(
     ))
 }
 
-/// The load cases in their own frame.
+/// The load cases in their own frame; those in the axes of base_link in the axes of base, which are the same unless a
+/// positioner carries the part (`base_from_link`).
 ///
 /// `None` if it has no case, or not one moment a case; moments that are left out are zero.
-pub fn load_cases(log: &mut ProblemLog<'_>, table: &LoadTable) -> Option<LoadCases> {
+pub fn load_cases(
+    log: &mut ProblemLog<'_>,
+    table: &LoadTable,
+    base_from_link: &Isometry,
+) -> Option<LoadCases> {
     if table.cases_n.is_empty() {
         log.problem(
             "load.cases_n",
@@ -156,12 +161,17 @@ pub fn load_cases(log: &mut ProblemLog<'_>, table: &LoadTable) -> Option<LoadCas
         );
         return None;
     }
+    let frame = table.frame.map_or(LoadFrame::Base, LoadFrameName::frame);
+    let turn = match frame {
+        LoadFrame::Base => base_from_link.rotation,
+        LoadFrame::Part | LoadFrame::Feed => UnitQuaternion::identity(),
+    };
     let cases = table.cases_n.iter().zip(moments).map(|(f, m)| Wrench {
-        force: (*f).into(),
-        moment: m.into(),
+        force: turn * Vector3::from(*f),
+        moment: turn * Vector3::from(m),
     });
     Some(LoadCases {
-        frame: table.frame.map_or(LoadFrame::Base, LoadFrameName::frame),
+        frame,
         cases: cases.collect(),
     })
 }

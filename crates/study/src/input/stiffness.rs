@@ -18,11 +18,13 @@ use armill_core::robot::spring::cutter_springs;
 use armill_core::robot::{Robot, Structure};
 use armill_core::source::stiffness_model::FREE_FALL;
 use armill_core::source::{Gravity, StiffnessModel, ThermalGrowth, repeatability};
-use armill_core::units::{from_deg, from_mm};
+use armill_core::units::from_mm;
 use armill_formats::robot::spring_tables::SpringTableError;
 
+use crate::error::StudyError;
 use crate::input::problem_log::ProblemLog;
 use crate::input::tables::{CutterMaterial, GravityTable, ThermalTable, ToolTable};
+use crate::joint_unit::joint_positions;
 
 /// What the study adds to the stiffness model of the robot file, as written.
 #[derive(Clone, Copy, Debug)]
@@ -57,6 +59,10 @@ pub fn model(
     let gravity = given
         .gravity
         .and_then(|table| gravity(log, table, robot, &structure));
+    if given.load_dependent && gravity.is_some() && !robot.chain().ground().is_base() {
+        let message = "a load-dependent equilibrium with gravity is not known of a robot with a positioner";
+        log.problem("load_dependent", message, "remove one of the three");
+    }
     (log.problems.len() == before).then_some(StiffnessModel {
         structure,
         gravity,
@@ -86,18 +92,21 @@ impl ToolTable {
 /// Adds springs and masses of the tool, and the cutter if its stick-out is given.
 fn add_tool(log: &mut ProblemLog<'_>, tool: &ToolTable, robot: &Robot, structure: &mut Structure) {
     let joints: Vec<&str> = robot.joints().iter().map(|joint| joint.name.as_str()).collect();
+    let ground = robot.chain().ground();
     let mut report = |table: String, fault: SpringTableError| {
         log.problem(&fault.path_in(&table), fault.message, &fault.hint);
     };
     for (index, table) in tool.spring.iter().enumerate() {
         match table.springs(&joints) {
-            Ok(springs) => structure.springs.extend(springs),
+            Ok(springs) => structure
+                .springs
+                .extend(springs.iter().map(|spring| ground.spring_of_arm(spring))),
             Err(fault) => report(format!("tool.spring[{index}]"), fault),
         }
     }
     for (index, table) in tool.mass.iter().enumerate() {
         match table.mass(&joints) {
-            Ok(mass) => structure.masses.push(mass),
+            Ok(mass) => structure.masses.push(ground.mass_of_arm(&mass)),
             Err(fault) => report(format!("tool.mass[{index}]"), fault),
         }
     }
@@ -145,16 +154,15 @@ fn gravity(
     robot: &Robot,
     structure: &Structure,
 ) -> Option<Gravity> {
-    let joints = robot.joints().len();
-    let given = &table.reference_joints_deg;
-    if given.len() != joints {
-        let message = format!(
-            "{} joint positions for the {joints} joints of the robot",
-            given.len()
-        );
-        let hint = "the joint positions when the tool was set, base to flange";
-        log.problem("gravity.reference_joints_deg", message, hint);
-    }
+    let reference = match joint_positions(robot, &table.reference_joints_deg) {
+        Ok(reference) => Some(reference),
+        Err(StudyError::Value { message, .. }) => {
+            let hint = "the joint positions when the tool was set, base to flange";
+            log.problem("gravity.reference_joints_deg", message, hint);
+            None
+        }
+        Err(_) => None,
+    };
     if structure.masses.is_empty() && structure.compensator.is_none() {
         let message = "gravity has no effect: neither robot nor tool has a mass";
         let hint = "add [[mass]] to the robot file, or [[tool.mass]] for spindle and payload";
@@ -171,21 +179,6 @@ fn gravity(
     }
     Some(Gravity {
         acceleration: direction? * FREE_FALL,
-        reference: positions(robot, given),
+        reference: reference?,
     })
-}
-
-/// Joint positions in SI from degrees (mm for prismatic joints).
-///
-/// Not checked: the number of joint positions; missing or additional ones are ignored.
-pub fn positions(robot: &Robot, given: &[f64]) -> Vec<f64> {
-    let joints = 0..robot.joints().len();
-    let si = |(joint, value): (usize, &f64)| {
-        if robot.slides(joint) {
-            from_mm(value)
-        } else {
-            from_deg(value)
-        }
-    };
-    joints.zip(given).map(si).collect()
 }

@@ -237,7 +237,7 @@ pub(super) fn postures_of(
     let joints = answer
         .postures
         .iter()
-        .map(|posture| joint_positions(&study.robot, &posture.joints_deg));
+        .map(|posture| joint_positions(&study.robot.robot, &posture.joints_deg));
     let joints: Vec<Vec<f64>> = joints.collect::<Result<_, StudyError>>()?;
     let of_cases = joints.iter().map(|q| deviations(robot, setting, q, &requested));
     let shapes = Shapes::of(&edited.parsed.file.robot, edited.folder);

@@ -53,7 +53,7 @@ fn a_line_longer_than_the_reach_is_followed_along_the_rail_and_says_how_far() {
     assert!(moving.obstacles.is_empty(), "{:?}", moving.obstacles);
     let search = moving.search.unwrap();
     assert!(search.applied);
-    let [from, to] = search.axes[0].range_mm;
+    let [from, to] = search.axes[0].range;
     assert!(from >= -500.0 && to <= 3000.0 && to - from > 500.0, "{from} {to}");
     assert!(search.sentence().contains(", rail at "), "{}", search.sentence());
     // The joint table has the rail where the search put it.

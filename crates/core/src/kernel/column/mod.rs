@@ -183,6 +183,11 @@ impl<'q> Columns<'q> {
         self.margins.arm.robot.inverse().has_branches()
     }
 
+    /// The joint positions where external axes stand unless they are moved, rad (m).
+    pub(crate) fn home_of_question(&self) -> Option<&'q [f64]> {
+        self.margins.home
+    }
+
     /// The robot of the arm.
     pub(crate) fn robot(&self) -> &'q Robot {
         self.margins.arm.robot

@@ -216,13 +216,9 @@ impl<'r> Finder<'r> {
 
     /// Sets every joint of home.
     fn settle_home(&mut self, expected: &InverseTarget<'_>) {
-        match expected.home {
+        match expected.home.or(self.robot.rest()) {
             Some(home) => self.home.copy_from_slice(home),
-            None => {
-                for (home, joint) in self.home.iter_mut().zip(self.robot.joints()) {
-                    *home = joint.limits.map_or(0.0, |limits| limits.middle());
-                }
-            }
+            None => self.home.copy_from_slice(&self.middles),
         }
     }
 

@@ -7,13 +7,14 @@ use armill_core::kernel::{Answers, PostureStatus};
 use armill_core::optimize::{Component, Objective, PostureFound, reversals};
 use armill_core::path::{Lean, PathPoint};
 use armill_core::robot::Robot;
-use armill_core::units::{to_deg, to_mm, to_um};
+use armill_core::units::{to_deg, to_um};
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::analysis::path::PathAnalysis;
 use crate::analysis::path::run::PathResult;
 use crate::analysis::words::micrometres;
+use crate::joint_unit::JointUnit;
 use crate::number::{decimals, without_rounding};
 use crate::uncertainty_words::u_in_words;
 
@@ -59,7 +60,9 @@ pub struct MovedAxisAnswer {
     /// Name of its joint.
     pub joint: String,
     /// Least and greatest chosen position.
-    pub range_mm: [f64; 2],
+    pub range: [f64; 2],
+    /// `mm` or `deg`.
+    pub unit: &'static str,
 }
 
 /// Statistics of a path.
@@ -215,18 +218,21 @@ impl MovedAxisAnswer {
     fn of(robot: &Robot, joint: usize, posture: &PostureFound) -> MovedAxisAnswer {
         let homes = posture.homes.as_deref().unwrap_or_default();
         let positions = homes.chunks(robot.joints().len()).map(|home| home[joint]);
+        let unit = JointUnit::of(robot, joint);
         MovedAxisAnswer {
             joint: robot.joints()[joint].name.clone(),
-            range_mm: range(positions).map(|at| without_rounding(to_mm(at))),
+            range: range(positions).map(|at| without_rounding(at * unit.scale)),
+            unit: unit.name,
         }
     }
 
     /// How far it moves, such as `rail at 120 to 900 mm`.
     fn in_words(&self) -> String {
-        let [from, to] = self.range_mm.map(|mm| format!("{:.0}", decimals(mm, 0)));
+        let [from, to] = self.range.map(|at| format!("{:.0}", decimals(at, 0)));
+        let unit = self.unit;
         match from == to {
-            true => format!("{} at {from} mm", self.joint),
-            false => format!("{} at {from} to {to} mm", self.joint),
+            true => format!("{} at {from} {unit}", self.joint),
+            false => format!("{} at {from} to {to} {unit}", self.joint),
         }
     }
 }
