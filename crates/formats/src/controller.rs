@@ -19,6 +19,10 @@ pub struct ControllerTable {
     pub frame_name: Option<String>,
     /// Name of the tool, in RAPID.
     pub tool_name: Option<String>,
+    /// Mechanical unit of the positioner that a program coordinates: its name in RAPID, `STN1` if left out, or the number of
+    /// its MACHINE_DEF in KRL, 2 if left out.
+    #[schemars(length(min = 1, max = 32))]
+    pub positioner_unit: Option<String>,
     /// Where the values of frame and tool come from: `program` (default) sets them, `controller` has them stored.
     pub data: Option<FrameDataName>,
     /// Home position, one value for each joint, deg (mm for prismatic joints): programs begin and end there, and change
@@ -91,6 +95,10 @@ impl ControllerTable {
             frame_name: self.frame_name.clone().or_else(|| other.frame_name.clone()),
             tool_name: self.tool_name.clone().or_else(|| other.tool_name.clone()),
             data: self.data.or(other.data),
+            positioner_unit: self
+                .positioner_unit
+                .clone()
+                .or_else(|| other.positioner_unit.clone()),
             home_deg: self.home_deg.clone().or_else(|| other.home_deg.clone()),
             joint_speed_percent: self.joint_speed_percent.or(other.joint_speed_percent),
             joint_acceleration_percent: self
@@ -114,13 +122,14 @@ impl ControllerTable {
 
     /// Problems of the table `controller` of this document, for an arm with this number of joints: a home position of
     /// another number, invalid names, statements of several lines, unknown placeholders.
-    pub fn problems(&self, document: &Document, joint_count: usize) -> Vec<Problem> {
+    pub fn problems(&self, document: &Document, joint_count: usize, of_positioner: usize) -> Vec<Problem> {
         let mut problems = Vec::new();
         let mut report = |key: &str, message: String, hint: &str| {
             problems.push(document.problem(&format!("controller.{key}"), message, Some(hint)));
         };
         if let Some(home) = &self.home_deg
             && home.len() != joint_count
+            && home.len() + of_positioner != joint_count
         {
             let message = format!(
                 "`home_deg` has {} values, but the robot has {joint_count} joints",
@@ -212,7 +221,7 @@ mod tests {
 
     fn problems(text: &str) -> Vec<String> {
         let (document, table) = read(text);
-        let problems = table.problems(&document, 6);
+        let problems = table.problems(&document, 6, 0);
         problems.iter().map(ToString::to_string).collect()
     }
 

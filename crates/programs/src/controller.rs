@@ -21,6 +21,8 @@ pub struct Controller {
     pub frame_name: Option<String>,
     /// Name of the tool, in languages that have names.
     pub tool_name: Option<String>,
+    /// The mechanical unit of the positioner: its name in RAPID, the number of its MACHINE_DEF in KRL.
+    pub positioner_unit: Option<String>,
     /// Where the values of frame and tool come from.
     pub data: FrameData,
     /// Speed of joint moves relative to the maximum, 0.01 to 1.
@@ -43,6 +45,7 @@ impl Default for Controller {
             tool_number: 1,
             frame_name: None,
             tool_name: None,
+            positioner_unit: None,
             data: FrameData::Program,
             joint_speed: 0.1,
             joint_acceleration: None,

@@ -13,8 +13,10 @@ pub struct Draft {
     pub name: String,
     /// Remarks for its header: origin of the program.
     pub remarks: Vec<String>,
-    /// Controller's reference frame to the user frame of the targets.
+    /// Controller's reference frame to the user frame of the targets; if that is carried, the table of the positioner to it.
     pub base_from_frame: Isometry,
+    /// Whether external axes move the user frame: it is fixed to the table of a positioner.
+    pub frame_is_carried: bool,
     /// Flange to TCP.
     pub flange_from_tool: Isometry,
     /// How the cell writes its programs.
@@ -185,6 +187,7 @@ mod tests {
             name: String::new(),
             remarks: Vec::new(),
             base_from_frame: Isometry::identity(),
+            frame_is_carried: false,
             flange_from_tool: Isometry::identity(),
             controller: Controller::default(),
             external_slides: Vec::new(),

@@ -14,6 +14,9 @@ pub(super) struct Bounds {
     pub names: &'static str,
     /// Largest number of external axes.
     pub external: usize,
+    /// Which names a mechanical unit that carries the user frame may have, and the rule for them; `None`: no external axis
+    /// can carry it.
+    pub units: Option<UnitNames>,
     /// Numbers of user frames.
     pub frames: RangeInclusive<u32>,
     /// Numbers of tools.
@@ -22,6 +25,15 @@ pub(super) struct Bounds {
     pub longest_dwell: f64,
     /// Minimum acceleration along the path, m/s^2.
     pub least_acceleration: f64,
+}
+
+/// Names of mechanical units.
+#[derive(Clone, Copy)]
+pub(super) struct UnitNames {
+    /// Whether a name is one.
+    pub are: fn(&str) -> bool,
+    /// Rule for them, for messages.
+    pub rule: &'static str,
 }
 
 /// Joints of an arm that these languages are written for.
@@ -49,6 +61,7 @@ impl Draft {
     pub(super) fn check(&self, bounds: &Bounds) -> Result<(), DraftError> {
         check_name(&self.name, bounds.longest_name, bounds.language, bounds.names)?;
         self.check_controller(bounds)?;
+        self.check_unit(bounds)?;
         let first = self.points().next().ok_or(DraftError::Empty)?;
         if first.speed.is_some() {
             return Err(DraftError::FirstMove);
@@ -143,6 +156,23 @@ impl Draft {
             }
         }
         Ok(())
+    }
+
+    /// The mechanical unit of a frame that is carried.
+    fn check_unit(&self, bounds: &Bounds) -> Result<(), DraftError> {
+        if !self.frame_is_carried {
+            return Ok(());
+        }
+        let language = bounds.language;
+        let names = bounds.units.ok_or(DraftError::Carried { language })?;
+        match &self.controller.positioner_unit {
+            Some(unit) if !(names.are)(unit) => Err(DraftError::Unit {
+                unit: unit.clone(),
+                language,
+                rule: names.rule,
+            }),
+            _ => Ok(()),
+        }
     }
 
     fn check_point(&self, bounds: &Bounds, index: usize, point: &DraftPoint) -> Result<(), DraftError> {
@@ -264,6 +294,24 @@ pub enum DraftError {
         language: &'static str,
         /// Maximum number.
         most: usize,
+    },
+    /// The part moves with external axes, which the language does not coordinate.
+    #[error(
+        "a positioner moves the part along the path, but {language} programs are written with a part that stands still"
+    )]
+    Carried {
+        /// The language.
+        language: &'static str,
+    },
+    /// The mechanical unit of the positioner has a name that the language does not have.
+    #[error("the mechanical unit `{unit}` of the positioner: in {language} {rule}")]
+    Unit {
+        /// The name given.
+        unit: String,
+        /// The language.
+        language: &'static str,
+        /// The rule.
+        rule: &'static str,
     },
     /// The data of frame and tool cannot come from where they are requested.
     #[error("{language}: {reason}")]

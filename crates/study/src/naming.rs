@@ -2,6 +2,8 @@
 
 use armill_core::frame::Isometry;
 use armill_core::kernel::BranchChoice;
+use armill_core::nalgebra::UnitQuaternion;
+use armill_core::robot::forward::forward;
 use armill_core::robot::{BranchPattern, Robot};
 
 /// Name of the frame on the robot's floor plane, which every robot has.
@@ -28,9 +30,21 @@ pub fn base_from_reference(robot: &Robot, name: &str) -> Result<Isometry, String
 /// Name of the reference frame of a controller, if that is not `base_link`.
 const CONTROLLER: &str = "controller";
 
-/// Reference frame of the controller of this robot, in base.
-pub fn base_from_controller(robot: &Robot) -> Isometry {
-    base_from_reference(robot, CONTROLLER).unwrap_or_else(|_| Isometry::identity())
+/// Reference frame of the controller of this robot, in base; with its positioner at these joint positions, rad (m), from the
+/// table back, or where it stands in the study.
+pub fn base_from_controller(robot: &Robot, positioner: Option<&[f64]>) -> Isometry {
+    let at_home = |name: &str| base_from_reference(robot, name).unwrap_or_else(|_| Isometry::identity());
+    let link_from_base = at_home(BASE_LINK).inverse();
+    let controller = base_from_reference(robot, CONTROLLER).unwrap_or_else(|_| at_home(BASE_LINK));
+    let ground = robot.chain().ground();
+    let Some(positions) = positioner.filter(|_| !ground.is_base()) else {
+        return controller;
+    };
+    let mut joints = robot.home(None);
+    joints[..positions.len()].copy_from_slice(positions);
+    let base_from_link = ground.in_base(&forward(robot, &joints));
+    let turned = UnitQuaternion::from_rotation_matrix(&base_from_link.rotation);
+    Isometry::from_parts(base_from_link.translation, turned) * link_from_base * controller
 }
 
 /// The posture that `words` specify: a branch completed by the nominal one, `nominal`, or `best`.

@@ -123,8 +123,10 @@ pub enum Posture {
 pub struct Reference {
     /// Number or name; empty if the program does not set any.
     pub name: String,
-    /// Relative to the robot or the flange, if the program gives it.
+    /// Relative to the robot or the flange, if the program gives it; to the table of the unit that moves it.
     pub pose: Option<Pose>,
+    /// The mechanical unit that moves it.
+    pub unit: Option<String>,
 }
 
 impl Reference {
@@ -132,6 +134,7 @@ impl Reference {
         Reference {
             name: name.into(),
             pose,
+            unit: None,
         }
     }
 }

@@ -3,7 +3,8 @@
 //! `replay` runs a program to a list of events. What it is made of: `source` (files and places), `words`, `value`
 //! (statements), `pose` (orientations), `event`, `log`. The languages: `krl`, `rapid`, `inform`, `tp`, `urscript`,
 //! `val3`. What is checked: `checks` (of the events of any program), `expect` (of short programs), `written` (what
-//! armill writes), `cells` (holes, rails, data of the controller), `samples` (programs of other software).
+//! armill writes), `cells` (holes, rails, data of the controller), `positioner` (a part on a turntable),
+//! `samples` (programs of other software).
 
 // A panic is how a test says that its claim is false; helper functions too.
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
@@ -16,6 +17,7 @@ mod inform;
 mod krl;
 mod log;
 mod pose;
+mod positioner;
 mod rapid;
 mod replay;
 mod samples;

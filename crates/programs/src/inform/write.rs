@@ -45,6 +45,7 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
             into several jobs",
         // Those of a base axis or station are positions of another group, in pulses.
         external: 0,
+        units: None,
         frames: 1..=63,
         tools: 0..=63,
         longest_dwell: LONGEST_DWELL,

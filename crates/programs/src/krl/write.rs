@@ -12,7 +12,7 @@ use armill_formats::convention::Convention;
 use super::aggregate::whole;
 use crate::controller::Controller;
 use crate::draft::{Blend, Draft, DraftPoint, DraftStep, Written, text_lines};
-use crate::draft_check::{Bounds, DraftError, LEAST_ACCELERATION, LONGEST_DWELL, avoid};
+use crate::draft_check::{Bounds, DraftError, LEAST_ACCELERATION, LONGEST_DWELL, UnitNames, avoid};
 use crate::number::fixed;
 use crate::text::latin1;
 
@@ -21,6 +21,8 @@ const LONGEST_NAME: usize = 24;
 const MOST_FRAMES: u32 = 128;
 /// Maximum number of statements in a module: larger modules load slowly and are refused by older systems `[recalled]`.
 const MOST_STEPS: usize = 5000;
+/// Numbers of external kinematic systems: MACHINE_DEF[1] is the robot.
+const MACHINES: std::ops::RangeInclusive<u32> = 2..=16;
 /// E1 to E6.
 const MOST_EXTERNAL: usize = 6;
 /// The name of a part is that of the main program, an underscore and up to four digits.
@@ -122,6 +124,10 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
             }
         },
         external: MOST_EXTERNAL,
+        units: Some(UnitNames {
+            are: |unit| unit.parse().is_ok_and(|number: u32| MACHINES.contains(&number)),
+            rule: "it is the number of its MACHINE_DEF, 2 to 16",
+        }),
         frames: 0..=MOST_FRAMES,
         tools: 0..=MOST_FRAMES,
         longest_dwell: LONGEST_DWELL,
@@ -175,7 +181,7 @@ fn head(draft: &Draft) -> String {
         _ = write!(
             out,
             "; base {frame} and tool {tool} as this program was made with them\r\n$BASE={}\r\n$TOOL={}\r\n",
-            set(&draft.base_from_frame),
+            base(draft),
             set(&draft.flange_from_tool)
         );
     }
@@ -194,6 +200,23 @@ fn head(draft: &Draft) -> String {
         _ = write!(out, "{line}\r\n");
     }
     out
+}
+
+/// The base; one on the table of a positioner moves with it: `EK` couples it to the external kinematic system.
+fn base(draft: &Draft) -> String {
+    let frame = set(&draft.base_from_frame);
+    match draft.frame_is_carried {
+        true => {
+            let unit = unit(draft);
+            format!("EK(MACHINE_DEF[{unit}].ROOT,MACHINE_DEF[{unit}].MECH_TYPE,{frame})")
+        }
+        false => frame,
+    }
+}
+
+/// Number of the external kinematic system.
+fn unit(draft: &Draft) -> &str {
+    draft.controller.positioner_unit.as_deref().unwrap_or("2")
 }
 
 /// A frame or a tool.
@@ -297,13 +320,25 @@ impl<'a> Body<'a> {
 fn notes(draft: &Draft) -> Vec<String> {
     let (frame, tool) = (draft.controller.frame_number, draft.controller.tool_number);
     let data = match draft.controller.sets_data() {
+        true if draft.frame_is_carried => {
+            let unit = unit(draft);
+            format!(
+                "$BASE is coupled to the external kinematic system of MACHINE_DEF[{unit}], whose frame at its table must be \
+                 that of the robot file of the positioner: compare them, and the senses and zeros of its axes, before the \
+                 first run"
+            )
+        }
         true => format!(
             "$BASE and $TOOL are set to the values of this program, relative to $ROBROOT; BASE_DATA[{frame}] and \
              TOOL_DATA[{tool}] of the controller are not changed: compare them"
         ),
         false => format!(
-            "BASE_DATA[{frame}] must be {} and TOOL_DATA[{tool}] {} on the controller, for which this program was made",
+            "BASE_DATA[{frame}] must be {}{} and TOOL_DATA[{tool}] {} on the controller, for which this program was made",
             set(&draft.base_from_frame),
+            match draft.frame_is_carried {
+                true => " on the table of the positioner",
+                false => "",
+            },
             set(&draft.flange_from_tool)
         ),
     };
@@ -315,7 +350,8 @@ fn notes(draft: &Draft) -> Vec<String> {
     ];
     if !draft.external_slides.is_empty() {
         notes.push(
-            "E1 and further axes are the external axes in the order of the robot file: check their order and zero"
+            "E1 and further axes are the external axes from the ground on, those that carry the robot before those of the \
+             positioner: check their order and zero"
                 .to_owned(),
         );
     }

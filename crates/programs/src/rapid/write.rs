@@ -9,7 +9,7 @@ use std::fmt::Write;
 use super::spell::whole;
 use crate::controller::Controller;
 use crate::draft::{Blend, Draft, DraftPoint, DraftStep, Written, text_lines};
-use crate::draft_check::{Bounds, DraftError, LONGEST_DWELL, avoid};
+use crate::draft_check::{Bounds, DraftError, LONGEST_DWELL, UnitNames, avoid};
 use crate::number::fixed;
 use crate::posture::Configuration;
 use crate::spelling::in_quoted_pieces;
@@ -54,6 +54,8 @@ const JOINT_MOVE_MM_S: f64 = 2000.0;
 const LONGEST_TEXT: usize = 40;
 /// Value of an absent external axis.
 const ABSENT: &str = "9E9";
+/// Longest name of a mechanical unit, characters.
+const LONGEST_UNIT: usize = 32;
 /// Largest number of external axes.
 const MOST_EXTERNAL: usize = 6;
 /// Reserved words `[recalled]`.
@@ -158,6 +160,10 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
             }
         },
         external: MOST_EXTERNAL,
+        units: Some(UnitNames {
+            are: is_unit,
+            rule: "it has letters, digits and underscores, at most 32, such as \"STN1\"",
+        }),
         frames: 0..=MOST_FRAMES,
         tools: 0..=MOST_FRAMES,
         longest_dwell: LONGEST_DWELL,
@@ -226,6 +232,26 @@ fn names(controller: &Controller) -> [String; 2] {
     ]
 }
 
+/// A work object with this frame. On the table of a positioner the user frame is that of its mechanical unit, and the frame is the
+/// object frame on it (ABB 3HAC021272-001, section 6.3).
+fn work_object(draft: &Draft, frame: &str) -> String {
+    match draft.frame_is_carried {
+        true => format!("[FALSE,FALSE,\"{}\",[[0,0,0],[1,0,0,0]],[{frame}]]", unit(draft)),
+        false => format!("[FALSE,TRUE,\"\",[{frame}],[[0,0,0],[1,0,0,0]]]"),
+    }
+}
+
+/// Name of the mechanical unit of the positioner.
+fn unit(draft: &Draft) -> &str {
+    draft.controller.positioner_unit.as_deref().unwrap_or("STN1")
+}
+
+/// Whether a mechanical unit may have this name.
+fn is_unit(name: &str) -> bool {
+    let fits = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    (1..=LONGEST_UNIT).contains(&name.len()) && name.chars().all(fits)
+}
+
 /// A module up to the head of its routine.
 fn head(draft: &Draft, name: &str, blends: &[Blend]) -> String {
     let mut out = format!("MODULE MOD_{name}\r\n");
@@ -240,7 +266,8 @@ fn head(draft: &Draft, name: &str, blends: &[Blend]) -> String {
         _ = write!(
             out,
             "  LOCAL PERS tooldata {tool_name}:=[TRUE,[{tool}],[1,[0,0,1],[1,0,0,0],0,0,0]];\r\n  \
-             LOCAL PERS wobjdata {frame_name}:=[FALSE,TRUE,\"\",[{frame}],[[0,0,0],[1,0,0,0]]];\r\n"
+             LOCAL PERS wobjdata {frame_name}:={};\r\n",
+            work_object(draft, &frame)
         );
     }
     let used = |zone: &f64| blends.iter().any(|blend| zone_of(blend.distance) == Some(*zone));
@@ -390,6 +417,13 @@ fn notes(draft: &Draft) -> Vec<String> {
             )]
         }
     };
+    if draft.frame_is_carried {
+        notes.push(format!(
+            "{frame} is coupled to the mechanical unit {}, whose user frame must be that of the robot file of the positioner: \
+             compare them, and the senses and zeros of its axes, before the first run; the unit must be active",
+            unit(draft)
+        ));
+    }
     notes.push(
         "SingArea\\Wrist lets the tool tilt where axes 4 and 6 are aligned; ConfL\\Off does not check postures along \
          the path"
@@ -404,7 +438,8 @@ fn notes(draft: &Draft) -> Vec<String> {
     }
     if !draft.external_slides.is_empty() {
         notes.push(
-            "eax_a and further axes are the external axes in the order of the robot file: check their order and zero"
+            "eax_a and further axes are the external axes from the ground on, those that carry the robot before those of \
+             the positioner: check their order and zero"
                 .to_owned(),
         );
     }

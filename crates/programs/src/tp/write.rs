@@ -54,6 +54,7 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
         names: "a letter, then letters, digits and underscores, at most 36 characters; 33 if the program is split \
             into several parts",
         external: MOST_EXTERNAL,
+        units: None,
         frames: 1..=9,
         tools: 1..=10,
         longest_dwell: LONGEST_DWELL,

@@ -77,6 +77,7 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
         longest_name: 64,
         names: "a letter, then letters, digits and underscores, at most 64 characters, and not a reserved word",
         external: 0,
+        units: None,
         frames: 0..=MOST_FRAMES,
         tools: 0..=MOST_FRAMES,
         longest_dwell: LONGEST_DWELL,

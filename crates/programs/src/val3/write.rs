@@ -42,6 +42,7 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
         longest_name: 31,
         names: "a letter, then letters, digits and underscores, at most 31 characters",
         external: 0,
+        units: None,
         frames: 0..=99,
         tools: 0..=99,
         longest_dwell: LONGEST_DWELL,

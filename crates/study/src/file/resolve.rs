@@ -245,7 +245,11 @@ impl Parsed {
             .collect();
         problems.append(&mut log.problems);
         if let Some((table, robot)) = file.controller.as_ref().zip(robot.as_ref()) {
-            problems.extend(table.problems(document, robot.robot.joints().len()));
+            problems.extend(table.problems(
+                document,
+                robot.robot.joints().len(),
+                robot.robot.chain().ground().joints,
+            ));
         }
         problems.extend(unfit_names(document, file));
         Problems::from(without_repeats(problems)).into_result()?;

@@ -102,7 +102,7 @@ pub(super) fn values_of(edited: &EditedAnalysis<'_>) -> Result<ValuesAnswer, Stu
         robot: file.robot.clone(),
         base: setting.base_name.clone(),
         bases: std::iter::once(crate::BASE_LINK.to_owned())
-            .chain(frames)
+            .chain(frames.filter(|frame| frame != crate::BASE_LINK))
             .collect(),
         centre_mm: of_box.unwrap_or(plane.centre_mm),
         centre_key: match of_box {

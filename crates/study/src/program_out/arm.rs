@@ -11,6 +11,7 @@ use armill_core::units::to_mm;
 use armill_programs::DraftPoint;
 
 use crate::input::setting::Setting;
+use crate::naming::base_from_controller;
 
 /// Joints of an arm that programs are written for; further ones, first in the chain, are external axes.
 const ARM_JOINTS: usize = 6;
@@ -31,6 +32,8 @@ pub(super) struct Arm<'a> {
     pub setting: &'a Setting,
     /// Base to the frame of the targets.
     pub base_from_path: Isometry,
+    /// Where a positioner stands along the whole program, rad (m), from its table back; none if it moves, or if there is none.
+    pub standing: Option<&'a [f64]>,
 }
 
 /// A tool pose with its joint positions.
@@ -60,17 +63,39 @@ impl Arm<'_> {
         DraftPoint {
             frame_from_tool: self.base_from_path.inverse() * at.base_from_tool,
             joints: at.joints[external..].to_vec(),
-            external: at.joints[..external].to_vec(),
+            external: self.external().map(|joint| at.joints[joint]).collect(),
             branch: at.branch,
             speed,
             blend,
         }
     }
 
+    /// The joints that a program moves as external axes, in the order of a controller; without a positioner that stands.
+    fn external(&self) -> impl Iterator<Item = usize> {
+        let robot = self.robot;
+        let of_positioner = robot.chain().ground().joints;
+        let first_of_arm = robot.joints().len().saturating_sub(ARM_JOINTS);
+        let carrying = of_positioner..first_of_arm.max(of_positioner);
+        let moving = if self.standing.is_some() { 0 } else { of_positioner };
+        carrying.chain((0..moving).rev())
+    }
+
     /// Of each external axis whether it is prismatic.
     pub fn external_slides(&self) -> Vec<bool> {
-        let external = self.robot.joints().len().saturating_sub(ARM_JOINTS);
-        (0..external).map(|joint| self.robot.slides(joint)).collect()
+        self.external().map(|joint| self.robot.slides(joint)).collect()
+    }
+
+    /// Whether a positioner moves the frame of the targets.
+    pub fn frame_is_carried(&self) -> bool {
+        !self.robot.chain().ground().is_base() && self.standing.is_none()
+    }
+
+    /// The frame of the targets: relative to the table of a positioner that moves it, else to the frame of the controller.
+    pub fn reference_from_frame(&self) -> Isometry {
+        match self.frame_is_carried() {
+            true => self.base_from_path,
+            false => base_from_controller(self.robot, self.standing).inverse() * self.base_from_path,
+        }
     }
 
     /// The arm at these joint positions, rad (m).

@@ -20,7 +20,7 @@ use super::order::shortest;
 use super::settings::{ProgramSettings, rapid_speed};
 use super::tooling::Tooling;
 use super::way::{CutStart, Space, Ways};
-use super::written;
+use super::{standing, written};
 use crate::analysis::holes::HolesAnalysis;
 use crate::analysis::holes::table::HoleOrder;
 use crate::error::StudyError;
@@ -67,10 +67,12 @@ pub fn hole_program(
             "holes = { ..., depth_mm = 12 }, from the surface to the end of the hole",
         )
     })?;
+    let standing = standing(study, answers)?;
     let arm = Arm {
         robot: &study.robot.robot,
         setting: &holes.path.setting,
         base_from_path: track.placing.base_from_path,
+        standing: standing.as_deref(),
     };
     let hole = Hole {
         arm,

@@ -40,7 +40,8 @@ use crate::analysis::path::answer::obstacles;
 use crate::error::StudyError;
 use crate::file::resolve::Study;
 use crate::input::setting::Setting;
-use crate::naming::base_from_controller;
+use crate::joint_unit::{JointUnit, joint_positions};
+use crate::number::decimals;
 
 /// A path with its postures, to be written as a program.
 #[derive(Clone, Copy)]
@@ -75,10 +76,12 @@ pub fn program(
         spindle,
     } = path;
     check(study, path)?;
+    let standing = standing(study, answers)?;
     let arm = Arm {
         robot: &study.robot.robot,
         setting,
         base_from_path: track.placing.base_from_path,
+        standing: standing.as_deref(),
     };
     let mut tooling = Tooling::new(&study.controller, spindle, &requested.name);
     let places = track.path.points.iter().map(|point| point.at);
@@ -123,6 +126,30 @@ pub fn program(
     written(study, arm, requested, steps, notes)
 }
 
+/// Where the positioner stands in all postures and at the home position of the program, rad (m), from its table back; none if it
+/// moves, or if there is none.
+fn standing(study: &Study, answers: &Answers) -> Result<Option<Vec<f64>>, StudyError> {
+    let robot = &study.robot.robot;
+    let count = robot.chain().ground().joints;
+    let home = study.controller.home_deg.as_ref();
+    let home = home.map(|home| joint_positions(robot, home)).transpose()?;
+    let reached = (0..answers.points.len()).filter(|index| answers.points[*index].is_ok());
+    let mut all = reached
+        .map(|index| answers.joints_at(index))
+        .chain(home.as_deref());
+    let Some(first) = all.next().filter(|_| count > 0) else {
+        return Ok(None);
+    };
+    let is_there = |joints: &[f64]| {
+        let mut pairs = joints[..count].iter().zip(&first[..count]);
+        pairs.all(|(a, b)| (a - b).abs() < STANDS)
+    };
+    Ok(all.all(is_there).then(|| first[..count].to_vec()))
+}
+
+/// A joint of a positioner that moves by less stands, rad (m).
+const STANDS: f64 = 1e-9;
+
 /// The program with these steps; `notes` are reported before those of the language.
 fn written(
     study: &Study,
@@ -134,7 +161,8 @@ fn written(
     let draft = Draft {
         name: requested.name.clone(),
         remarks: remarks(study),
-        base_from_frame: base_from_controller(&study.robot.robot).inverse() * arm.base_from_path,
+        base_from_frame: arm.reference_from_frame(),
+        frame_is_carried: arm.frame_is_carried(),
         flange_from_tool: arm.setting.flange_from_tool,
         controller: settings::controller(&study.controller, requested),
         external_slides: arm.external_slides(),
@@ -143,8 +171,24 @@ fn written(
     let mut written =
         write(requested.language, &draft).map_err(|error| StudyError::value(error.to_string(), HINT))?;
     let questions = maker::question(&study.robot, requested.language);
-    written.notes.splice(0..0, questions.into_iter().chain(notes));
+    let notes = questions.into_iter().chain(stands(arm)).chain(notes);
+    written.notes.splice(0..0, notes);
     Ok(written)
+}
+
+/// Where a positioner that no statement of the program moves must stand.
+fn stands(arm: Arm<'_>) -> Option<String> {
+    let joints = arm.standing?.iter().enumerate().rev();
+    let at = joints.map(|(joint, position)| {
+        let unit = JointUnit::of(arm.robot, joint);
+        let name = &arm.robot.joints()[joint].name;
+        format!("{name} {} {}", decimals(position * unit.scale, 3), unit.name)
+    });
+    let at: Vec<String> = at.collect();
+    Some(format!(
+        "the program does not move the positioner, which must stand at {}",
+        at.join(", ")
+    ))
 }
 
 /// What to do where a language refuses a program.

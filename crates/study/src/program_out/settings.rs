@@ -74,6 +74,7 @@ pub(super) fn controller(table: &ControllerTable, requested: &ProgramSettings) -
             .unwrap_or(default.tool_number),
         frame_name: table.frame_name.clone(),
         tool_name: table.tool_name.clone(),
+        positioner_unit: table.positioner_unit.clone(),
         data: match table.data {
             Some(FrameDataName::Controller) => FrameData::Controller,
             Some(FrameDataName::Program) | None => FrameData::Program,

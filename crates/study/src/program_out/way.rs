@@ -11,7 +11,7 @@ use std::cell::Cell;
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::{Point3, Translation3, Vector3};
 use armill_core::path::{Placing, Rapids};
-use armill_core::units::{from_deg, from_mm, to_mm};
+use armill_core::units::to_mm;
 use armill_formats::controller::ControllerTable;
 use armill_programs::DraftStep;
 
@@ -20,6 +20,7 @@ use super::rapids::RapidPoses;
 use super::settings::{ProgramSettings, rapid_speed};
 use super::tooling::Change;
 use crate::error::StudyError;
+use crate::joint_unit::joint_positions;
 
 /// Joint positions that differ by less are the same, rad (m).
 const SAME_JOINTS: f64 = 1e-3;
@@ -94,13 +95,9 @@ impl<'a> Ways<'a> {
         controller: &ControllerTable,
     ) -> Ways<'a> {
         let up = placing.axis.into_inner();
-        let home = controller.home_deg.as_ref().map(|home| {
-            let si = |(joint, value): (usize, &f64)| match arm.robot.slides(joint) {
-                true => from_mm(*value),
-                false => from_deg(*value),
-            };
-            home.iter().enumerate().map(si).collect()
-        });
+        // The number of its values was checked with the study.
+        let home = controller.home_deg.as_ref();
+        let home = home.and_then(|home| joint_positions(arm.robot, home).ok());
         Ways {
             arm,
             rapids: RapidPoses { placing },

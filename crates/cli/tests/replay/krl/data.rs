@@ -14,6 +14,8 @@ use crate::words::{Cursor, Word, split_comment};
 const TYPES: [&str; 11] = [
     "DECL", "INT", "REAL", "BOOL", "CHAR", "FRAME", "POS", "E6POS", "AXIS", "E6AXIS", "SIGNAL",
 ];
+/// Component of a frame that is coupled to an external kinematic system: its number.
+pub const UNIT: &str = "UNIT";
 /// Data of the inline forms, declared in the controller's own files.
 const FORMS: [&str; 5] = ["PDAT_ACT", "FDAT_ACT", "LDAT_ACT", "BASE_DATA", "TOOL_DATA"];
 
@@ -121,6 +123,9 @@ impl Data {
         if cursor.sees("{") {
             return self.aggregate(cursor, module);
         }
+        if cursor.eat_name("EK") {
+            return self.coupled(cursor, module);
+        }
         let name = self.variable(cursor, module)?;
         if name == "$NULLFRAME" {
             return Ok(Value::Record(record_of(&Pose::IDENTITY)));
@@ -130,6 +135,30 @@ impl Data {
         }
         self.known(&name, module)
             .ok_or_else(|| cursor.error(format!("`{name}` is not defined in these files")))
+    }
+
+    /// `EK(MACHINE_DEF[n].ROOT,MACHINE_DEF[n].MECH_TYPE,frame)`: a frame on the table of the external kinematic system n.
+    fn coupled(&self, cursor: &mut Cursor, module: &str) -> Result<Value, ReplayError> {
+        cursor.expect("(")?;
+        let root = self.variable(cursor, module)?;
+        cursor.expect(",")?;
+        let kind = self.variable(cursor, module)?;
+        cursor.expect(",")?;
+        let machine = root
+            .strip_prefix("MACHINE_DEF[")
+            .and_then(|rest| rest.strip_suffix("].ROOT"));
+        let number = machine.and_then(|number| number.parse::<f64>().ok());
+        let number =
+            number.ok_or_else(|| cursor.error("the root of an external kinematic system expected"))?;
+        if kind != format!("MACHINE_DEF[{number}].MECH_TYPE") {
+            return Err(cursor.error("root and type are of two machines"));
+        }
+        let Value::Record(mut frame) = self.value(cursor, module)? else {
+            return Err(cursor.error("EK needs a frame"));
+        };
+        cursor.expect(")")?;
+        frame.insert(UNIT.to_owned(), number);
+        Ok(Value::Record(frame))
     }
 
     pub fn known(&self, name: &str, module: &str) -> Option<Value> {

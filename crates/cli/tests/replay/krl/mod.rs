@@ -13,7 +13,7 @@ mod tests;
 
 use std::collections::BTreeMap;
 
-use self::data::{Data, is_declaration};
+use self::data::{Data, UNIT, is_declaration};
 use self::motion::{Motion, frame};
 use crate::event::{Action, Reference};
 use crate::log::Log;
@@ -312,7 +312,10 @@ impl<'a> Krl<'a> {
                 let Value::Record(record) = &value else {
                     return Err(cursor.error(format!("{name} needs a frame")));
                 };
-                let reference = Reference::new(name.clone(), Some(frame(cursor, record)?));
+                let reference = Reference {
+                    unit: record.get(UNIT).map(f64::to_string),
+                    ..Reference::new(name.clone(), Some(frame(cursor, record)?))
+                };
                 let of = if name == "$BASE" {
                     &mut state.base
                 } else {

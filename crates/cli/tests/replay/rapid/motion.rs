@@ -140,7 +140,7 @@ fn how(data: &Data, cursor: &mut Cursor, module: &str) -> Result<How, ReplayErro
             Blend::DistanceMm(distance)
         },
         tool: Reference::new(tool_name, Some(tool_frame(cursor, &tool)?)),
-        base: Reference::new(base.0, work_object(cursor, base.1.as_ref())?),
+        base: work_object(cursor, base.0, base.1.as_ref())?,
     })
 }
 

@@ -4,6 +4,7 @@
 //! `tooldata`, `wobjdata`, `extjoint`, `Offs`, `RelTool` [recalled].
 
 use super::records::list;
+use crate::event::Reference;
 use crate::pose::Pose;
 use crate::source::ReplayError;
 use crate::value::Value;
@@ -62,8 +63,9 @@ pub fn tool_frame(cursor: &Cursor, value: &Value) -> Result<Pose, ReplayError> {
     }
 }
 
-/// User frame, then object frame; unknown if a mechanical unit moves it.
-pub fn work_object(cursor: &Cursor, value: Option<&Value>) -> Result<Option<Pose>, ReplayError> {
+/// The work object of this name: user frame, then object frame; of one that a mechanical unit moves the object frame, which is
+/// relative to this unit.
+pub fn work_object(cursor: &Cursor, name: String, value: Option<&Value>) -> Result<Reference, ReplayError> {
     let Some(Value::List(parts)) = value else {
         return Err(cursor.error("not a wobjdata"));
     };
@@ -71,12 +73,16 @@ pub fn work_object(cursor: &Cursor, value: Option<&Value>) -> Result<Option<Pose
         [
             Value::Truth(false),
             Value::Truth(fixed),
-            Value::Text(_),
+            Value::Text(unit),
             user,
             object,
         ] => {
-            let frame = frame_of(cursor, user)?.then(&frame_of(cursor, object)?);
-            Ok(fixed.then_some(frame))
+            let (user, object) = (frame_of(cursor, user)?, frame_of(cursor, object)?);
+            let pose = if *fixed { user.then(&object) } else { object };
+            Ok(Reference {
+                unit: (!fixed).then(|| unit.clone()),
+                ..Reference::new(name, Some(pose))
+            })
         }
         [Value::Truth(true), ..] => Err(cursor.error("a work object at the robot is not interpreted")),
         _ => Err(cursor.error("not a wobjdata")),

@@ -110,10 +110,15 @@ fn a_work_object_is_the_user_frame_and_the_object_frame() {
     );
     assert_eq!((first.base.name.as_str(), first.tool.name.as_str()), ("w", "t"));
     assert!((second.base.pose.unwrap().position_mm[0] - 200.0).abs() < 1e-6);
-    // A work object on a positioner is where the positioner is.
+    // A work object on a positioner is relative to its table.
     let moved = data.replace("[FALSE,TRUE,\"\"", "[FALSE,FALSE,\"STN1\"");
     let all = run(&moved, &format!("MoveL {},v10,fine,t\\WObj:=w;", target(1.0)));
-    assert_eq!(linears(&all)[0].base.pose, None);
+    let base = &linears(&all)[0].base;
+    assert_eq!(base.unit.as_deref(), Some("STN1"));
+    same(
+        base.pose.as_ref().unwrap(),
+        &Pose::kuka([10.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+    );
 }
 
 #[test]

@@ -67,7 +67,7 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
     let bodies = checks.bodies(&file);
     let nominal = checks.nominal(&file);
     let of_controller = file.controller.iter();
-    let of_controller = of_controller.flat_map(|table| table.problems(&document, file.joint.len()));
+    let of_controller = of_controller.flat_map(|table| table.problems(&document, file.joint.len(), 0));
     checks.problems.extend(of_controller);
     Problems::from(std::mem::take(&mut checks.problems)).into_result()?;
 

@@ -73,7 +73,7 @@ impl<'a> RobotInCell<'a> {
         let given = |pose: &Option<[f64; 6]>| pose.as_ref().map(pose_mm_deg);
         Cell {
             flange_from_tool: self.setting.flange_from_tool,
-            base_from_controller: base_from_controller(self.robot),
+            base_from_controller: base_from_controller(self.robot, None),
             controller_from_frame: given(&table.frame_mm_deg),
             base_from_path: given(&table.part_from_path_mm_deg)
                 .map(|part_from_path| self.setting.plane.base_from_part * part_from_path),
