@@ -42,7 +42,7 @@ pub fn base_from_controller(robot: &Robot, positioner: Option<&[f64]>) -> Isomet
     };
     let mut joints = robot.home(None);
     joints[..positions.len()].copy_from_slice(positions);
-    let base_from_link = ground.in_base(&forward(robot, &joints));
+    let base_from_link = ground.in_base(&forward(robot, &joints).base_from_joint);
     let turned = UnitQuaternion::from_rotation_matrix(&base_from_link.rotation);
     Isometry::from_parts(base_from_link.translation, turned) * link_from_base * controller
 }

@@ -49,7 +49,11 @@ impl<'a> GroundSpin<'a> {
 }
 
 fn base_from_ground(robot: &Robot, home: &[f64]) -> Rotation3<f64> {
-    robot.chain().ground().in_base(&forward(robot, home)).rotation
+    robot
+        .chain()
+        .ground()
+        .in_base(&forward(robot, home).base_from_joint)
+        .rotation
 }
 
 /// From spin zero in base to spin zero in the ground, about the tool axis, rad.

@@ -13,7 +13,6 @@
 use nalgebra::IsometryMatrix3;
 
 use super::compensator::Mass;
-use super::forward::Frames;
 use super::spring::{Attachment, Spring};
 use crate::frame::Isometry;
 use crate::spatial::Twist;
@@ -41,15 +40,15 @@ impl Ground {
         self.joints == 0
     }
 
-    /// The ground in the base of the chain, in a posture with these frames.
-    pub fn in_base(&self, frames: &Frames) -> IsometryMatrix3<f64> {
+    /// The ground in the base of the chain, in a posture with these frames of its joints, base.
+    pub fn in_base(&self, base_from_joint: &[IsometryMatrix3<f64>]) -> IsometryMatrix3<f64> {
         match self.joints.checked_sub(1) {
             None => IsometryMatrix3::identity(),
             Some(last) => {
                 let rotation = self.joint_from_ground.rotation.to_rotation_matrix();
                 let joint_from_ground =
                     IsometryMatrix3::from_parts(self.joint_from_ground.translation, rotation);
-                frames.base_from_joint[last] * joint_from_ground
+                base_from_joint[last] * joint_from_ground
             }
         }
     }

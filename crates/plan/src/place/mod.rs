@@ -441,12 +441,8 @@ impl<'a> PlacementSearch<'a> {
     /// Position of the rail in the study, m; 0 without one.
     fn rail(&self) -> f64 {
         let robot = &self.study.robot.robot;
-        let home = self.analysis.setting.home.as_deref();
-        let at = |joint: usize| match home {
-            Some(home) => home[joint],
-            None => robot.joints()[joint].limits.map_or(0.0, |limits| limits.middle()),
-        };
-        rail_of(robot).map_or(0.0, at)
+        let home = robot.home(self.analysis.setting.home.as_deref());
+        rail_of(robot).map_or(0.0, |joint| home[joint])
     }
 
     fn sites(&self, turn: ToolTurn) -> Vec<Site<'_>> {

@@ -13,9 +13,7 @@ pub(super) fn rail_of(robot: &Robot) -> Option<usize> {
 
 /// The home positions `home`, or the middle of each range (rad, m), with the rail at `rail` (m).
 pub(super) fn home_at(robot: &Robot, home: Option<&[f64]>, rail: f64) -> Vec<f64> {
-    let middle = |joint: usize| robot.joints()[joint].limits.map_or(0.0, |limits| limits.middle());
-    let middles = || (0..robot.joints().len()).map(middle).collect();
-    let mut home = home.map_or_else(middles, <[f64]>::to_vec);
+    let mut home = robot.home(home);
     if let Some(joint) = rail_of(robot) {
         home[joint] = rail;
     }

@@ -156,6 +156,7 @@ pub fn drafts(writes: Writes) -> impl Strategy<Value = Draft> {
                 flange_from_tool: tool,
                 controller,
                 external_slides,
+                frame_is_carried: false,
                 steps,
             },
         )
@@ -182,6 +183,7 @@ pub fn spaced(points: usize, apart_mm: f64) -> Draft {
             ..Controller::default()
         },
         external_slides: Vec::new(),
+        frame_is_carried: false,
         steps: (0..points).map(point).map(DraftStep::Move).collect(),
     }
 }

@@ -11,14 +11,15 @@ use armill_core::robot::inverse::tool_on;
 use armill_core::units::to_mm;
 use armill_report::{ArmJoint, ArmPosture};
 
-/// The arm at these joint positions (rad, m), base frame.
+/// The arm at these joint positions (rad, m), base frame; from the ground on, without the joints of a positioner.
 pub fn arm_posture(robot: &Robot, joints: &[f64], flange_from_tool: &Isometry) -> ArmPosture {
     let frames = forward(robot, joints);
     let mm = |v: &Vector3<f64>| -> [f64; 3] { to_mm(v).into() };
+    let ground = robot.chain().ground();
     let base_from_tool = tool_on(&frames, flange_from_tool);
     ArmPosture {
-        base_mm: [0.0; 3],
-        joints: (0..robot.joints().len())
+        base_mm: mm(&ground.in_base(&frames.base_from_joint).translation.vector),
+        joints: (ground.joints..robot.joints().len())
             .map(|i| ArmJoint {
                 name: robot.joints()[i].name.clone(),
                 origin_mm: mm(&frames.origin(i).coords),

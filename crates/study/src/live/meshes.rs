@@ -4,7 +4,10 @@
 
 use std::path::Path;
 
+use armill_core::frame::Isometry;
+use armill_core::nalgebra;
 use armill_core::robot::Robot;
+use armill_core::robot::forward::forward;
 use armill_core::units::to_mm;
 use armill_formats::input;
 use schemars::JsonSchema;
@@ -49,8 +52,11 @@ impl Shapes {
             let index = robot.joints().iter().position(|joint| joint.name == name)?;
             q.get(index).copied()
         };
+        // They are given in the base of the arm: the ground, wherever that is in the chain.
+        let base_from_ground: Isometry =
+            nalgebra::convert(robot.chain().ground().in_base(&forward(robot, q).base_from_joint));
         let one = |LinkMesh { mesh, .. }: &LinkMesh| {
-            let at = mesh.base_from_mesh(position);
+            let at = base_from_ground * mesh.base_from_mesh(position);
             let turn = at.rotation.coords;
             DrawnMesh {
                 link: mesh.link.clone(),

@@ -15,7 +15,7 @@ use armill_core::robot::forward::{forward, joint_axis};
 use armill_core::robot::inverse::tool_on;
 use armill_core::source::Arm;
 use armill_core::spatial::Wrench;
-use armill_core::units::{from_mm, to_um};
+use armill_core::units::{from_mm, to_mm, to_um};
 use armill_core::watch::Watch;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -101,7 +101,7 @@ pub struct DrawnPosture {
     pub tool_mm: [f64; 3],
     /// Axis of the tool, from the spindle towards the part.
     pub tool_axis: [f64; 3],
-    /// The arm as a line: from its base through the joints and the flange to the TCP.
+    /// The arm as a line: from its base through its joints and the flange to the TCP; without the joints of a positioner.
     pub links_mm: Vec<[f64; 3]>,
     /// The meshes of its links, if the robot file names them and all exist.
     pub meshes: Vec<DrawnMesh>,
@@ -413,7 +413,7 @@ fn drawn(robot: &Robot, q: &[f64], flange_from_tool: &Isometry) -> DrawnPosture 
     let clean = |v: Vector3<f64>| -> [f64; 3] { v.map(without_rounding).into() };
     let joint = |i: usize| DrawnJoint {
         name: robot.joints()[i].name.clone(),
-        origin_mm: arm.joints[i].origin_mm,
+        origin_mm: to_mm(frames.origin(i).coords).into(),
         axis: clean(joint_axis(robot, &frames, i)),
         kind: if robot.slides(i) { "slides" } else { "turns" },
     };

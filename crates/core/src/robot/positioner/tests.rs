@@ -132,7 +132,10 @@ fn the_chain_goes_from_the_table_to_the_flange() {
         let q = joined(&p, &a);
         let found = flange(&whole, &q);
         assert!((found.to_homogeneous() - expected.to_homogeneous()).norm() < 1e-13);
-        let ground = whole.chain().ground().in_base(&forward(&whole, &q));
+        let ground = whole
+            .chain()
+            .ground()
+            .in_base(&forward(&whole, &q).base_from_joint);
         let expected = base_from_table(&positioner, &p).inverse();
         assert!((ground.to_homogeneous() - expected.to_homogeneous()).norm() < 1e-13);
     }

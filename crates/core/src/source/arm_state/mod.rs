@@ -167,7 +167,7 @@ impl<'a> ArmState<'a> {
         let base_from_tool = IsometryMatrix3::from_parts(tcp.coords.into(), turn);
         self.base_from_tool = base_from_tool;
         let ground = robot.chain().ground();
-        self.base_from_ground = ground.in_base(frames);
+        self.base_from_ground = ground.in_base(&frames.base_from_joint);
         let frame = |attachment: Attachment| attachment_frame(attachment, frames, &base_from_tool);
         for (screw, spring) in self.screws[joints..].iter_mut().zip(&structure.springs) {
             *screw = spring_screw(&spring.direction, &frame(spring.attachment), tcp.coords);

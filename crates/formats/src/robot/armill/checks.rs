@@ -149,6 +149,11 @@ impl Checks<'_> {
                     "write 1 or -1",
                 );
             }
+            if entry.external && !file.joint[..index].iter().all(|before| before.external) {
+                let message = format!("joint `{}` is behind a joint of the arm", entry.name);
+                let hint = "external axes are the first joints of the robot";
+                self.problem(&format!("{path}.external"), message, hint);
+            }
             joints.push(Joint {
                 name: entry.name.clone(),
                 sign: if entry.sign < 0 {

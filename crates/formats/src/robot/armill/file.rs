@@ -118,6 +118,10 @@ pub(super) struct JointEntry {
     /// Greatest speed, prismatic joints.
     #[schemars(range(min = 0.0))]
     pub max_speed_mm_per_s: Option<f64>,
+    /// Whether it is an external axis in front of the arm: a turntable that carries it. Prismatic joints in front of six
+    /// are external axes without that.
+    #[serde(default)]
+    pub external: bool,
     /// Key of the source of sign, zero, limits and speed.
     pub source: String,
     /// Compliance about the axis, drive and control loop included.

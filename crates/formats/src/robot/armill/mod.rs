@@ -74,9 +74,19 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
     let refused = |error: armill_core::robot::RobotError| {
         Problems::from(vec![document.problem("chain.motions", error.to_string(), None)])
     };
+    let external = file.joint.iter().take_while(|joint| joint.external).count();
     let mut robot = Robot::new(id, motions, joints)
         .map_err(refused)?
         .with_nominal_branch(nominal);
+    if external > 0 {
+        robot = robot.with_external_joints(external).map_err(|error| {
+            Problems::from(vec![document.problem(
+                "joint[0].external",
+                error.to_string(),
+                None,
+            )])
+        })?;
+    }
     robot = robot.with_frames(file.frame.iter().map(named_frame).collect());
     if let Some(compliance) = compliance {
         robot = robot.with_compliance(compliance).map_err(refused)?;

@@ -401,3 +401,23 @@ fn a_wrong_structure_is_refused_with_place_and_hint() {
         assert!(problems.contains("lever.toml:"), "no place in:\n{problems}");
     }
 }
+
+#[test]
+fn the_first_joints_may_be_external_axes_and_no_others() {
+    let external = |joint: &str| {
+        let name = format!("name = \"{joint}\"");
+        SMALL.replace(&name, &format!("{name}\nexternal = true"))
+    };
+    let lever = read("lever.toml", "lever", &external("A")).unwrap().robot;
+    assert!(lever.is_external(0) && !lever.is_external(1));
+    let error = read("lever.toml", "lever", &external("B"))
+        .unwrap_err()
+        .to_string();
+    assert!(
+        error.contains("joint `B` is behind a joint of the arm"),
+        "{error}"
+    );
+    let both = external("A").replace("name = \"B\"", "name = \"B\"\nexternal = true");
+    let error = read("lever.toml", "lever", &both).unwrap_err().to_string();
+    assert!(error.contains("all 2 joints are external axes"), "{error}");
+}

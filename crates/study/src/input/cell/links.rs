@@ -132,14 +132,17 @@ fn attachment_of(robot: &RobotDescription, mesh: &Mesh) -> (Attachment, Isometry
     let joints = robot.robot.joints();
     let index = |name: &str| joints.iter().position(|joint| joint.name == name);
     let base_from_mesh = mesh.base_from_mesh(|_| None);
+    // A mesh is given in the base of the arm: the ground, wherever that is in the chain.
+    let ground = robot.robot.chain().ground();
     match mesh.joints().filter_map(index).last() {
-        None => (Attachment::Base, base_from_mesh),
+        None => (ground.attachment(), ground.joint_from_ground * base_from_mesh),
         Some(joint) => {
             let zero = forward(&robot.robot, &vec![0.0; joints.len()]);
             let base_from_joint: Isometry = nalgebra::convert(zero.base_from_joint[joint]);
+            let base_from_ground: Isometry = nalgebra::convert(ground.in_base(&zero.base_from_joint));
             (
                 Attachment::Joint(joint),
-                base_from_joint.inverse() * base_from_mesh,
+                base_from_joint.inverse() * base_from_ground * base_from_mesh,
             )
         }
     }

@@ -60,6 +60,7 @@ pub struct MovedAxisAnswer {
     /// Name of its joint.
     pub joint: String,
     /// Least and greatest chosen position.
+    // unit: that of `unit`
     pub range: [f64; 2],
     /// `mm` or `deg`.
     pub unit: &'static str,
