@@ -15,6 +15,8 @@ pub struct LeanRange {
     pub rate: f64,
     /// The end of the tool.
     pub end: RoundedEnd,
+    /// Distance of neighbouring passes, m, if it is known: for the height of the scallops between them.
+    pub stepover: Option<f64>,
 }
 
 /// An external axis that moves along the path.

@@ -2,7 +2,7 @@
 //!
 //! [`program`]: the moves of a tool path program. [`sampler`]: those moves as points. [`shape`]: circles and lines on a
 //! workpiece plane. [`sampled`]: the points of either. [`placing`] and [`track`]: position in the cell and turn of the
-//! tool; [`spin_curve`]: a turn that changes along the path; `lean`: the tool leans from the programmed axis. [`thinned`](mod@thinned): fewer points of a path. [`clock`]: time at each point. [`stock`], `sweep`, `pass`,
+//! tool; [`spin_curve`]: a turn that changes along the path; `lean`: the tool leans from the programmed axis; `scallop`: what it leaves between passes. [`thinned`](mod@thinned): fewer points of a path. [`clock`]: time at each point. [`stock`], `sweep`, `pass`,
 //! `strip` and [`engagement`]: engagement of the cutter; [`cutting`], [`drilled`]: its forces. [`feature`]: errors of
 //! the circle, line, plane or hole produced. [`holes`]: single points.
 
@@ -18,6 +18,7 @@ pub mod placing;
 pub mod program;
 pub mod sampled;
 pub mod sampler;
+mod scallop;
 pub mod shape;
 pub mod spin_curve;
 pub mod stock;
@@ -39,6 +40,7 @@ pub use placing::{Placing, Spin};
 pub use program::{Arc, Command, Course, DepthOfCut, GivenSpin, Move, Operation, Pace, Step};
 pub use sampled::{PathBuilder, PlacedCommand, Rapids, SampledPath, TooManyPoints};
 pub use sampler::{PathPoint, Sampler, Sampling};
+pub use scallop::scallop;
 pub use shape::Shape;
 pub use spin_curve::{NoSpinCurve, SpinCurve, SpinKnot};
 pub use stock::{Stock, StockError};

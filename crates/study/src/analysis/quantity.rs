@@ -267,6 +267,17 @@ pub const TILT: Quantity = angle(
     "lean of the tool to the left of the feed that was found by a search, about the programmed axis",
     LEAN,
 );
+/// Height of scallops.
+pub const SCALLOP: Quantity = deviation(
+    "scallop_um",
+    "height of the scallops between neighbouring passes of the leaning tool on a flat surface",
+    Origin {
+        file: "core/src/path/scallop.rs",
+        function: "scallop",
+        theory: Some("lattice"),
+        validation: None,
+    },
+);
 /// Along the track.
 pub const ALONG: Quantity = deviation(
     "along_um",
@@ -387,7 +398,7 @@ pub const HOLE_Y: Quantity = deviation(
 pub const DEPTH: Quantity = deviation("depth_um", "deviation out of the part: too shallow", IN_HOLE);
 
 /// All quantities, in the order of the tables: of a path, of holes, of every analysis.
-pub const ALL: [&Quantity; 33] = [
+pub const ALL: [&Quantity; 34] = [
     &LINE,
     &DISTANCE,
     &FEED,
@@ -397,6 +408,7 @@ pub const ALL: [&Quantity; 33] = [
     &TURN,
     &LEAD,
     &TILT,
+    &SCALLOP,
     &FORCE,
     &TORQUE,
     &CHIP,

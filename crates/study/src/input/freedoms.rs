@@ -29,6 +29,9 @@ pub struct LeanTable {
     /// Largest change of either along the path; 0.5 if left out.
     #[schemars(range(min = 1e-6, max = 1e3))]
     pub deg_per_mm: Option<f64>,
+    /// Distance of neighbouring passes, for the height of the scallops between them.
+    #[schemars(range(min = 1e-3, max = 1e3))]
+    pub stepover_mm: Option<f64>,
     /// The end of the tool, where the study has no cut.
     pub cutter: Option<EndTable>,
 }
@@ -147,6 +150,7 @@ pub(super) fn lean(log: &mut ProblemLog<'_>, table: &LeanTable, tool: ToolEnd) -
             radius: from_mm(0.5 * diameter),
             corner: from_mm(corner),
         },
+        stepover: table.stepover_mm.map(from_mm),
     })
 }
 

@@ -70,13 +70,16 @@ fn circle(lean: &str) -> String {
 
 #[test]
 fn lean_within_its_range_is_chosen_where_it_is_a_gain() {
-    let lean = ", lean = { lead_deg = [-15, 15], tilt_deg = [-15, 15], step_deg = 5, cutter = { diameter_mm = 12, corner_radius_mm = 6 } }";
+    let lean = ", lean = { lead_deg = [-15, 15], tilt_deg = [-15, 15], step_deg = 5, stepover_mm = 0.8, cutter = { diameter_mm = 12, corner_radius_mm = 6 } }";
     let path = answered(&study(&circle(lean))).paths.remove(0);
     let search = path.search.unwrap();
     let [leads, tilts] = [search.lead_range_deg.unwrap(), search.tilt_range_deg.unwrap()];
     for [from, to] in [leads, tilts] {
         assert!(from >= -15.0 - 1e-9 && to <= 15.0 + 1e-9 && from <= to);
     }
+    // A ball nose leaves the same scallop in every lean: 6 mm - sqrt(36 mm^2 - 0.16 mm^2).
+    let by_hand_um = (6.0 - (36.0_f64 - 0.16).sqrt()) * 1e3;
+    assert!((search.scallop_um.unwrap() - by_hand_um).abs() < 1e-6);
     assert!(search.with.max_in_plane_um.unwrap() < search.without.max_in_plane_um.unwrap());
     let upright = answered(&study(&circle(""))).paths.remove(0).search.unwrap();
     assert_eq!((upright.lead_range_deg, upright.tilt_range_deg), (None, None));

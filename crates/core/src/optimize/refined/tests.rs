@@ -66,6 +66,7 @@ fn lean(step: f64, count: usize) -> LeanRange {
             radius: 0.006,
             corner: 0.006,
         },
+        stepover: None,
     }
 }
 

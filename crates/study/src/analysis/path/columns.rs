@@ -1,7 +1,7 @@
 //! Columns that only a path has: line, distance and feed, the spin of a search or a curve, the lean of a search, and the components of the
 //! deviation of the worst case relative to the track, with their part due to backlash and geometry; force, torque, chip and removal rate of a cut.
 
-use armill_core::path::{Pace, Parts, Track};
+use armill_core::path::{Pace, Parts, Track, scallop};
 use armill_core::units::{to_deg, to_mm, to_um};
 
 use crate::analysis::numbers::Numbers;
@@ -42,7 +42,14 @@ pub fn columns<'a>(analysis: &'a PathAnalysis, found: &'a PathResult) -> Vec<Num
         .searched
         .as_ref()
         .and_then(|searched| searched.posture.leans.as_ref());
-    if let Some((leans, _)) = leans {
+    if let Some((leans, end)) = leans {
+        let search = analysis.setting.search.as_ref();
+        let stepover = search.and_then(|search| search.lean?.stepover);
+        columns.extend(stepover.map(|stepover| {
+            Numbers::of(&quantity::SCALLOP, move |_, index, _| {
+                scallop(*end, leans[index], stepover).map_or(f64::NAN, to_um)
+            })
+        }));
         columns.extend([
             Numbers::of(&quantity::LEAD, move |_, index, _| to_deg(leans[index].lead)),
             Numbers::of(&quantity::TILT, move |_, index, _| to_deg(leans[index].tilt)),

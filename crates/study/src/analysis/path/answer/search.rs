@@ -5,7 +5,7 @@
 
 use armill_core::kernel::{Answers, PostureStatus};
 use armill_core::optimize::{Component, Objective, PostureFound, reversals};
-use armill_core::path::{Lean, PathPoint};
+use armill_core::path::{Lean, PathPoint, scallop};
 use armill_core::robot::Robot;
 use armill_core::units::{to_deg, to_um};
 use schemars::JsonSchema;
@@ -33,6 +33,8 @@ pub struct SearchAnswer {
     pub lead_range_deg: Option<[f64; 2]>,
     /// Least and greatest chosen lean to the left of the feed; null if the tool may not lean.
     pub tilt_range_deg: Option<[f64; 2]>,
+    /// Greatest height of the scallops between passes; null if the tool may not lean, or its stepover is not given.
+    pub scallop_um: Option<f64>,
     /// The external axes that may move, and how far they do.
     pub axes: Vec<MovedAxisAnswer>,
     /// Whether the path is followed with this result: where it has fewer obstacles, or the same number and a gain that
@@ -122,6 +124,11 @@ impl SearchAnswer {
             turn_range_deg: range(posture.spins.iter().copied()).map(to_deg),
             lead_range_deg: lean(|lean| lean.lead),
             tilt_range_deg: lean(|lean| lean.tilt),
+            scallop_um: posture.leans.as_ref().and_then(|(leans, end)| {
+                let stepover = search.lean?.stepover?;
+                let heights = leans.iter().filter_map(|lean| scallop(*end, *lean, stepover));
+                heights.reduce(f64::max).map(to_um)
+            }),
             axes: search
                 .axes
                 .iter()
