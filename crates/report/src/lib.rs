@@ -23,6 +23,7 @@
 //! | what does each joint contribute? | [`ShareBars`] |
 //! | in which direction is the arm compliant? | [`StiffnessEllipse`] |
 //! | what is the posture of the arm? | [`ArmDrawing`] |
+//! | which bodies does it have, and how near are they to what is in the way? | [`CellView`] |
 //!
 //! How a picture is made: the values are checked (values that cannot be drawn give a notice), scales and
 //! levels are chosen from them, the page is begun with its title block, the drawing is written as SVG from back
@@ -86,7 +87,7 @@ mod plane;
 mod svg;
 mod ticks;
 
-pub use arm::{ArmDrawing, ArmJoint, ArmPosture, View};
+pub use arm::{ArmDrawing, ArmJoint, ArmPosture, BodyKind, CellBody, CellView, NearestPair, View};
 pub use ballbar_plot::{BallbarPlot, BallbarTrace, RayMark, Sense};
 pub use budget_bars::{BudgetBar, BudgetBars, BudgetGroup};
 pub use cell_map::{Cell, CellMap};

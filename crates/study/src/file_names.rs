@@ -1,9 +1,24 @@
 //! Names of result files, made from the names of analyses.
 
 /// Suffixes of the names of pictures of an analysis.
-const PICTURES: [&str; 16] = [
-    "budget", "measured", "waves", "holes", "cells", "turns", "region", "shares", "ellipse", "arm",
-    "vectors", "along", "polar", "track", "process", "forces",
+const PICTURES: [&str; 17] = [
+    "budget",
+    "measured",
+    "waves",
+    "holes",
+    "cells",
+    "turns",
+    "region",
+    "shares",
+    "ellipse",
+    "arm",
+    "vectors",
+    "along",
+    "polar",
+    "track",
+    "process",
+    "forces",
+    "clearance",
 ];
 
 /// Whether files called `slug` could be pictures of the analysis called `analysis`.

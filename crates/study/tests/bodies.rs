@@ -9,8 +9,10 @@ use armill_core::nalgebra::{IsometryMatrix3, Point3, Translation3, Vector3};
 use armill_core::robot::forward::{forward, joint_axis};
 use armill_core::robot::inverse::{ToolAt, postures};
 use armill_core::robot::{Attachment, Robot, reach};
-use armill_formats::robot::RobotDescription;
-use armill_study::library;
+use armill_formats::robot::format::RobotReadOptions;
+use armill_formats::robot::{RobotDescription, armill};
+use armill_study::enclosed_links::EnclosedLinks;
+use armill_study::{library, robots};
 
 fn arm(name: &str) -> RobotDescription {
     library::robot(name).unwrap().unwrap()
@@ -147,4 +149,119 @@ fn a_folded_arm_touches_itself() {
             .iter()
             .all(|body| !matches!(body.shape, Shape::Mesh(_)))
     );
+}
+
+/// A plate with a post at one end, in mm: two boxes of triangles in STL.
+fn angle_stl() -> String {
+    let boxes = [
+        [[0.0, -40.0, -40.0], [500.0, 40.0, 40.0]],
+        [[420.0, -40.0, 40.0], [500.0, 40.0, 400.0]],
+    ];
+    let mut text = "solid angle\n".to_owned();
+    for corners in boxes {
+        let corner = |bits: usize| [0, 1, 2].map(|axis| corners[bits >> axis & 1][axis]);
+        let quads = [
+            [0, 2, 3, 1],
+            [4, 5, 7, 6],
+            [0, 1, 5, 4],
+            [2, 6, 7, 3],
+            [0, 4, 6, 2],
+            [1, 3, 7, 5],
+        ];
+        for [a, b, c, d] in &quads {
+            for triangle in [[a, b, c], [a, c, d]] {
+                text += "facet normal 0 0 0\nouter loop\n";
+                for bits in triangle {
+                    let [x, y, z] = corner(*bits);
+                    text += &format!("vertex {x} {y} {z}\n");
+                }
+                text += "endloop\nendfacet\n";
+            }
+        }
+    }
+    text + "endsolid angle\n"
+}
+
+/// A base with one lever, whose mesh is displaced and turned in its link.
+const LEVER: &str = r#"<?xml version="1.0"?>
+<robot name="lever"><link name="base"/>
+  <link name="arm"><collision><origin xyz="0.1 0 0.05" rpy="0 0 1.5707963267948966"/>
+    <geometry><mesh filename="angle.stl" scale="0.001 0.001 0.001"/></geometry></collision></link>
+  <link name="end"/>
+  <joint name="A" type="revolute"><parent link="base"/><child link="arm"/>
+    <origin xyz="0 0 0.3" rpy="0 0 0"/><axis xyz="0 0 1"/><limit lower="-3" upper="3" effort="0" velocity="1"/></joint>
+  <joint name="B" type="revolute"><parent link="arm"/><child link="end"/>
+    <origin xyz="0.5 0 0" rpy="0 0 0"/><axis xyz="0 1 0"/><limit lower="-2" upper="2" effort="0" velocity="1"/></joint>
+</robot>
+"#;
+
+#[test]
+fn capsules_around_the_meshes_of_a_urdf_contain_every_corner_when_they_are_read_again() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("angle.stl"), angle_stl()).unwrap();
+    let urdf = folder.path().join("arm.urdf");
+    std::fs::write(&urdf, LEVER).unwrap();
+    let mut volumes = Vec::new();
+    for most in [1, 3] {
+        let found = EnclosedLinks::of(urdf.to_str().unwrap(), most).unwrap();
+        let imported = robots::import(&urdf, &RobotReadOptions::default()).unwrap();
+        let text = armill::write(&imported) + &armill::body_tables(&found.robot);
+        let read = armill::read("arm.toml", "arm", &text).unwrap_or_else(|error| panic!("{error}\n{text}"));
+        assert!(!read.bodies.is_empty() && read.bodies.len() <= most);
+        let capsules: Vec<_> = read
+            .bodies
+            .iter()
+            .map(|body| match &body.shape {
+                Shape::Capsule(capsule) if body.attachment == Attachment::Joint(0) => *capsule,
+                other => panic!("{other:?} at {:?}", body.attachment),
+            })
+            .collect();
+        // A quarter turn about z: (x, y) becomes (-y, x).
+        for line in angle_stl()
+            .lines()
+            .filter_map(|line| line.strip_prefix("vertex "))
+        {
+            let at: Vec<f64> = line
+                .split(' ')
+                .map(|word| word.parse::<f64>().unwrap() / 1000.0)
+                .collect();
+            let corner = Point3::new(0.1 - at[1], at[0], 0.05 + at[2]);
+            let outside = |capsule: &armill_core::clearance::Capsule| {
+                (capsule.axis.nearest_to_point(&corner) - corner).norm() - capsule.radius
+            };
+            let least = capsules.iter().map(outside).fold(f64::INFINITY, f64::min);
+            assert!(least <= 1e-6, "{corner} is {least} m outside");
+        }
+        for (note, capsule) in read.body_notes.iter().zip(&capsules) {
+            let accuracy_mm = note.accuracy_mm.unwrap();
+            // The middle of a face of a bar of 80 mm is at least this far from the capsule around its edges.
+            assert!(
+                accuracy_mm >= 1000.0 * capsule.radius - 40.0 && accuracy_mm < 400.0,
+                "{accuracy_mm}"
+            );
+            assert_eq!(note.source, "collision meshes");
+        }
+        volumes.push(found.volume_ratio.unwrap());
+    }
+    assert!(volumes[0] > volumes[1] && volumes[1] > 1.0, "{volumes:?}");
+}
+
+#[test]
+fn a_robot_without_meshes_is_refused_with_what_is_missing() {
+    let folder = tempfile::tempdir().unwrap();
+    let urdf = folder.path().join("arm.urdf");
+    std::fs::write(&urdf, LEVER).unwrap();
+    for (robot, expected) in [
+        (urdf.to_str().unwrap(), "The mesh `angle.stl` of lever"),
+        (
+            "yaskawa/mh12",
+            "The shapes of the links of Yaskawa MH12 are not known",
+        ),
+    ] {
+        let message = EnclosedLinks::of(robot, 3).unwrap_err().to_string();
+        assert!(
+            message.contains(expected) && message.contains("collision meshes"),
+            "{message}"
+        );
+    }
 }

@@ -221,3 +221,78 @@ fn errors_of_a_positioner_are_reported_at_their_positions() {
         .to_string();
     assert!(error.contains("no frame `table`"), "{error}");
 }
+
+/// A part of 100 mm by 500 mm on the table, in front of a low wall of the cell whose face is 100 mm behind the axis.
+fn walled(turn: f64) -> String {
+    let cell = "least_clearance_mm = 5\n\
+                [[obstacle]]\nname = \"wall\"\nbox_mm = { from = [1100, -400, 500], to = [1120, 400, 540] }\n\
+                [part]\nbox_mm = { from = [-50, -250, -180], to = [50, 250, -140] }\n";
+    let text = format!("{cell}{}", positioner(&format!("[0, {turn}]")));
+    // The frame of the part is 200 mm above the table.
+    study("base = \"table\"", "[0, 0, 200]", "[0, 0, 0]", "")
+        .replace("half_size_mm = 100", "half_size_mm = 0")
+        + &text
+}
+
+#[test]
+fn obstacles_stand_in_the_cell_while_the_table_turns_the_part() {
+    let folder = cell("positioner-walled", "", "");
+    // By hand: the corner of the part at (50, -250) mm turns by the angle of the table.
+    for turn in [0.0, 5.0, 10.0] {
+        let (sin, cos) = f64::to_radians(turn).sin_cos();
+        let expected = 100.0 - (50.0 * cos + 250.0 * sin);
+        let answer = answered(&folder, &walled(turn));
+        let map = &answer.maps[0];
+        assert_eq!(map.counts.in_collision, 0);
+        let least = map.least_clearance_mm.unwrap();
+        assert!(
+            (least - expected).abs() < 1e-3,
+            "{turn} deg: {least} {expected} mm"
+        );
+        let mut nearest = map.nearest.clone().unwrap();
+        nearest.sort();
+        assert_eq!(nearest, ["part", "wall"]);
+    }
+    let touching = answered(&folder, &walled(30.0));
+    assert_eq!(touching.maps[0].counts.in_collision, 1);
+}
+
+#[test]
+fn the_floor_stays_below_a_tilting_table() {
+    let folder = cell("positioner-floor", "", "");
+    // A plate of 400 mm by 400 mm, 20 mm thick, at the table, whose origin is 500 mm above its root.
+    let at = |tilt: f64| {
+        let text = format!(
+            "least_clearance_mm = 1\n[floor]\nheight_mm = -100\n\
+             [part]\nbox_mm = {{ from = [-200, -200, -200], to = [200, 200, -180] }}\n{}",
+            positioner(&format!("[{tilt}, 0]"))
+        );
+        let study = study("base = \"table\"", "[0, 0, 200]", "[0, 0, 0]", "");
+        answered(
+            &folder,
+            &(study.replace("half_size_mm = 100", "half_size_mm = 0") + &text),
+        )
+    };
+    for tilt in [0.0, 20.0] {
+        let (sin, cos) = f64::to_radians(tilt).sin_cos();
+        // The tilt axis is at 400 mm; the lower edge of the plate is 200 mm to its side and 100 mm above it.
+        let lowest = 400.0 + 100.0 * cos - 200.0 * sin;
+        let map = &at(tilt).maps[0];
+        let nearest = map.nearest.clone().unwrap();
+        let (least, expected) = (map.least_clearance_mm.unwrap(), lowest + 100.0);
+        // Another pair may be nearer; the floor is never.
+        assert!(least <= expected + 1e-3, "{tilt}: {least} {expected} {nearest:?}");
+    }
+    // Tilted far, the plate reaches into a floor that is at the height of the tilt axis less 100 mm.
+    let text = format!(
+        "least_clearance_mm = 1\n[floor]\nheight_mm = 300\n\
+         [part]\nbox_mm = {{ from = [-200, -200, -200], to = [200, 200, -180] }}\n{}",
+        positioner("[60, 0]")
+    );
+    let low = study("base = \"table\"", "[0, 0, 200]", "[0, 0, 0]", "");
+    let low = answered(
+        &folder,
+        &(low.replace("half_size_mm = 100", "half_size_mm = 0") + &text),
+    );
+    assert_eq!(low.maps[0].counts.in_collision, 1);
+}

@@ -61,7 +61,9 @@ pub(crate) use pose_accuracy::PoseAccuracyArguments;
 pub(crate) use poses::{PosesOptions, TurnArgument};
 pub(crate) use posture::PostureArguments;
 pub(crate) use program::ProgramOptions;
-pub(crate) use robots::{ImportArguments, RobotsAction, RobotsArguments, RobotsCheckArguments};
+pub(crate) use robots::{
+    BodiesArguments, ImportArguments, RobotsAction, RobotsArguments, RobotsCheckArguments,
+};
 pub(crate) use roundness::RoundnessArguments;
 pub(crate) use run::{RunArguments, RunOptions};
 pub(crate) use serve::ServeArguments;
@@ -143,6 +145,7 @@ impl Command {
             Command::New(a) => a.json,
             Command::Robots(a) => match &a.action {
                 Some(RobotsAction::Import(import)) => import.json,
+                Some(RobotsAction::Bodies(bodies)) => bodies.json,
                 Some(RobotsAction::Check(check)) => check.json,
                 None => a.json,
             },

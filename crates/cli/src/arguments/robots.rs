@@ -14,6 +14,9 @@ use super::writing::WritingOptions;
 pub(super) const ROBOT_HELP: &str =
     "Library name, or a robot file (.toml, .urdf, .xacro, .yaml, .dh, .chain)";
 
+/// Most capsules around a mesh.
+const MOST_CAPSULES: usize = 10;
+
 #[derive(Debug, Args)]
 #[command(
     args_conflicts_with_subcommands = true,
@@ -22,7 +25,9 @@ Examples:
   armill robots
   armill robots yaskawa/mh12
   armill robots my-arm.urdf --drawing arm.svg
+  armill robots yaskawa/mh12 --drawing bodies.png --bodies
   armill robots import my-arm.urdf --out my-arm.toml
+  armill robots bodies my-arm.urdf --out my-bodies.toml
   armill robots check --help"
 )]
 pub(crate) struct RobotsArguments {
@@ -33,6 +38,9 @@ pub(crate) struct RobotsArguments {
     /// Write a drawing of the arm to this file (.svg, .png)
     #[arg(long, value_name = "FILE", requires = "name")]
     pub drawing: Option<PathBuf>,
+    /// Draw the bodies of its links, which clearances are measured to, instead of the arm
+    #[arg(long, requires = "drawing")]
+    pub bodies: bool,
     #[command(flatten)]
     pub writing: WritingOptions,
     /// Print as JSON on stdout
@@ -44,6 +52,8 @@ pub(crate) struct RobotsArguments {
 pub(crate) enum RobotsAction {
     /// Convert a URDF, xacro, OPW file, DH table, chain or library robot to an armill robot file
     Import(ImportArguments),
+    /// Enclose the links of a URDF or xacro by capsules: [[body]] tables of a robot file
+    Bodies(BodiesArguments),
     /// Check a robot file against poses read from the pendant: report which sign, zero or base differs
     Check(RobotsCheckArguments),
 }
@@ -76,6 +86,39 @@ pub(crate) struct ImportArguments {
     /// Print the result as JSON on stdout
     #[arg(long)]
     pub json: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "\
+The collision meshes are those that the file names, in its folder. Each capsule contains its part of a mesh; accuracy_mm is a bound
+of the largest distance of its surface from the link. Joints are called as in the robot file of `armill robots import`.
+
+Examples:
+  armill robots bodies my-arm.urdf --out my-bodies.toml
+  armill robots bodies my-arm.urdf --capsules 1 >> my-arm.toml")]
+pub(crate) struct BodiesArguments {
+    /// URDF or xacro with the collision meshes of the links
+    pub file: String,
+    /// Largest number of capsules for each mesh, 1 to 10
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = parse_capsules)]
+    pub capsules: usize,
+    /// File to write with the tables (printed on stdout if not given)
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    #[command(flatten)]
+    pub writing: WritingOptions,
+    /// Print the result as JSON on stdout
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// A number of capsules.
+fn parse_capsules(text: &str) -> Result<usize, String> {
+    let number = text
+        .parse()
+        .ok()
+        .filter(|number| (1..=MOST_CAPSULES).contains(number));
+    number.ok_or_else(|| format!("a number from 1 to {MOST_CAPSULES}"))
 }
 
 #[derive(Debug, Args)]

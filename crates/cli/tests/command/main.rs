@@ -2,7 +2,7 @@
 //!
 //! `cell` is where they run. What a user meets first: `new_and_robots`, `shell`, `documents` (every page is run).
 //! Commands: `run`,
-//! `pose`, `place`, `advise`, `springs`, `assumed`, `robots_check`, `import`, `materials`, `identify`, `calibrate`,
+//! `pose`, `place`, `advise`, `springs`, `assumed`, `robots_check`, `import`, `bodies`, `materials`, `identify`, `calibrate`,
 //! `forces`, `roundness`, `ballbar`, `budget`, `path_accuracy`, `compare`, `clearance`, `restricted_space`, `holes`, `unloaded` (backlash). What goes
 //! wrong: `refused`, `guarded` (files of the user), `hostile` (numbers and bytes),
 //! `terminal`, `killed`, `rough` (places and inputs), `slips` (mistakes that are easily made).
@@ -14,6 +14,7 @@ mod advise;
 mod assumed;
 mod backlash;
 mod ballbar;
+mod bodies;
 mod budget;
 mod calibrate;
 mod cell;

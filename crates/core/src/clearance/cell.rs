@@ -5,6 +5,8 @@
 //! | bodies of the arm on the same or on adjacent links | no: they touch by design |
 //! | bodies in contact in every posture, or which the robot file states to be apart in all | no |
 //! | all other bodies that move relative to each other | yes |
+//! | the floor and the second or a later link of the arm, its tool | yes |
+//! | what carries the arm, and an obstacle that it touches in every posture | no: it rides on it |
 //! | a cutter and the part | no: it cuts it |
 //! | a holder and the part, the arm and anything that stands still | yes |
 
@@ -12,6 +14,7 @@ use nalgebra::IsometryMatrix3;
 
 use super::bounds::{Bounds, Capsule};
 use super::field::Field;
+use super::floor::Floor;
 use super::nearest::Nearest;
 use super::shape::{Placed, Shape};
 use crate::frame::Isometry;
@@ -26,6 +29,8 @@ pub enum Role {
     Holder,
     /// The cutter, which may touch the part.
     Cutter,
+    /// An obstacle on the ground of a chain whose base, the table of a positioner, moves.
+    Obstacle,
 }
 
 /// A body that moves with the arm, or stands under it.
@@ -73,6 +78,9 @@ pub struct Cell {
     pub(super) always_near: Vec<[usize; 2]>,
     pub(super) obstacles: Option<Still>,
     pub(super) part: Option<Still>,
+    pub(super) floor: Option<Floor>,
+    /// Obstacles that what carries the arm rides on: index among the obstacles, and the body of the arm. Not checked.
+    pub(super) ridden_on: Vec<[usize; 2]>,
 }
 
 /// Bodies that stand still relative to each other, in their common frame.
@@ -99,10 +107,21 @@ impl Still {
         })
     }
 
-    /// The nearest of the bodies to a body in the same frame, with its index.
-    pub(super) fn nearest(&self, own: &Placed, limit: f64) -> Option<(Nearest, usize)> {
+    /// Number of the bodies.
+    pub(super) fn len(&self) -> usize {
+        self.bodies.len()
+    }
+
+    /// The nearest of the bodies that `is_checked` to a body in the same frame, with its index.
+    pub(super) fn nearest(
+        &self,
+        own: &Placed,
+        limit: f64,
+        is_checked: impl Fn(usize) -> bool,
+    ) -> Option<(Nearest, usize)> {
         let mut best: Option<(Nearest, usize)> = None;
-        for (index, other) in self.bodies.iter().enumerate() {
+        let checked = self.bodies.iter().enumerate();
+        for (index, other) in checked.filter(|(index, _)| is_checked(*index)) {
             let limit = best.map_or(limit, |(best, _)| best.distance);
             if own.hull().bound_of_balls(other.hull()) > limit {
                 continue;
@@ -130,12 +149,21 @@ pub struct Clearance {
 }
 
 impl Cell {
-    /// Name of a body of a [`Clearance`]: those of the arm first, then obstacles, then the part.
+    /// Name of a body of a [`Clearance`]: those of the arm first, then obstacles, then the part, then the floor.
     pub fn name(&self, index: usize) -> &str {
         let still = [&self.obstacles, &self.part].into_iter().flatten();
         let arm = self.arm.iter().map(|body| &body.name);
-        let mut names = arm.chain(still.flat_map(|still| &still.names));
+        let floor = self.floor.iter().map(|floor| &floor.name);
+        let mut names = arm.chain(still.flat_map(|still| &still.names)).chain(floor);
         names.nth(index).map_or("", String::as_str)
+    }
+
+    /// The cell with a floor.
+    pub fn with_floor(self, floor: Floor) -> Cell {
+        Cell {
+            floor: Some(floor),
+            ..self
+        }
     }
 
     /// The bodies of the arm.

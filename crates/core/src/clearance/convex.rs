@@ -56,7 +56,7 @@ pub struct Convex {
 
 impl Core {
     /// Its point farthest along `direction`.
-    fn support(&self, direction: &Vector3<f64>) -> Point3<f64> {
+    pub(super) fn support(&self, direction: &Vector3<f64>) -> Point3<f64> {
         let farther = |a: Point3<f64>, b: Point3<f64>| {
             if direction.dot(&(b - a)) > 0.0 { b } else { a }
         };

@@ -109,6 +109,31 @@ impl Mesh {
         &self.hull
     }
 
+    /// Its point farthest along `direction`.
+    pub fn farthest_along(&self, direction: &Vector3<f64>) -> Point3<f64> {
+        let mut farthest = (f64::NEG_INFINITY, self.bounds().centre());
+        let reach = |index: u32| self.nodes[index as usize].bounds.extent(direction)[1];
+        let mut open = vec![(-reach(0), 0_u32)];
+        while let Some((least, index)) = open.pop() {
+            if -least <= farthest.0 {
+                continue;
+            }
+            let node = &self.nodes[index as usize];
+            if node.count == 0 {
+                let children = [node.first, node.first + 1].map(|child| (-reach(child), child));
+                open.extend(farther_first(children));
+                continue;
+            }
+            for corner in self.leaf(node).iter().flat_map(|triangle| triangle.0) {
+                let along = direction.dot(&corner.coords);
+                if along > farthest.0 {
+                    farthest = (along, corner);
+                }
+            }
+        }
+        farthest.1
+    }
+
     fn leaf(&self, node: &Node) -> &[Triangle] {
         &self.triangles[node.first as usize..][..node.count as usize]
     }

@@ -1,7 +1,7 @@
 //! Clearance: how near the arm and its tool come to what is in the way, and to themselves.
 //!
 //! Read in this order: [`nearest`] (segments and triangles, in closed form), [`convex`] (boxes and cylinders), [`bounds`] (lower
-//! bounds), [`enclosing`] (capsules around points), [`mesh`], [`shape`] (two shapes of any kind), [`field`] (many capsules against bodies that stand still),
+//! bounds), [`enclosing`] (capsules around points), [`mesh`], [`shape`] (two shapes of any kind), [`field`] (many capsules against bodies that stand still), [`floor`] (a plane),
 //! [`cell`] (all bodies of a cell), [`state`] (with the arm in a posture), [`pairs`] (which are checked), [`demanded`] (the check of a
 //! posture), [`swept`] (a joint move), [`along`] (many postures near each other).
 //!
@@ -15,6 +15,7 @@ pub mod convex;
 pub mod demanded;
 pub mod enclosing;
 pub mod field;
+pub mod floor;
 pub mod mesh;
 pub mod nearest;
 pub mod pairs;
@@ -26,6 +27,7 @@ pub use along::ClearanceAlong;
 pub use bounds::{Bounds, Capsule};
 pub use cell::{ArmBody, Cell, Clearance, FixedBody, PlacedCell, Role};
 pub use demanded::{ClearanceCheck, Conflict, DemandedClearance};
+pub use floor::Floor;
 pub use mesh::Mesh;
 pub use nearest::{Nearest, Segment, Triangle};
 pub use shape::Shape;

@@ -5,6 +5,7 @@
 
 use super::bounds::Capsule;
 use super::cell::{ArmBody, Cell, FixedBody, PlacedCell, Role, Still, matrix};
+use super::floor::joints_in_front;
 use super::state::CellState;
 use crate::frame::Isometry;
 use crate::robot::{Attachment, Robot};
@@ -50,6 +51,8 @@ impl Cell {
             always_near: Vec::new(),
             obstacles: Still::of(still.iter().filter(|body| !body.is_part)),
             part: Still::of(still.iter().filter(|body| body.is_part)),
+            floor: None,
+            ridden_on: Vec::new(),
         };
         cell.leave_out_permanent_contacts(robot, flange_from_tool);
         cell
@@ -59,6 +62,11 @@ impl Cell {
         let touching = self.always_within(robot, flange_from_tool, 0.0);
         self.pairs.retain(|pair| !touching.contains(pair));
         self.always_in_contact = touching;
+        let in_front = joints_in_front(robot);
+        let carries =
+            |body: &ArmBody| matches!(body.attachment, Attachment::Joint(joint) if joint < in_front);
+        let ridden_on = self.touched_obstacles(robot, flange_from_tool, carries);
+        self.ridden_on = ridden_on;
     }
 
     /// The cell for this demanded clearance, m: pairs of bodies of the arm that never keep it are near by design, and only must not
@@ -70,52 +78,78 @@ impl Cell {
 
     /// Checked pairs of bodies of the arm that are not farther apart than `limit`, m, in any sampled posture.
     fn always_within(&self, robot: &Robot, flange_from_tool: &Isometry, limit: f64) -> Vec<[usize; 2]> {
-        let mut within = self.pairs.clone();
-        let placed = PlacedCell {
-            cell: self,
-            base_from_part: &Isometry::identity(),
-        };
-        let mut state = CellState::new(placed, robot, flange_from_tool);
-        for sample in 1..=SAMPLES {
-            if within.is_empty() {
-                break;
-            }
-            state.set_joints(&sampled_joints(robot, sample));
-            within.retain(|pair| {
-                let found = state.nearest_of_arm(*pair, limit);
-                found.is_some_and(|found| found.distance <= limit)
-            });
-        }
-        within
+        self.in_every_posture(robot, flange_from_tool, self.pairs.clone(), |state, pair| {
+            let found = state.nearest_of_arm(*pair, limit);
+            found.is_some_and(|found| found.distance <= limit)
+        })
     }
 
     /// Obstacles that touch a body of the arm in every sampled posture, such as one that encloses the robot: index among the obstacles, and the
-    /// body of the arm.
+    /// body of the arm. Not those that what carries the arm rides on.
     pub fn permanent_obstacles(&self, robot: &Robot, flange_from_tool: &Isometry) -> Vec<[usize; 2]> {
+        let moving = |body: &ArmBody| body.attachment != Attachment::Base;
+        let mut found = self.touched_obstacles(robot, flange_from_tool, moving);
+        found.retain(|pair| !self.ridden_on.contains(pair));
+        found
+    }
+
+    /// Bodies of the arm that touch the floor in every sampled posture.
+    pub fn always_on_floor(&self, robot: &Robot, flange_from_tool: &Isometry) -> Vec<usize> {
+        let Some(floor) = &self.floor else {
+            return Vec::new();
+        };
+        let joints = robot.joints().len();
+        let checked = |body: &usize| floor.is_checked(self.arm[*body].attachment, joints);
+        let bodies = (0..self.arm.len()).filter(checked).collect();
+        self.in_every_posture(robot, flange_from_tool, bodies, |state, body| {
+            floor.nearest(&state.placed(*body)).distance <= 0.0
+        })
+    }
+
+    /// Obstacles that touch one of these bodies of the arm in every sampled posture: index among the obstacles, and the body of the arm.
+    fn touched_obstacles(
+        &self,
+        robot: &Robot,
+        flange_from_tool: &Isometry,
+        of_bodies: impl Fn(&ArmBody) -> bool,
+    ) -> Vec<[usize; 2]> {
         let Some(still) = &self.obstacles else {
             return Vec::new();
         };
-        let moving = |body: &usize| self.arm[*body].attachment != Attachment::Base;
-        let bodies = (0..self.arm.len()).filter(moving);
-        let mut touching: Vec<[usize; 2]> = bodies
-            .flat_map(|body| (0..still.bodies.len()).map(move |obstacle| [obstacle, body]))
-            .collect();
+        let bodies = (0..self.arm.len()).filter(|body| of_bodies(&self.arm[*body]));
+        let pairs = bodies.flat_map(|body| (0..still.len()).map(move |obstacle| [obstacle, body]));
+        self.in_every_posture(
+            robot,
+            flange_from_tool,
+            pairs.collect(),
+            |state, [obstacle, body]| {
+                let found = state.placed(*body).nearest(&still.bodies[*obstacle], 0.0);
+                found.is_some_and(|found| found.distance <= 0.0)
+            },
+        )
+    }
+
+    /// Those of the candidates for which this is so in every sampled posture.
+    fn in_every_posture<T>(
+        &self,
+        robot: &Robot,
+        flange_from_tool: &Isometry,
+        mut candidates: Vec<T>,
+        is_so: impl Fn(&CellState<'_>, &T) -> bool,
+    ) -> Vec<T> {
         let placed = PlacedCell {
             cell: self,
             base_from_part: &Isometry::identity(),
         };
         let mut state = CellState::new(placed, robot, flange_from_tool);
         for sample in 1..=SAMPLES {
-            if touching.is_empty() {
+            if candidates.is_empty() {
                 break;
             }
             state.set_joints(&sampled_joints(robot, sample));
-            touching.retain(|[obstacle, body]| {
-                let found = state.placed(*body).nearest(&still.bodies[*obstacle], 0.0);
-                found.is_some_and(|found| found.distance <= 0.0)
-            });
+            candidates.retain(|candidate| is_so(&state, candidate));
         }
-        touching
+        candidates
     }
 }
 

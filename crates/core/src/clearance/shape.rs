@@ -169,6 +169,18 @@ impl Placed {
         }
     }
 
+    /// Its point farthest along a unit vector.
+    pub(super) fn farthest_along(&self, direction: &Vector3<f64>) -> Point3<f64> {
+        match &self.solid {
+            Solid::Convex(Convex { core, radius }) => core.support(direction) + direction * *radius,
+            Solid::Mesh {
+                mesh,
+                from_mesh,
+                to_mesh,
+            } => from_mesh * mesh.farthest_along(&(to_mesh.rotation * direction)),
+        }
+    }
+
     /// Distance of a point from the shape, m; 0 inside.
     pub fn distance_of(&self, point: &Point3<f64>) -> f64 {
         let ball = Capsule {

@@ -3,7 +3,7 @@
 use nalgebra::{IsometryMatrix3, Point3};
 
 use super::bounds::Capsule;
-use super::cell::{Cell, Clearance, PlacedCell, Role, matrix};
+use super::cell::{Cell, Clearance, PlacedCell, Role, Still, matrix};
 use super::nearest::Nearest;
 use super::shape::Placed;
 use crate::frame::Isometry;
@@ -56,6 +56,7 @@ pub(super) enum Check {
     OfArm([usize; 2]),
     Obstacles(usize),
     Part(usize),
+    Floor(usize),
 }
 
 impl<'a> CellState<'a> {
@@ -261,9 +262,17 @@ impl<'a> CellState<'a> {
                 queue.push((bound, Check::OfArm(*pair)));
             }
         }
+        let joints = self.robot.joints().len();
         for (index, (body, hull)) in self.cell.arm.iter().zip(&self.hulls).enumerate() {
             if body.attachment == Attachment::Base {
                 continue;
+            }
+            let floor = self.cell.floor.as_ref();
+            if let Some(floor) = floor.filter(|floor| floor.is_checked(body.attachment, joints)) {
+                let bound = floor.height_of(hull);
+                if bound <= limit {
+                    queue.push((bound, Check::Floor(index)));
+                }
             }
             if let Some(still) = &self.cell.obstacles {
                 let bound = still.field.bound_of(hull, &still.bodies, limits.refined);
@@ -290,20 +299,31 @@ impl<'a> CellState<'a> {
                 Some(Clearance { nearest, bodies })
             }
             Check::Obstacles(body) => {
-                let (nearest, other) = self.cell.obstacles.as_ref()?.nearest(&self.placed(body), limit)?;
+                let is_checked = |other: usize| !self.cell.ridden_on.contains(&[other, body]);
+                let obstacles = self.cell.obstacles.as_ref()?;
+                let (nearest, other) = obstacles.nearest(&self.placed(body), limit, is_checked)?;
                 Some(Clearance {
                     nearest,
                     bodies: [body, arm + other],
                 })
             }
             Check::Part(body) => {
-                let obstacles = self.cell.obstacles.as_ref().map_or(0, |still| still.bodies.len());
+                let obstacles = self.cell.obstacles.as_ref().map_or(0, Still::len);
                 let frame = self.part_from_base * self.base_from_body[body];
                 let own = self.cell.arm[body].shape.placed(&frame);
-                let (nearest, other) = self.cell.part.as_ref()?.nearest(&own, limit)?;
+                let (nearest, other) = self.cell.part.as_ref()?.nearest(&own, limit, |_| true)?;
                 Some(Clearance {
                     nearest: nearest.moved(&self.base_from_part),
                     bodies: [body, arm + obstacles + other],
+                })
+            }
+            Check::Floor(body) => {
+                let nearest = self.cell.floor.as_ref()?.nearest(&self.placed(body));
+                let still = [&self.cell.obstacles, &self.cell.part];
+                let before: usize = still.into_iter().flatten().map(Still::len).sum();
+                (nearest.distance <= limit).then_some(Clearance {
+                    nearest,
+                    bodies: [body, arm + before],
                 })
             }
         }

@@ -1,6 +1,6 @@
 //! A made-up arm of six joints, solved by hand for a wrist that keeps its direction.
 
-use armill_report::{ArmDrawing, ArmJoint, ArmPosture, View};
+use armill_report::{ArmDrawing, ArmJoint, ArmPosture, BodyKind, CellBody, CellView, NearestPair, View};
 
 type Vec3 = [f64; 3];
 
@@ -66,7 +66,58 @@ pub fn pictures() -> Vec<(&'static str, String)> {
         title: "One posture".into(),
         ..drawing.clone()
     };
+    let body = |kind: BodyKind, points_mm: &[[f64; 3]], radius_mm: f64| CellBody {
+        kind,
+        points_mm: points_mm.to_vec(),
+        radius_mm,
+    };
+    let cell = CellView {
+        title: "A spindle next to a fence".into(),
+        subtitle: "Capsules around the links; a box of 100 mm x 800 mm as fence".into(),
+        bodies: vec![
+            body(BodyKind::Link, &[[0.0, 0.0, 150.0], [0.0, 0.0, 400.0]], 180.0),
+            body(
+                BodyKind::Link,
+                &[[150.0, 0.0, 505.0], [300.0, 0.0, 1250.0]],
+                110.0,
+            ),
+            body(
+                BodyKind::Link,
+                &[[300.0, 0.0, 1250.0], [900.0, 0.0, 1100.0]],
+                90.0,
+            ),
+            body(BodyKind::Tool, &[[950.0, 0.0, 1080.0], [950.0, 0.0, 850.0]], 60.0),
+            body(BodyKind::Cutter, &[[950.0, 0.0, 850.0], [950.0, 0.0, 760.0]], 6.0),
+            body(
+                BodyKind::Obstacle,
+                &[
+                    [1100.0, -400.0, 0.0],
+                    [1200.0, -400.0, 0.0],
+                    [1100.0, 400.0, 1500.0],
+                    [1200.0, 400.0, 1500.0],
+                ],
+                0.0,
+            ),
+        ],
+        line_mm: vec![
+            [0.0; 3],
+            [150.0, 0.0, 505.0],
+            [300.0, 0.0, 1250.0],
+            [950.0, 0.0, 1080.0],
+        ],
+        floor_mm: Some([
+            [-2000.0, -2000.0, 0.0],
+            [2000.0, -2000.0, 0.0],
+            [2000.0, 2000.0, 0.0],
+            [-2000.0, 2000.0, 0.0],
+        ]),
+        nearest: Some(NearestPair {
+            points_mm: [[1010.0, 0.0, 1000.0], [1100.0, 0.0, 1000.0]],
+            label: "90.0 mm".into(),
+        }),
+    };
     vec![
+        ("cell_view", cell.to_svg()),
         ("arm_iso", drawing.to_svg()),
         (
             "arm_side",

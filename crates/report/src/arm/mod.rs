@@ -1,7 +1,7 @@
 //! The posture of the arm: a schematic drawing from joint origins and axes, seen from a chosen side.
 //!
 //! `view`: from which side; `drawing`: what is shown; `body`: the posture as solids; `shapes`: solids on paper;
-//! `scene`: the whole drawing.
+//! `scene`: the whole drawing; `bodies`: the bodies of its cell.
 //!
 //! | what | drawn as |
 //! |---|---|
@@ -14,12 +14,14 @@
 //! All points are in the base frame, in mm. Nothing about the arm's shape is known but its joints: how thick it
 //! is drawn follows from its length.
 
+mod bodies;
 mod body;
 mod drawing;
 mod scene;
 mod shapes;
 mod view;
 
+pub use bodies::{BodyKind, CellBody, CellView, NearestPair};
 pub use drawing::{ArmDrawing, ArmJoint, ArmPosture};
 pub use view::View;
 

@@ -28,6 +28,7 @@ use crate::analysis::table::{AnalysisKind, AnalysisTable};
 use crate::analysis::{Sheet, Subject};
 use crate::input::cell::CellBodies;
 use crate::input::cell::bodies::tool_bodies;
+use crate::input::cell::permanent::report_permanent_contacts;
 use crate::input::cell::placed::{CellFrames, placed_cell};
 use crate::input::freedoms::ToolEnd;
 use crate::input::memory::{OF_FIELD, OF_MAP, PointMemory};
@@ -289,16 +290,7 @@ impl Resolver<'_> {
                 flange_from_tool: &setting.flange_from_tool,
             };
             let found = placed_cell(&robot.robot, bodies, tool, frames);
-            for [obstacle, body] in found
-                .cell
-                .permanent_obstacles(&robot.robot, &setting.flange_from_tool)
-            {
-                let (name, body) = (&bodies.obstacles[obstacle].name, found.cell.name(body));
-                let message = format!("obstacle `{name}` touches {body} in every posture of the robot");
-                let hint =
-                    "is its position right? A room is given by its walls, not by a body around the robot";
-                log.problem(&format!("obstacle[{obstacle}]"), message, hint);
-            }
+            report_permanent_contacts(log, bodies, &robot.robot, &found, &frames);
             found
         });
         Setting { cell, ..setting }

@@ -12,7 +12,7 @@ use crate::analysis::study_tables::StudyTables;
 use crate::analysis::table::AnalysisTable;
 use crate::compliance_class::ComplianceClass;
 use crate::input::cell::bodies::CellTables;
-use crate::input::cell::tables::{ObstacleTable, PartTable};
+use crate::input::cell::tables::{FloorTable, ObstacleTable, PartTable, PedestalTable};
 use crate::input::improvement::ImprovementTable;
 use crate::input::stiffness::StiffnessTables;
 use crate::input::tables::{GravityTable, LoadTable, PlaneTable, PostureTable, ThermalTable, ToolTable};
@@ -42,6 +42,10 @@ pub struct StudyFile {
     #[schemars(length(max = 1000))]
     #[serde(default)]
     pub obstacle: Vec<ObstacleTable>,
+    /// What the robot stands on, for the clearance; moved with the robot by a rail.
+    pub pedestal: Option<PedestalTable>,
+    /// The floor, for the clearance.
+    pub floor: Option<FloorTable>,
     /// The part or its stock, for the clearance: only a cutter may touch it.
     pub part: Option<PartTable>,
     /// Least distance of the arm and its tool from all bodies, and from themselves; postures that do not keep it are not used. If left out,
@@ -102,6 +106,8 @@ impl StudyFile {
             .chain(&self.tool);
         CellTables {
             obstacles: &self.obstacle,
+            pedestal: self.pedestal.as_ref(),
+            floor: self.floor,
             part: self.part.as_ref(),
             least_clearance_mm: self.least_clearance_mm,
             robot: &self.robot,

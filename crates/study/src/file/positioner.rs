@@ -13,7 +13,7 @@
 
 use std::path::Path;
 
-use armill_core::clearance::ArmBody;
+use armill_core::clearance::{ArmBody, Role};
 use armill_core::frame::Isometry;
 use armill_core::robot::RobotError;
 use armill_core::robot::model::NamedFrame;
@@ -183,6 +183,11 @@ impl FoundPositioner {
         found.bodies.extend(own.bodies.iter().map(|body| {
             let (attachment, new_from_old) = self.positioner().attached(body.attachment);
             ArmBody {
+                role: match body.attachment {
+                    // It does not ride on the arm, whose first link may come near it.
+                    Attachment::Base => Role::Obstacle,
+                    _ => body.role,
+                },
                 attachment,
                 attachment_from_body: new_from_old * body.attachment_from_body,
                 ..body.clone()

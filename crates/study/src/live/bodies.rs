@@ -14,12 +14,17 @@ use crate::live::body_mesh::mesh_key;
 use crate::number::without_rounding;
 use crate::pose::PostureAnswer;
 
+/// Half the edge of the piece of the floor that is drawn, mm.
+const FLOOR_HALF_MM: f64 = 3000.0;
+/// How thick it is drawn, mm.
+const FLOOR_DEPTH_MM: f64 = 10.0;
+
 /// The bodies of a cell.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct CellInScene {
     /// Bodies of the arm and of the tool; their poses are in the drawing of each posture, in this order.
     pub arm: Vec<BodyInScene>,
-    /// What stands still: obstacles, then the part.
+    /// What stands still: obstacles, then the part, then a piece of the floor.
     pub still: Vec<StillBodyInScene>,
     /// The demanded clearance.
     pub least_clearance_mm: f64,
@@ -125,7 +130,12 @@ pub enum ShapeInScene {
 pub(super) fn cell_in_scene(cell: &AnalysisCell) -> CellInScene {
     CellInScene {
         arm: cell.cell.arm().iter().map(of_arm).collect(),
-        still: cell.still.iter().map(|body| of_still(body, cell)).collect(),
+        still: cell
+            .still
+            .iter()
+            .map(|body| of_still(body, cell))
+            .chain(cell.base_from_floor.as_ref().map(of_floor))
+            .collect(),
         least_clearance_mm: without_rounding(to_mm(cell.least)),
     }
 }
@@ -143,6 +153,7 @@ fn of_arm(body: &ArmBody) -> BodyInScene {
             Role::Link => BodyRole::Link,
             Role::Holder => BodyRole::Holder,
             Role::Cutter => BodyRole::Cutter,
+            Role::Obstacle => BodyRole::Obstacle,
         },
         shape: ShapeInScene::of(&body.shape),
     }
@@ -167,6 +178,23 @@ fn of_still(body: &FixedBody, cell: &AnalysisCell) -> StillBodyInScene {
             &base_from_body.translation.vector.into(),
             &base_from_body.rotation,
         ),
+    }
+}
+
+/// The piece of the floor that is drawn: a plate under the robot.
+fn of_floor(base_from_floor: &Isometry) -> StillBodyInScene {
+    let centre = base_from_floor.inverse_transform_point(&Point3::origin());
+    let at = base_from_floor * Point3::new(centre.x, centre.y, 0.0);
+    StillBodyInScene {
+        body: BodyInScene {
+            name: "floor".to_owned(),
+            role: BodyRole::Obstacle,
+            shape: ShapeInScene::Box {
+                from_mm: [-FLOOR_HALF_MM, -FLOOR_HALF_MM, -FLOOR_DEPTH_MM],
+                to_mm: [FLOOR_HALF_MM, FLOOR_HALF_MM, 0.0],
+            },
+        },
+        pose: BodyPose::of(&at, &base_from_floor.rotation),
     }
 }
 

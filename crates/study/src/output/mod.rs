@@ -15,10 +15,11 @@
 //! ```
 //!
 //! `NAME` is the [`slug`] of the analysis's name. `options`: what is to be written; [`folder`]: writes many files at
-//! once; `picture_files`: the files of a picture; `tables`, `pictures`, `arm`, [`budget`], [`report`]: contents of files.
+//! once; `picture_files`: the files of a picture; `tables`, `pictures`, `arm`, `cell_view`, [`budget`], [`report`]: contents of files.
 
 mod arm;
 pub mod budget;
+mod cell_view;
 pub mod folder;
 mod options;
 mod picture_files;
@@ -28,6 +29,7 @@ mod tables;
 
 pub use crate::analysis::picture::Picture;
 pub use arm::{arm_drawing, posture_drawing};
+pub use cell_view::bodies_drawing;
 pub use options::{Csv, Opening, OutputOptions, Pictures, StudyResults};
 #[cfg(feature = "png")]
 pub use picture_files::png;

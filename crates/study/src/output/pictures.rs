@@ -6,6 +6,7 @@
 //! | sections | one sheet with a panel a section |
 //! | volume | one sheet with slices of the box |
 //! | path, holes | those of `path` and `holes` |
+//! | any with bodies in its cell | `clearance`: the bodies in the posture of least clearance |
 //!
 //! Analyses are drawn on all threads, their pictures are in the order of the analyses.
 
@@ -19,6 +20,7 @@ use crate::analysis::{self, AnalysisData, AnalysisResult, Subject};
 use crate::answer::{HolesAnswer, MapAnswer, PathAnswer};
 use crate::file::resolve::Study;
 use crate::input::setting::Setting;
+use crate::output::cell_view::least_clearance;
 use crate::output::options::StudyResults;
 
 /// The pictures of every analysis, in order.
@@ -47,7 +49,12 @@ pub(super) fn draw(results: StudyResults<'_>) -> Vec<Picture> {
     let mut pictures: Vec<Picture> = given
         .into_par_iter()
         .with_max_len(1)
-        .flat_map_iter(|(done, maps, path, holes)| pictures_of(study, done, maps, path, holes))
+        .flat_map_iter(|(done, maps, path, holes)| {
+            let clearance = least_clearance(done.name, &study.robot.robot, &done.found.rows());
+            pictures_of(study, done, maps, path, holes)
+                .into_iter()
+                .chain(clearance)
+        })
         .collect();
     if let Some(Ok((combined, given))) = crate::budget::of_results(study, done) {
         pictures.extend(crate::output::budget::pictures(&given, &combined));

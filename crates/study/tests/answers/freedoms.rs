@@ -4,7 +4,7 @@ use super::*;
 use std::fmt::Write;
 
 /// An MH12 on a rail along y, described by the Denavit-Hartenberg file of the library with a joint in front.
-fn on_rail() -> tempfile::TempDir {
+pub(super) fn on_rail() -> tempfile::TempDir {
     let repository = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let library = std::fs::read_to_string(repository.join("robots/yaskawa/mh12.toml")).unwrap();
     let rail = "name = \"rail\"\nsign = 1\nlimits_mm = [-500, 3000]\nmax_speed_mm_per_s = 1000\nsource = \"made up\"\n\

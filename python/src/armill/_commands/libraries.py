@@ -17,6 +17,7 @@ def robots(
     robot: RobotLike | None = None,
     *,
     drawing: Path | None = None,
+    bodies: bool = False,
     force: bool = False,
     threads: int | None = None,
     progress: Progress | None = None,

@@ -1,11 +1,11 @@
-//! `armill robots NAME`: all data of one robot, as text or as [`RobotDetails`]; `--drawing` draws it.
+//! `armill robots NAME`: all data of one robot, as text or as [`RobotDetails`]; `--drawing` draws it, with `--bodies` those of its links.
 
 use armill_core::robot::reach;
 use armill_core::units::to_mm;
 use armill_formats::robot::RobotDescription;
 use armill_study::joint_unit::JointUnit;
 use armill_study::number::without_rounding;
-use armill_study::output::arm_drawing;
+use armill_study::output::{arm_drawing, bodies_drawing};
 use armill_study::robot_answers::{RobotDetails, attachment_name, chain};
 use armill_study::{StudyError, robots};
 
@@ -22,11 +22,11 @@ use crate::terminal::print;
 pub(super) fn run(name: &str, arguments: &RobotsArguments) -> Result<Outcome, StudyError> {
     let found = robots::find(name, ".".as_ref())?;
     if let Some(file) = &arguments.drawing {
-        drawing::write(
-            &arguments.writing.writer("robots"),
-            file,
-            &arm_drawing(&found.robot, &found.title),
-        )?;
+        let svg = match arguments.bodies {
+            true => bodies_drawing(&found, name)?,
+            false => arm_drawing(&found.robot, &found.title),
+        };
+        drawing::write(&arguments.writing.writer("robots"), file, &svg)?;
     }
     print(&if arguments.json {
         serde_json::to_string(&RobotDetails::of(&found))?

@@ -39,6 +39,7 @@ use armill_core::units::{from_deg, from_mm};
 use self::checks::Checks;
 use self::file::{FrameEntry, JointEntry, RobotFile};
 pub use self::write::write;
+pub use self::write_bodies::body_tables;
 use super::description::{JointNote, OtherLimits, RobotDescription};
 use crate::document::{Document, Problems};
 use crate::sources;

@@ -10,6 +10,16 @@ pub(super) fn line(text: &mut String, content: &str) {
     text.push('\n');
 }
 
+/// Adds the tables of all sources.
+pub(super) fn sources(text: &mut String, found: &RobotDescription) {
+    for source in &found.sources {
+        line(text, &format!("\n[sources.{}]", quoted(&source.key)));
+        line(text, &format!("what = {}", quoted(&source.what)));
+        line(text, &format!("where = {}", quoted(&source.place)));
+        line(text, &format!("licence = {}", quoted(&source.licence)));
+    }
+}
+
 /// The key of the one source.
 pub(super) fn source(found: &RobotDescription) -> &str {
     found.sources.first().map_or("", |source| source.key.as_str())

@@ -11,7 +11,7 @@ use armill_core::frame::{Isometry, fixed_angles};
 use armill_core::robot::{Amount, Joint, Motion};
 
 use super::super::description::RobotDescription;
-use super::spelling::{degrees, line, millimetres, quoted, source};
+use super::spelling::{degrees, line, millimetres, quoted, source, sources};
 use super::write_bodies;
 
 /// How far (m, rad) a number of the chain may be from its decimal.
@@ -41,12 +41,7 @@ pub fn write(found: &RobotDescription) -> String {
         line(&mut text, &format!("source = {}", quoted(source(found))));
     }
     write_bodies::bodies(&mut text, found);
-    for source in &found.sources {
-        line(&mut text, &format!("\n[sources.{}]", quoted(&source.key)));
-        line(&mut text, &format!("what = {}", quoted(&source.what)));
-        line(&mut text, &format!("where = {}", quoted(&source.place)));
-        line(&mut text, &format!("licence = {}", quoted(&source.licence)));
-    }
+    sources(&mut text, found);
     text
 }
 

@@ -7,10 +7,18 @@ use armill_core::nalgebra::Point3;
 use armill_core::robot::Attachment;
 
 use super::super::description::RobotDescription;
-use super::spelling::{line, millimetres, quoted, source};
+use super::spelling::{line, millimetres, quoted, source, sources};
 
 /// How far a length may be from its decimal, m.
 const WITHIN: f64 = 1e-9;
+
+/// The bodies alone, with their sources: tables that can be appended to a robot file.
+pub fn body_tables(found: &RobotDescription) -> String {
+    let mut text = String::new();
+    bodies(&mut text, found);
+    sources(&mut text, found);
+    text
+}
 
 /// Adds the tables of all bodies.
 pub(super) fn bodies(text: &mut String, found: &RobotDescription) {

@@ -10,10 +10,14 @@ use armill_core::frame::Isometry;
 pub struct AnalysisCell {
     /// The bodies.
     pub cell: Arc<Cell>,
+    /// How many of the last bodies of the arm carry it or ride with it, and are not of it.
+    pub carried: usize,
     /// Those that stand still.
     pub still: Vec<FixedBody>,
     /// The frame of the part in base.
     pub base_from_part: Isometry,
+    /// The frame whose x-y plane is the floor.
+    pub base_from_floor: Option<Isometry>,
     /// The demanded clearance, m.
     pub least: f64,
 }

@@ -2,16 +2,18 @@
 
 use std::path::Path;
 
-use armill_core::clearance::{ArmBody, FixedBody, Role, Shape};
+use armill_core::clearance::{ArmBody, Role};
 use armill_core::frame::Isometry;
 use armill_core::robot::Attachment;
 use armill_core::units::from_mm;
 use armill_formats::robot::RobotDescription;
 
 use crate::error::StudyError;
+use crate::input::cell::carried::{CarriedBody, joint_in_front, slab, under_the_arm};
 use crate::input::cell::links::LinkBodies;
+use crate::input::cell::named_shape::NamedShape;
 use crate::input::cell::shape::shape_of;
-use crate::input::cell::tables::{ObstacleTable, PartTable};
+use crate::input::cell::tables::{FloorTable, ObstacleTable, PartTable, PedestalTable};
 use crate::input::problem_log::ProblemLog;
 use crate::input::quantities::pose_mm_deg;
 use crate::input::tables::ToolTable;
@@ -21,6 +23,10 @@ use crate::input::tables::ToolTable;
 pub struct CellTables<'a> {
     /// What stands in the cell.
     pub obstacles: &'a [ObstacleTable],
+    /// What the robot stands on.
+    pub pedestal: Option<&'a PedestalTable>,
+    /// The floor.
+    pub floor: Option<FloorTable>,
     /// The part.
     pub part: Option<&'a PartTable>,
     /// The demanded clearance.
@@ -31,16 +37,10 @@ pub struct CellTables<'a> {
     pub tool_has_bodies: bool,
 }
 
-/// A body with its position in its frame.
-#[derive(Clone, Debug)]
-pub struct NamedShape {
-    /// Its name.
-    pub name: String,
-    /// Its shape.
-    pub shape: Shape,
-    /// From the frame that it is given in.
-    pub frame_from_body: Isometry,
-}
+/// Names of the bodies that a study has once.
+const PART: &str = "part";
+const PEDESTAL: &str = "pedestal";
+pub(super) const FLOOR: &str = "floor";
 
 /// The bodies of a study.
 #[derive(Clone, Debug)]
@@ -53,6 +53,10 @@ pub struct CellBodies {
     pub is_coarse: Vec<bool>,
     /// What stands in the cell, in the reference frame.
     pub obstacles: Vec<NamedShape>,
+    /// What carries the arm or rides with it.
+    pub carried: Vec<CarriedBody>,
+    /// Height of the floor in the reference frame, m.
+    pub floor: Option<f64>,
     /// The part, in its own frame.
     pub part: Option<NamedShape>,
     /// The demanded clearance, m.
@@ -73,36 +77,72 @@ impl CellBodies {
         folder: &Path,
     ) -> Result<Option<CellBodies>, StudyError> {
         let asked = tables.least_clearance_mm.is_some() || tables.part.is_some() || tables.tool_has_bodies;
-        if tables.obstacles.is_empty() && !asked {
+        let around = tables.pedestal.is_some() || tables.floor.is_some() || !tables.obstacles.is_empty();
+        if !asked && !around {
             return Ok(None);
         }
         let before = log.problems.len();
         let mut notes = Vec::new();
-        let mut obstacles: Vec<NamedShape> = Vec::new();
+        refuse_equal_names(log, tables);
+        let (mut obstacles, mut carried) = (Vec::new(), Vec::new());
+        let ground = robot.robot.chain().ground();
         for (index, table) in tables.obstacles.iter().enumerate() {
             let path = format!("obstacle[{index}]");
-            if obstacles.iter().any(|other| other.name == table.name) {
-                let message = format!("two obstacles are called `{}`", table.name);
-                log.problem(&format!("{path}.name"), message, "a name of its own for each");
+            let on = table.on.as_ref();
+            let on = on.map(|joint| joint_in_front(log, &format!("{path}.on"), joint, &robot.robot));
+            let Some(found) = shape_of(log, &path, table.shape(), folder)? else {
+                continue;
+            };
+            notes.extend(found.notes);
+            let body = NamedShape {
+                name: table.name.clone(),
+                shape: found.shape,
+                frame_from_body: pose_or_none(table.base_from_obstacle_mm_deg.as_ref()),
+                table: path,
+            };
+            match on {
+                None if ground.is_base() => obstacles.push(body),
+                None => carried.push(CarriedBody {
+                    body,
+                    attachment: ground.attachment(),
+                    role: Role::Obstacle,
+                }),
+                Some(joint) => carried.extend(joint.map(|attachment| CarriedBody {
+                    body,
+                    attachment,
+                    role: Role::Link,
+                })),
             }
-            if let Some(found) = shape_of(log, &path, table.shape(), folder)? {
-                notes.extend(found.notes);
-                obstacles.push(NamedShape {
-                    name: table.name.clone(),
+        }
+        if let Some(table) = tables.pedestal
+            && let Some(found) = shape_of(log, PEDESTAL, table.shape(), folder)?
+        {
+            notes.extend(found.notes);
+            carried.push(CarriedBody {
+                body: NamedShape {
+                    name: PEDESTAL.to_owned(),
                     shape: found.shape,
-                    frame_from_body: pose_or_none(table.base_from_obstacle_mm_deg.as_ref()),
-                });
-            }
+                    frame_from_body: pose_or_none(table.base_from_pedestal_mm_deg.as_ref()),
+                    table: PEDESTAL.to_owned(),
+                },
+                attachment: under_the_arm(&robot.robot),
+                role: Role::Link,
+            });
+        }
+        let floor = tables.floor.map(|floor| from_mm(floor.height_mm));
+        if let Some(height) = floor.filter(|_| !ground.is_base()) {
+            carried.push(slab(FLOOR, height, ground.attachment()));
         }
         let mut part = None;
         if let Some(table) = tables.part
-            && let Some(found) = shape_of(log, "part", table.shape(), folder)?
+            && let Some(found) = shape_of(log, PART, table.shape(), folder)?
         {
             notes.extend(found.notes);
             part = Some(NamedShape {
-                name: "part".to_owned(),
+                name: PART.to_owned(),
                 shape: found.shape,
                 frame_from_body: pose_or_none(table.part_from_body_mm_deg.as_ref()),
+                table: PART.to_owned(),
             });
         }
         let LinkBodies {
@@ -112,15 +152,52 @@ impl CellBodies {
             notes: of_links,
         } = LinkBodies::of(robot, tables.robot, folder)?;
         notes.extend(of_links);
+        if let Some(least) = tables.least_clearance_mm
+            && links.is_empty()
+            && !tables.tool_has_bodies
+        {
+            let message = format!(
+                "`least_clearance_mm = {least}`, but neither the tool nor a link of {} has a body that could keep it",
+                robot.title
+            );
+            let hint = "[[tool.body]] for spindle and cutter; a robot of the library, or a URDF with its meshes, for the links";
+            log.problem("least_clearance_mm", message, hint);
+        }
         Ok((log.problems.len() == before).then_some(CellBodies {
             links,
             apart,
             is_coarse,
             obstacles,
+            carried,
+            floor: floor.filter(|_| ground.is_base()),
             part,
             least: from_mm(tables.least_clearance_mm.unwrap_or(0.0)),
             notes,
         }))
+    }
+}
+
+/// Reports obstacles with the name of another body.
+fn refuse_equal_names(log: &mut ProblemLog<'_>, tables: &CellTables<'_>) {
+    for (index, table) in tables.obstacles.iter().enumerate() {
+        let earlier = tables.obstacles[..index].iter();
+        let message = if earlier.into_iter().any(|other| other.name == table.name) {
+            format!("two obstacles are called `{}`", table.name)
+        } else if table.name == PEDESTAL && tables.pedestal.is_some()
+            || table.name == FLOOR && tables.floor.is_some()
+        {
+            format!(
+                "an obstacle is called `{}`, as the table [{}]",
+                table.name, table.name
+            )
+        } else {
+            continue;
+        };
+        log.problem(
+            &format!("obstacle[{index}].name"),
+            message,
+            "a name of its own for each",
+        );
     }
 }
 
@@ -156,14 +233,4 @@ pub fn tool_bodies(
 
 fn pose_or_none(pose: Option<&[f64; 6]>) -> Isometry {
     pose.map_or_else(Isometry::identity, pose_mm_deg)
-}
-
-/// A body that stands still, whose frame is at `frame`.
-pub(super) fn fixed(body: &NamedShape, frame: &Isometry, is_part: bool) -> FixedBody {
-    FixedBody {
-        name: body.name.clone(),
-        shape: body.shape.clone(),
-        frame_from_body: frame * body.frame_from_body,
-        is_part,
-    }
 }

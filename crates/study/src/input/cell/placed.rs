@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use armill_core::clearance::{ArmBody, Cell};
+use armill_core::clearance::{ArmBody, Cell, Floor};
 use armill_core::frame::Isometry;
 use armill_core::robot::Robot;
 
 use crate::input::cell::AnalysisCell;
-use crate::input::cell::bodies::{CellBodies, fixed};
+use crate::input::cell::bodies::{CellBodies, FLOOR};
 
 /// Where the frames of a study are.
 #[derive(Clone, Copy, Debug)]
@@ -30,11 +30,11 @@ pub fn placed_cell(
     let obstacles = bodies
         .obstacles
         .iter()
-        .map(|body| fixed(body, frames.base_from_reference, false));
+        .map(|body| body.fixed(frames.base_from_reference, false));
     let part = bodies
         .part
         .iter()
-        .map(|body| fixed(body, &Isometry::identity(), true));
+        .map(|body| body.fixed(&Isometry::identity(), true));
     let still: Vec<_> = obstacles.chain(part).collect();
     let coarse = bodies
         .is_coarse
@@ -44,13 +44,24 @@ pub fn placed_cell(
     let of_tool = bodies.links.len()..bodies.links.len() + tool.len();
     let unchecked = coarse.flat_map(|(link, _)| of_tool.clone().map(move |body| [link, body]));
     let apart: Vec<[usize; 2]> = bodies.apart.iter().copied().chain(unchecked).collect();
-    let arm = bodies.links.iter().cloned().chain(tool).collect();
-    let cell = Cell::new(robot, frames.flange_from_tool, arm, &apart, &still);
+    let carried = bodies
+        .carried
+        .iter()
+        .map(|body| body.placed(robot, frames.base_from_reference));
+    let arm = bodies.links.iter().cloned().chain(tool).chain(carried).collect();
+    let mut cell = Cell::new(robot, frames.flange_from_tool, arm, &apart, &still);
+    let of_floor = |height: f64| frames.base_from_reference * Isometry::translation(0.0, 0.0, height);
+    let base_from_floor = bodies.floor.map(of_floor);
+    if let Some(plane) = &base_from_floor {
+        cell = cell.with_floor(Floor::below(FLOOR, plane, robot));
+    }
     let cell = cell.for_clearance(robot, frames.flange_from_tool, bodies.least);
     AnalysisCell {
         cell: Arc::new(cell),
+        carried: bodies.carried.len(),
         still,
         base_from_part: *frames.base_from_part,
+        base_from_floor,
         least: bodies.least,
     }
 }

@@ -5,11 +5,21 @@ use std::sync::Arc;
 
 use armill_core::clearance::{Mesh, Shape};
 use armill_core::nalgebra::Point3;
+use armill_core::units::to_mm;
 use armill_formats::mesh::{self, MeshUnit, TriangleMesh, likely_unit};
 
 use crate::error::StudyError;
 use crate::input::cell::tables::ShapeKeys;
 use crate::input::problem_log::ProblemLog;
+use crate::number::decimals;
+
+/// Sizes of a mesh that are expected, m: others have another unit.
+const LEAST_SIZE: f64 = 1e-3;
+const GREATEST_SIZE: f64 = 100.0;
+
+fn shown_mm(m: f64) -> f64 {
+    decimals(to_mm(m), 3)
+}
 
 /// A shape, and what a user should know of it.
 pub struct BodyShape {
@@ -105,6 +115,18 @@ fn from_file(
     let Some(metres) = unit_of(log, path, file, keys, &read) else {
         return Ok(None);
     };
+    let longest = read.longest_side() * metres;
+    if !(LEAST_SIZE..=GREATEST_SIZE).contains(&longest) {
+        let message = format!(
+            "the longest side of `{file}` is {} mm: sizes from {} mm to {} mm are expected",
+            shown_mm(longest),
+            shown_mm(LEAST_SIZE),
+            shown_mm(GREATEST_SIZE)
+        );
+        let hint = "is its unit right? mesh_unit = \"mm\", \"m\" or \"inch\" replaces that of the file";
+        log.problem(&format!("{path}.mesh"), message, hint);
+        return Ok(None);
+    }
     let report = read.report();
     let Some(mesh) = mesh_of(&read, [metres; 3], report.is_closed) else {
         log.problem(

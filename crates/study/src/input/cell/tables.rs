@@ -1,4 +1,4 @@
-//! Tables of bodies: `[[obstacle]]`, `[[tool.body]]`, `[part]`.
+//! Tables of bodies: `[[obstacle]]`, `[pedestal]`, `[floor]`, `[[tool.body]]`, `[part]`.
 //!
 //! Each repeats the five keys of a shape: a table that refuses unknown keys cannot take some of them from another one (`flatten` of serde).
 
@@ -27,6 +27,39 @@ pub struct ObstacleTable {
     /// axes x, y, z in degrees.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub base_from_obstacle_mm_deg: Option<[f64; 6]>,
+    /// The joint in front of the arm that moves it, such as that of a rail, by name or number; it stands still if left out. Its position is
+    /// that where these joints are at 0.
+    #[schemars(length(min = 1, max = 60))]
+    pub on: Option<String>,
+}
+
+/// What the robot stands on: fixed under its base, and moved with it by a rail.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PedestalTable {
+    /// A box along the axes, between two opposite corners.
+    pub box_mm: Option<BoxTable>,
+    /// A cylinder with flat ends.
+    pub cylinder_mm: Option<RoundTable>,
+    /// A cylinder with half balls as ends.
+    pub capsule_mm: Option<RoundTable>,
+    /// A mesh: STL, OBJ, PLY, 3MF or DAE file relative to the study.
+    pub mesh: Option<String>,
+    /// Unit of the mesh, where its file does not give it.
+    pub mesh_unit: Option<MeshUnitName>,
+    /// Its position: reference frame of the study to the frame of its coordinates, x, y, z in mm, then rotations about the fixed
+    /// axes x, y, z in degrees; of a robot on a rail where the rail is at 0.
+    #[schemars(inner(range(min = -1e6, max = 1e6)))]
+    pub base_from_pedestal_mm_deg: Option<[f64; 6]>,
+}
+
+/// The floor: all below a height is solid.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FloorTable {
+    /// Its z in the reference frame of the study.
+    #[schemars(range(min = -1e6, max = 1e6))]
+    pub height_mm: f64,
 }
 
 /// A body that moves with the tool.
@@ -131,4 +164,4 @@ macro_rules! shape_keys {
     )*};
 }
 
-shape_keys!(ObstacleTable, ToolBodyTable, PartTable);
+shape_keys!(ObstacleTable, PedestalTable, ToolBodyTable, PartTable);

@@ -2,9 +2,10 @@
 //!
 //! It contains its pictures and needs no other file.
 //!
-//! The chapters of the kinds of analysis are theirs; those of the study: `statements`, `inputs` with `cut`
+//! The chapters of the kinds of analysis are theirs; those of the study: `statements`, `clearance`, `inputs` with `cut`
 //! (`sources`: where their numbers come from).
 
+mod clearance;
 mod cut;
 mod inputs;
 mod sources;
@@ -65,6 +66,7 @@ pub(super) fn html(
             .section("Volumes")
             .table(&analysis::volume::report::table(&answer.volumes));
     }
+    report = clearance::add_section(report, answer);
     if let Some(given) = &answer.measured {
         report = report.section("Measurement and prediction");
         report = report.paragraph(&crate::output::budget::in_words(given));
