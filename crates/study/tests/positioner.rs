@@ -222,16 +222,19 @@ fn errors_of_a_positioner_are_reported_at_their_positions() {
     assert!(error.contains("no frame `table`"), "{error}");
 }
 
-/// A part of 100 mm by 500 mm on the table, in front of a low wall of the cell whose face is 100 mm behind the axis.
+/// A line above a part of 100 mm by 500 mm on the table, which is turned to this angle; 100 mm behind its axis is the
+/// face of a low wall. Coordinates are relative to the table at home.
 fn walled(turn: f64) -> String {
-    let cell = "least_clearance_mm = 5\n\
-                [[obstacle]]\nname = \"wall\"\nbox_mm = { from = [1100, -400, 500], to = [1120, 400, 540] }\n\
-                [part]\nbox_mm = { from = [-50, -250, -180], to = [50, 250, -140] }\n";
-    let text = format!("{cell}{}", positioner(&format!("[0, {turn}]")));
-    // The frame of the part is 200 mm above the table.
-    study("base = \"table\"", "[0, 0, 200]", "[0, 0, 0]", "")
-        .replace("half_size_mm = 100", "half_size_mm = 0")
-        + &text
+    format!(
+        "format = 1\nrobot = \"yaskawa/mh12\"\ntolerance_um = 60\nbase = \"table\"\nleast_clearance_mm = 5\n\
+         plane = {{ centre_mm = [0, 0, 200], rotation_deg = [0, 0, 0], half_size_mm = 50, step_mm = 50 }}\n\
+         load = {{ cases_n = [[3, -5, 5]] }}\n\
+         [[obstacle]]\nname = \"wall\"\nbox_mm = {{ from = [100, -400, 0], to = [120, 400, 40] }}\n\
+         [part]\nbox_mm = {{ from = [-50, -250, -180], to = [50, 250, -140] }}\n\
+         [posture]\nhome_deg = [{turn}, 0, 0, 0, 0, 0, 0, 0]\n\
+         [[analysis]]\nkind = \"path\"\nname = \"line\"\nline = {{ from_mm = [-5, 0], to_mm = [5, 0] }}\nstep_mm = 5\n{}",
+        positioner("[0, 0]")
+    )
 }
 
 #[test]
@@ -241,31 +244,29 @@ fn obstacles_stand_in_the_cell_while_the_table_turns_the_part() {
     for turn in [0.0, 5.0, 10.0] {
         let (sin, cos) = f64::to_radians(turn).sin_cos();
         let expected = 100.0 - (50.0 * cos + 250.0 * sin);
-        let answer = answered(&folder, &walled(turn));
-        let map = &answer.maps[0];
-        assert_eq!(map.counts.in_collision, 0);
-        let least = map.least_clearance_mm.unwrap();
+        let path = answered(&folder, &walled(turn)).paths.remove(0);
+        let least = path.least_clearance_mm.unwrap();
         assert!(
             (least - expected).abs() < 1e-3,
             "{turn} deg: {least} {expected} mm"
         );
-        let mut nearest = map.nearest.clone().unwrap();
+        let mut nearest = path.nearest.unwrap();
         nearest.sort();
         assert_eq!(nearest, ["part", "wall"]);
     }
-    let touching = answered(&folder, &walled(30.0));
-    assert_eq!(touching.maps[0].counts.in_collision, 1);
+    let touching = answered(&folder, &walled(30.0)).paths.remove(0);
+    assert_eq!(touching.in_collision, 3);
 }
 
 #[test]
-fn the_floor_stays_below_a_tilting_table() {
+fn the_floor_stays_where_it_is_below_a_table() {
     let folder = cell("positioner-floor", "", "");
-    // A plate of 400 mm by 400 mm, 20 mm thick, at the table, whose origin is 500 mm above its root.
-    let at = |tilt: f64| {
+    // A part of 400 mm by 400 mm that hangs down to 490 mm below the origin of the table, which is 500 mm above base_link.
+    let at = |height: f64| {
         let text = format!(
-            "least_clearance_mm = 1\n[floor]\nheight_mm = -100\n\
-             [part]\nbox_mm = {{ from = [-200, -200, -200], to = [200, 200, -180] }}\n{}",
-            positioner(&format!("[{tilt}, 0]"))
+            "least_clearance_mm = 1\n[floor]\nheight_mm = {height}\n\
+             [part]\nbox_mm = {{ from = [-200, -200, -690], to = [200, 200, -180] }}\n{}",
+            positioner("[0, 0]")
         );
         let study = study("base = \"table\"", "[0, 0, 200]", "[0, 0, 0]", "");
         answered(
@@ -273,26 +274,14 @@ fn the_floor_stays_below_a_tilting_table() {
             &(study.replace("half_size_mm = 100", "half_size_mm = 0") + &text),
         )
     };
-    for tilt in [0.0, 20.0] {
-        let (sin, cos) = f64::to_radians(tilt).sin_cos();
-        // The tilt axis is at 400 mm; the lower edge of the plate is 200 mm to its side and 100 mm above it.
-        let lowest = 400.0 + 100.0 * cos - 200.0 * sin;
-        let map = &at(tilt).maps[0];
-        let nearest = map.nearest.clone().unwrap();
-        let (least, expected) = (map.least_clearance_mm.unwrap(), lowest + 100.0);
-        // Another pair may be nearer; the floor is never.
-        assert!(least <= expected + 1e-3, "{tilt}: {least} {expected} {nearest:?}");
-    }
-    // Tilted far, the plate reaches into a floor that is at the height of the tilt axis less 100 mm.
-    let text = format!(
-        "least_clearance_mm = 1\n[floor]\nheight_mm = 300\n\
-         [part]\nbox_mm = {{ from = [-200, -200, -200], to = [200, 200, -180] }}\n{}",
-        positioner("[60, 0]")
+    let map = &at(-520.0).maps[0];
+    assert!(
+        (map.least_clearance_mm.unwrap() - 30.0).abs() < 1e-3,
+        "{:?}",
+        map.least_clearance_mm
     );
-    let low = study("base = \"table\"", "[0, 0, 200]", "[0, 0, 0]", "");
-    let low = answered(
-        &folder,
-        &(low.replace("half_size_mm = 100", "half_size_mm = 0") + &text),
-    );
-    assert_eq!(low.maps[0].counts.in_collision, 1);
+    let mut nearest = map.nearest.clone().unwrap();
+    nearest.sort();
+    assert_eq!(nearest, ["floor", "part"]);
+    assert_eq!(at(-480.0).maps[0].counts.in_collision, 1);
 }

@@ -39,8 +39,10 @@ pub fn scallop(end: RoundedEnd, lean: Lean, stepover: f64) -> Option<f64> {
             false => to = middle,
         }
     }
-    let height = profile.height(from).min(profile.height(from - stepover)) - profile.height(lowest);
-    height.is_finite().then_some(height.max(0.0))
+    // Where the passes overlap, both profiles are there.
+    let both = [from, from - stepover].map(|y| profile.height(y));
+    let is_covered = both.iter().all(|height| height.is_finite());
+    is_covered.then(|| (both[0].min(both[1]) - profile.height(lowest)).max(0.0))
 }
 
 /// The profile of a pass across the feed: the ring of a corner in the plane across the feed.

@@ -131,7 +131,7 @@ impl CellBodies {
         }
         let floor = tables.floor.map(|floor| from_mm(floor.height_mm));
         if let Some(height) = floor.filter(|_| !ground.is_base()) {
-            carried.push(slab(FLOOR, height, ground.attachment()));
+            carried.push(slab(height, ground.attachment()));
         }
         let mut part = None;
         if let Some(table) = tables.part

@@ -18,6 +18,7 @@ use armill_core::nalgebra::{self, Point3};
 use armill_core::robot::forward::forward;
 use armill_core::robot::{Attachment, Robot};
 
+use crate::input::cell::bodies::FLOOR;
 use crate::input::cell::named_shape::NamedShape;
 use crate::input::problem_log::ProblemLog;
 
@@ -33,6 +34,11 @@ pub struct CarriedBody {
 }
 
 impl CarriedBody {
+    /// Whether it is the floor.
+    pub(super) fn is_floor(&self) -> bool {
+        self.role == Role::Obstacle && self.body.table == FLOOR
+    }
+
     /// The body with its frame.
     pub(super) fn placed(&self, robot: &Robot, base_from_reference: &Isometry) -> ArmBody {
         let base_from_body = base_from_reference * self.body.frame_from_body;
@@ -67,21 +73,28 @@ pub(super) fn under_the_arm(robot: &Robot) -> Attachment {
     in_front(robot).last().map_or(ground, Attachment::Joint)
 }
 
+/// Whether a link is the base of the arm, its first link, or carries them: above the floor by design.
+pub(super) fn is_near_the_ground(body: &ArmBody, robot: &Robot) -> bool {
+    let ground = robot.chain().ground().joints;
+    let first_of_arm = in_front(robot).end;
+    matches!(body.attachment, Attachment::Joint(joint) if joint + 1 >= ground && joint <= first_of_arm)
+}
+
 /// The thickness and half the width of the floor where it is a body, m.
 const SLAB: [f64; 2] = [1.0, 6.0];
 
 /// The floor at this height (m, reference frame) as a body of the ground.
-pub(super) fn slab(name: &str, height: f64, ground: Attachment) -> CarriedBody {
+pub(super) fn slab(height: f64, ground: Attachment) -> CarriedBody {
     let [thickness, half] = SLAB;
     CarriedBody {
         body: NamedShape {
-            name: name.to_owned(),
+            name: FLOOR.to_owned(),
             shape: Shape::Box(Bounds::of([
                 Point3::new(-half, -half, -thickness),
                 Point3::new(half, half, 0.0),
             ])),
             frame_from_body: Isometry::translation(0.0, 0.0, height),
-            table: name.to_owned(),
+            table: FLOOR.to_owned(),
         },
         attachment: ground,
         role: Role::Obstacle,

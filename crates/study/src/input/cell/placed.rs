@@ -8,6 +8,7 @@ use armill_core::robot::Robot;
 
 use crate::input::cell::AnalysisCell;
 use crate::input::cell::bodies::{CellBodies, FLOOR};
+use crate::input::cell::carried::is_near_the_ground;
 
 /// Where the frames of a study are.
 #[derive(Clone, Copy, Debug)]
@@ -43,7 +44,23 @@ pub fn placed_cell(
         .filter(|(_, is_coarse)| **is_coarse);
     let of_tool = bodies.links.len()..bodies.links.len() + tool.len();
     let unchecked = coarse.flat_map(|(link, _)| of_tool.clone().map(move |body| [link, body]));
-    let apart: Vec<[usize; 2]> = bodies.apart.iter().copied().chain(unchecked).collect();
+    let first_carried = of_tool.end;
+    let slabs = bodies.carried.iter().enumerate();
+    let slabs = slabs
+        .filter(|(_, body)| body.is_floor())
+        .map(|(index, _)| first_carried + index);
+    let above = slabs.flat_map(|slab| {
+        let near = bodies.links.iter().enumerate();
+        let near = near.filter(|(_, body)| is_near_the_ground(body, robot));
+        near.map(move |(link, _)| [link, slab])
+    });
+    let apart: Vec<[usize; 2]> = bodies
+        .apart
+        .iter()
+        .copied()
+        .chain(unchecked)
+        .chain(above)
+        .collect();
     let carried = bodies
         .carried
         .iter()
