@@ -1833,6 +1833,11 @@ export interface components {
              * @description Largest change of either along the path; 0.5 if left out.
              */
             deg_per_mm?: number | null;
+            /**
+             * Format: double
+             * @description Distance of neighbouring passes, for the height of the scallops between them.
+             */
+            stepover_mm?: number | null;
             /** @description The end of the tool, where the study has no cut. */
             cutter?: components["schemas"]["EndTable"] | null;
         };
@@ -1851,9 +1856,9 @@ export interface components {
         };
         /** @description An external axis that moves along the path. */
         AxisTable: {
-            /** @description Name of its joint in the robot file: a prismatic joint that carries the robot. */
+            /** @description Name of its joint: one that carries the robot, or one of the positioner. */
             joint: string;
-            /** @description First and last position; the limits of the joint if left out. */
+            /** @description First and last position of a prismatic joint; its limits if left out. */
             range_mm?: [
                 number,
                 number
@@ -1868,6 +1873,21 @@ export interface components {
              * @description Largest motion along the path; 1 if left out.
              */
             mm_per_mm?: number | null;
+            /** @description First and last position of a revolute joint; its limits if left out. */
+            range_deg?: [
+                number,
+                number
+            ] | null;
+            /**
+             * Format: double
+             * @description Step between positions; 5 if left out.
+             */
+            step_deg?: number | null;
+            /**
+             * Format: double
+             * @description Largest motion along the path; 1 if left out.
+             */
+            deg_per_mm?: number | null;
             /**
              * @description Whether it stands still within a cut and moves between cuts alone.
              * @default false
@@ -2526,7 +2546,7 @@ export interface components {
         CellInScene: {
             /** @description Bodies of the arm and of the tool; their poses are in the drawing of each posture, in this order. */
             arm: components["schemas"]["BodyInScene"][];
-            /** @description What stands still: obstacles, then the part. */
+            /** @description What stands still: obstacles, then the part, then a piece of the floor. */
             still: components["schemas"]["StillBodyInScene"][];
             /**
              * Format: double
@@ -3727,6 +3747,11 @@ export interface components {
                 number,
                 number
             ] | null;
+            /**
+             * Format: double
+             * @description Greatest height of the scallops between passes; null if the tool may not lean, or its stepover is not given.
+             */
+            scallop_um: number | null;
             /** @description The external axes that may move, and how far they do. */
             axes: components["schemas"]["MovedAxisAnswer"][];
             /**
@@ -3763,10 +3788,12 @@ export interface components {
             /** @description Name of its joint. */
             joint: string;
             /** @description Least and greatest chosen position. */
-            range_mm: [
+            range: [
                 number,
                 number
             ];
+            /** @description `mm` or `deg`. */
+            unit: string;
         };
         /** @description Statistics of a path. */
         StatisticsAnswer: {
@@ -4942,7 +4969,7 @@ export interface components {
                 number,
                 number
             ];
-            /** @description The arm as a line: from its base through the joints and the flange to the TCP. */
+            /** @description The arm as a line: from its base through its joints and the flange to the TCP; without the joints of a positioner. */
             links_mm: [
                 number,
                 number,

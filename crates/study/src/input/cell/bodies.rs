@@ -11,7 +11,7 @@ use armill_formats::robot::RobotDescription;
 use crate::error::StudyError;
 use crate::input::cell::carried::{CarriedBody, joint_in_front, slab, under_the_arm};
 use crate::input::cell::links::LinkBodies;
-use crate::input::cell::named_shape::NamedShape;
+use crate::input::cell::named_shape::{FLOOR, NamedShape};
 use crate::input::cell::shape::shape_of;
 use crate::input::cell::tables::{FloorTable, ObstacleTable, PartTable, PedestalTable};
 use crate::input::problem_log::ProblemLog;
@@ -40,7 +40,6 @@ pub struct CellTables<'a> {
 /// Names of the bodies that a study has once.
 const PART: &str = "part";
 const PEDESTAL: &str = "pedestal";
-pub(super) const FLOOR: &str = "floor";
 
 /// The bodies of a study.
 #[derive(Clone, Debug)]

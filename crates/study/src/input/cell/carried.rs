@@ -18,8 +18,7 @@ use armill_core::nalgebra::{self, Point3};
 use armill_core::robot::forward::forward;
 use armill_core::robot::{Attachment, Robot};
 
-use crate::input::cell::bodies::FLOOR;
-use crate::input::cell::named_shape::NamedShape;
+use crate::input::cell::named_shape::{FLOOR, NamedShape};
 use crate::input::problem_log::ProblemLog;
 
 /// A body that carries the arm or rides with it.

@@ -3,6 +3,9 @@
 use armill_core::clearance::{FixedBody, Shape};
 use armill_core::frame::Isometry;
 
+/// Name of the floor among the bodies.
+pub(super) const FLOOR: &str = "floor";
+
 /// A body with its position in its frame.
 #[derive(Clone, Debug)]
 pub struct NamedShape {

@@ -7,8 +7,9 @@ use armill_core::frame::Isometry;
 use armill_core::robot::Robot;
 
 use crate::input::cell::AnalysisCell;
-use crate::input::cell::bodies::{CellBodies, FLOOR};
+use crate::input::cell::bodies::CellBodies;
 use crate::input::cell::carried::is_near_the_ground;
+use crate::input::cell::named_shape::FLOOR;
 
 /// Where the frames of a study are.
 #[derive(Clone, Copy, Debug)]
