@@ -9,6 +9,17 @@ use armill_core::robot::{BranchPattern, Robot};
 /// Name of the frame on the robot's floor plane, which every robot has.
 pub const BASE_LINK: &str = "base_link";
 
+/// Name of the table of a positioner as a reference frame.
+pub const TABLE: &str = "table";
+
+/// Name of the base of the chain: the table of a positioner, if one carries the part.
+pub fn base_name(robot: &Robot) -> &'static str {
+    match robot.chain().ground().is_base() {
+        true => BASE_LINK,
+        false => TABLE,
+    }
+}
+
 /// The frame `name` that coordinates count from, in base. If a positioner carries the part, base is its table, and
 /// `base_link` is where the base of the robot is as seen from there, with the positioner at home.
 ///

@@ -28,11 +28,8 @@ use crate::file::format::PositionerTable;
 use crate::input::problem_log::ProblemLog;
 use crate::input::quantities::pose_mm_deg;
 use crate::joint_unit::joint_positions;
-use crate::naming::BASE_LINK;
+use crate::naming::{BASE_LINK, TABLE};
 use crate::robots;
-
-/// The name of its table as a reference frame.
-pub const TABLE: &str = "table";
 
 /// A positioner that was found, and where it stands.
 pub(super) struct FoundPositioner {

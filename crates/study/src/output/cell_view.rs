@@ -16,6 +16,7 @@ use crate::analysis::rows::Rows;
 use crate::error::StudyError;
 use crate::file_names::slug;
 use crate::input::cell::links::LinkBodies;
+use crate::naming::base_name;
 
 /// Half the edge of the piece of the floor that is drawn, m.
 const FLOOR_HALF: f64 = 50.0;
@@ -88,9 +89,10 @@ pub(super) fn least_clearance(name: &str, robot: &Robot, series: &[Rows<'_>]) ->
         "TCP at ({x:.0}, {y:.0}, {z:.0}) mm relative to {}",
         setting.base_name
     );
+    let base = base_name(robot);
     let view = CellView {
         title: format!("{name}: least clearance, {label}"),
-        subtitle: format!("{first} and {second}; {place}; coordinates of the picture relative to base_link"),
+        subtitle: format!("{first} and {second}; {place}; coordinates of the picture relative to {base}"),
         bodies,
         line_mm: line(robot, joints, &setting.flange_from_tool),
         floor_mm: of_analysis.base_from_floor.as_ref().map(floor),
