@@ -33,25 +33,28 @@ fn compensated(robot: &str, text: &str, program: &str) -> (tempfile::TempDir, Ou
          tool = {{ flange_from_tool_mm_deg = [0, 0, 200, 0, 0, 0] }}\n{text}"
     );
     std::fs::write(folder.path().join("study.toml"), study).unwrap();
-    let output = Command::new(env!("CARGO_BIN_EXE_armill"))
-        .current_dir(folder.path())
-        .args([
-            "compensate",
-            "study.toml",
-            "--nominal",
-            "--out",
-            "out",
-            "--program",
-            program,
-        ])
-        .args(["--retract-mm", "30", "--feed-mm-per-min", "120"])
-        .output()
-        .unwrap();
+    let output = written(
+        folder.path(),
+        program,
+        &["--retract-mm", "30", "--feed-mm-per-min", "120"],
+    );
     (folder, output)
 }
 
+/// Writes the nominal path of the study in this folder as a program.
+pub fn written(folder: &Path, program: &str, more: &[&str]) -> Output {
+    let to = ["--nominal", "--out", "out", "--program", program];
+    Command::new(env!("CARGO_BIN_EXE_armill"))
+        .current_dir(folder)
+        .args(["compensate", "study.toml"])
+        .args(to)
+        .args(more)
+        .output()
+        .unwrap()
+}
+
 /// The events of the program that was written into the folder.
-fn events(language: Language, folder: &Path, output: &Output) -> Vec<Event> {
+pub fn events(language: Language, folder: &Path, output: &Output) -> Vec<Event> {
     assert!(
         output.status.success(),
         "{}",
@@ -280,20 +283,7 @@ fn a_rail_is_an_external_axis_of_kuka_and_refused_by_yaskawa() {
             place(&text)
         );
         std::fs::write(folder.path().join("study.toml"), study).unwrap();
-        let output = Command::new(env!("CARGO_BIN_EXE_armill"))
-            .current_dir(folder.path())
-            .args([
-                "compensate",
-                "study.toml",
-                "--nominal",
-                "--out",
-                "out",
-                "--program",
-                program,
-            ])
-            .args(["--feed-mm-per-min", "600"])
-            .output()
-            .unwrap();
+        let output = written(folder.path(), program, &["--feed-mm-per-min", "600"]);
         let said = String::from_utf8_lossy(&output.stderr).into_owned();
         assert_eq!(output.status.success(), is_written, "{said}");
         if !is_written {
@@ -333,20 +323,7 @@ fn a_rail_that_moves_along_the_path_is_in_the_program_at_every_point() {
          [controller]\nhome_deg = [1200, 0, -100, 110, 0, 80, 0]\n"
     );
     std::fs::write(folder.path().join("study.toml"), study).unwrap();
-    let output = Command::new(env!("CARGO_BIN_EXE_armill"))
-        .current_dir(folder.path())
-        .args([
-            "compensate",
-            "study.toml",
-            "--nominal",
-            "--out",
-            "out",
-            "--program",
-            "p/part.src",
-        ])
-        .args(["--feed-mm-per-min", "600"])
-        .output()
-        .unwrap();
+    let output = written(folder.path(), "p/part.src", &["--feed-mm-per-min", "600"]);
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(output.status.success(), "{said}");
     let all = events(Language::Krl, folder.path(), &output);

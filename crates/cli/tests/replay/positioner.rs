@@ -1,12 +1,12 @@
 //! Programs of a part on a turntable or a two-axis positioner: each target on the table, and where the tool then is in front
 //! of the robot.
 
-use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 
+use crate::cells::{events, written};
 use crate::event::{Action, Event, LinearMove};
 use crate::pose::{Pose, distance};
-use crate::replay::{Language, run_folder};
+use crate::replay::Language;
 
 /// Turns about z at 400 mm above its root, against the right hand.
 const TURNTABLE: &str = r#"format = 1
@@ -55,20 +55,7 @@ fn compensated(robot: &str, text: &str, program: &str) -> (tempfile::TempDir, Ou
     };
     std::fs::write(folder.path().join("study.toml"), study + assumed).unwrap();
     std::fs::write(folder.path().join("table.toml"), TURNTABLE).unwrap();
-    let output = Command::new(env!("CARGO_BIN_EXE_armill"))
-        .current_dir(folder.path())
-        .args([
-            "compensate",
-            "study.toml",
-            "--nominal",
-            "--out",
-            "out",
-            "--program",
-            program,
-        ])
-        .args(["--feed-mm-per-min", "1200"])
-        .output()
-        .unwrap();
+    let output = written(folder.path(), program, &["--feed-mm-per-min", "1200"]);
     (folder, output)
 }
 
@@ -77,12 +64,6 @@ fn moving() -> String {
         "{RING}[positioner]\nrobot = \"table.toml\"\nbase_from_root_mm_deg = {ROOT:?}\njoints_deg = [0]\n\
          [posture.search]\nstep_deg = 15\naxes = [{{ joint = \"turn\", step_deg = 5, range_deg = [-360, 360] }}]\n"
     )
-}
-
-fn events(language: Language, folder: &Path, output: &Output) -> Vec<Event> {
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{said}");
-    run_folder(language, &folder.join("p"), "part").unwrap_or_else(|error| panic!("{language:?}: {error}"))
 }
 
 fn linears(all: &[Event]) -> Vec<&LinearMove> {

@@ -53,6 +53,22 @@ impl Positioner<'_> {
         self.robot.joints().len()
     }
 
+    /// Its motions read from the table back, up to the base of the arm.
+    fn motions_from_table(&self) -> Vec<Motion> {
+        let own = self.robot.chain().motions().iter().rev();
+        let own = own.map(|motion| backwards(motion, self.joints()));
+        own.chain(constants(&self.base_from_root.inverse())).collect()
+    }
+
+    /// The ground in the whole chain.
+    fn ground(&self) -> Ground {
+        let joints = self.joints();
+        Ground {
+            joints,
+            joint_from_ground: last_joint_from_end(&self.motions_from_table(), joints),
+        }
+    }
+
     /// The table in the base of the arm at these joint positions, rad (m).
     pub fn base_from_table(&self, q: &[f64]) -> Isometry {
         let theta: Vec<f64> = (0..self.joints())
@@ -66,16 +82,10 @@ impl Positioner<'_> {
         let count = self.joints();
         let joint = match attachment {
             Attachment::Base => {
-                let root = constants(&self.base_from_root.inverse());
-                let motions = self.robot.chain().motions().iter().rev();
-                let motions: Vec<Motion> = motions
-                    .map(|motion| backwards(motion, count))
-                    .chain(root)
-                    .collect();
-                let joint_from_ground = last_joint_from_end(&motions, count);
+                let ground = self.ground();
                 return (
-                    moved(Attachment::Base, count),
-                    joint_from_ground * self.base_from_root,
+                    ground.attachment(),
+                    ground.joint_from_ground * self.base_from_root,
                 );
             }
             Attachment::Joint(joint) => joint,
@@ -103,22 +113,13 @@ impl Robot {
                 joint: joint.name.clone(),
             });
         }
-        let mut motions: Vec<Motion> = own
-            .chain()
-            .motions()
-            .iter()
-            .rev()
-            .map(|motion| backwards(motion, count))
-            .collect();
-        motions.extend(constants(&positioner.base_from_root.inverse()));
-        let ground = Ground {
-            joints: count,
-            joint_from_ground: last_joint_from_end(&motions, count),
-        };
+        let (mut motions, ground) = (positioner.motions_from_table(), positioner.ground());
         motions.extend(self.chain().motions().iter().map(|motion| after(motion, count)));
         let joints = own.joints().iter().rev().map(reversed);
         let joints = joints.chain(self.joints().iter().map(|joint| behind(joint, count)));
-        let chain = Chain::new(motions)?.with_ground(ground);
+        let chain = Chain::new(motions)?
+            .with_ground(ground)
+            .with_external(count + self.chain().external());
         let mut robot = Robot::of_chain(self.name(), chain, joints.collect())?;
         if let Some(compliance) = self.compliance() {
             let of_positioner = own.compliance().map_or_else(

@@ -19,7 +19,7 @@ use armill_core::robot::RobotError;
 use armill_core::robot::model::NamedFrame;
 use armill_core::robot::positioner::{Positioner, moved};
 use armill_core::robot::{Attachment, Mass, Robot};
-use armill_core::units::{from_mm, to_deg, to_mm};
+use armill_core::units::from_mm;
 use armill_formats::robot::{BodyNote, JointNote, RobotDescription};
 use armill_formats::sources::Source;
 
@@ -27,7 +27,7 @@ use crate::error::StudyError;
 use crate::file::format::PositionerTable;
 use crate::input::problem_log::ProblemLog;
 use crate::input::quantities::pose_mm_deg;
-use crate::joint_unit::joint_positions;
+use crate::joint_unit::{JointUnit, joint_positions};
 use crate::naming::{BASE_LINK, TABLE};
 use crate::robots;
 
@@ -109,13 +109,12 @@ fn check_limits(log: &mut ProblemLog<'_>, positioner: &Robot, home: &[f64]) {
     let Some((joint, outside)) = positioner.limit_margin(home).filter(|(_, margin)| *margin < 0.0) else {
         return;
     };
-    let name = &positioner.joints()[joint].name;
-    let beyond = if positioner.slides(joint) {
-        format!("{:.1} mm", to_mm(-outside))
-    } else {
-        format!("{:.1} deg", -to_deg(outside))
-    };
-    let message = format!("the positioner's joint {name} is {beyond} outside its range");
+    let (name, unit) = (&positioner.joints()[joint].name, JointUnit::of(positioner, joint));
+    let beyond = -outside * unit.scale;
+    let message = format!(
+        "the positioner's joint {name} is {beyond:.1} {} outside its range",
+        unit.name
+    );
     let hint = "see `armill robots FILE` for its limits";
     log.problem("positioner.joints_deg", message, hint);
 }

@@ -181,13 +181,9 @@ pub(super) fn axes(log: &mut ProblemLog<'_>, tables: &[AxisTable], robot: &Robot
 fn axis(log: &mut ProblemLog<'_>, key: &str, table: &AxisTable, robot: &Robot) -> Option<MovingAxis> {
     let joint = external_joint(log, key, table, robot)?;
     let unit = JointUnit::of(robot, joint);
-    let own = match robot.slides(joint) {
-        true => table.in_mm(),
-        false => table.in_deg(),
-    };
-    let other = match robot.slides(joint) {
-        true => table.in_deg(),
-        false => table.in_mm(),
+    let (own, other) = match robot.slides(joint) {
+        true => (table.in_mm(), table.in_deg()),
+        false => (table.in_deg(), table.in_mm()),
     };
     if let Some(given) = other.given() {
         let kind = if robot.slides(joint) {

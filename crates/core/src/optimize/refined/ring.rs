@@ -2,21 +2,19 @@
 
 use std::f64::consts::{PI, TAU};
 
-use nalgebra::{Point2, Point3, Vector3};
+use nalgebra::{Point2, Point3};
 
+use super::tests::{load, question, tool};
 use super::*;
 use crate::arms;
 use crate::frame::Isometry;
 use crate::kernel::{BranchChoice, Evaluation};
-use crate::load::{LoadCases, LoadFrame, PathLoad};
 use crate::map::{along_postures, obstacles};
 use crate::optimize::posture::tests::{FEED, search, track};
 use crate::optimize::{MovingAxis, Steps, postures_along};
 use crate::path::Shape;
 use crate::robot::positioner::Positioner;
 use crate::robot::{Amount, Axis, Joint, JointCompliance, Motion, Robot};
-use crate::source::{Arm, StiffnessModel};
-use crate::spatial::Wrench;
 
 /// The arm in front of a turntable with its axis at this x (m), and with this speed limit (rad/s).
 fn with_table(x: f64, most: Option<f64>) -> Robot {
@@ -39,13 +37,6 @@ fn with_table(x: f64, most: Option<f64>) -> Robot {
     arms::mh12().on_positioner(&standing, "base_link").unwrap()
 }
 
-fn load() -> PathLoad {
-    PathLoad::Cases(LoadCases {
-        frame: LoadFrame::Feed,
-        cases: vec![Wrench::from_force(Vector3::new(-80.0, 30.0, 10.0))],
-    })
-}
-
 /// A ring about the axis of the table; in base, which is the table.
 fn ring(radius: f64, step: f64) -> Track {
     let circle = Shape::Circle {
@@ -53,20 +44,6 @@ fn ring(radius: f64, step: f64) -> Track {
         radius,
     };
     track(circle.sampled(step), Point3::new(0.0, 0.0, 0.1))
-}
-
-fn tool() -> Isometry {
-    crate::frame::from_xyz_and_fixed_angles(Vector3::new(0.1, 0.0, 0.15), Vector3::new(0.0, PI / 2.0, 0.0))
-}
-
-fn question<'a>(robot: &'a Robot, tool: &'a Isometry) -> Question<'a> {
-    let arm = Arm {
-        robot,
-        compliance: robot.compliance().unwrap(),
-        flange_from_tool: tool,
-        model: StiffnessModel::DRIVES,
-    };
-    Question::unloaded(arm, None)
 }
 
 /// A table that turns by this step, rad, once around in either direction.

@@ -26,7 +26,7 @@ fn on_rail() -> Robot {
     moved.with_compliance(compliance).unwrap()
 }
 
-fn load() -> PathLoad {
+pub(super) fn load() -> PathLoad {
     PathLoad::Cases(LoadCases {
         frame: LoadFrame::Feed,
         cases: vec![Wrench::from_force(Vector3::new(-80.0, 30.0, 10.0))],
@@ -70,7 +70,7 @@ fn lean(step: f64, count: usize) -> LeanRange {
     }
 }
 
-fn question<'a>(robot: &'a Robot, tool: &'a crate::frame::Isometry) -> Question<'a> {
+pub(super) fn question<'a>(robot: &'a Robot, tool: &'a crate::frame::Isometry) -> Question<'a> {
     let arm = Arm {
         robot,
         compliance: robot.compliance().unwrap(),
@@ -80,7 +80,7 @@ fn question<'a>(robot: &'a Robot, tool: &'a crate::frame::Isometry) -> Question<
     Question::unloaded(arm, None)
 }
 
-fn tool() -> crate::frame::Isometry {
+pub(super) fn tool() -> crate::frame::Isometry {
     crate::frame::from_xyz_and_fixed_angles(Vector3::new(0.1, 0.0, 0.15), Vector3::new(0.0, PI / 2.0, 0.0))
 }
 

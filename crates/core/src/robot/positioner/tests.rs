@@ -316,6 +316,7 @@ fn weight_loads_the_joints_of_the_positioner_as_the_derivative_of_its_energy() {
             let expected = -(at(step) - at(-step)) / (2.0 * step);
             let sign = -positioner.joints()[joint].sign.factor();
             let found = of_whole.gravity_torques()[1 - joint] * sign;
+            // Of some 500 N m: the truncation of the difference is 1e-8 of it, its rounding less.
             assert!(
                 (found - expected).abs() < 1e-5 * 500.0,
                 "joint {joint}: {found} {expected} N m"
@@ -433,6 +434,14 @@ fn a_turntable_may_carry_the_arm() {
     assert!(!robot.is_external(0));
     let robot = robot.with_external_joints(1).unwrap();
     assert!(robot.is_external(0) && robot.inverse().has_branches());
+    // On a positioner it stays an external axis, behind those of the positioner.
+    let positioner = two_axes();
+    let whole = both(&robot, &positioner);
+    let names: Vec<&str> = whole
+        .external_axes()
+        .map(|axis| whole.joints()[axis].name.as_str())
+        .collect();
+    assert_eq!(names, ["swing", "tilt", "turn"]);
     let error = robot.with_external_joints(7).unwrap_err();
     assert_eq!(error, RobotError::AllExternal { joints: 7 });
 }
