@@ -7,7 +7,7 @@
 //! `chosen`: the path; `objective`: what placements are compared by; `freedom`: free degrees; `rail`: the joint that is one; `search`: from spread placements to the best; `certificate`:
 //! whether grids contain a better one; `followed`: turns of the joints and forces along the path there; `rounds`: all of that for every fixture and margin; [`journal`]: state of an
 //! interrupted search; [`answer`]: the values of the result; `result`: the study at the placement; `pictures`;
-//! [`evaluate`]: scores of given placements. Theory: `docs/theory/placement.md`.
+//! [`evaluate`]: scores of given placements; `leaning`: all of that where the tool leans or external axes move along the path. Theory: `docs/theory/placement.md`.
 //!
 //! If fixtures are given each is searched separately, and the best is used. For the margin to limits and singularities
 //! the search is repeated for several margins, with the previous placement as an additional start.
@@ -20,6 +20,7 @@ mod fixture;
 mod followed;
 mod freedom;
 pub mod journal;
+mod leaning;
 mod objective;
 mod pictures;
 mod rail;
@@ -130,6 +131,7 @@ impl<'a> PlacementSearch<'a> {
                 "posture.search.turns_deg bounds the spin of holes",
             ));
         }
+        leaning::check(&table, free_search(analysis, holes.is_some()), &study.robot.robot)?;
         let faults = table.faults();
         if let Some((_, _, hint)) = faults.first() {
             let messages: Vec<&str> = faults.iter().map(|(_, message, _)| message.as_str()).collect();
@@ -196,7 +198,15 @@ impl<'a> PlacementSearch<'a> {
             SearchDepth::Brief => 0,
         };
         let sites = self.table.fixture.len().max(1);
+        if self.free_search().is_some() {
+            return sites * leaning::PLACEMENTS;
+        }
         sites * (effort.most() + margins * effort.cheaper().most() + effort.grid)
+    }
+
+    /// What is free along the path, if the tool leans or external axes move.
+    fn free_search(&self) -> Option<&'a PostureSearch> {
+        free_search(self.analysis, self.is_of_holes())
     }
 
     fn effort(&self) -> Effort {
@@ -226,6 +236,9 @@ impl<'a> PlacementSearch<'a> {
         watch: Watch<'_>,
         given: &dyn Fn(&str),
     ) -> Result<PlacementResult, StudyError> {
+        if let Some(search) = self.free_search() {
+            return self.search_leaning(search, journal, (watch, given));
+        }
         let quiet = Watch {
             finished: &|_| (),
             ..watch
@@ -240,15 +253,7 @@ impl<'a> PlacementSearch<'a> {
         let some: Vec<usize> = all.iter().copied().step_by(stride).collect();
         let on_part =
             |indices: &[usize]| on_part(LoadedTrack { track, load: &load }, objective.component, indices);
-        let question = runner.question(&self.analysis.setting);
-        // The placement of the result is rounded.
-        let question = Question {
-            clearance: question.clearance.map(|demanded| DemandedClearance {
-                least: demanded.least + ROUNDED,
-                ..demanded
-            }),
-            ..question
-        };
+        let question = with_room(runner.question(&self.analysis.setting));
         let (all, some) = (on_part(&all), on_part(&some));
         let followed = FollowedPath {
             question: &question,
@@ -395,6 +400,7 @@ impl<'a> PlacementSearch<'a> {
             points: track.len(),
             demanded_clearance_mm: setting.cell.as_ref().map(|cell| decimals(to_mm(cell.least), 4)),
             rounds_taken_up,
+            searched_along: 0,
             tool_turns_with_part: turn == ToolTurn::WithPart
                 && !matches!(track.placing.spin, Spin::AlongFeed(_)),
         })
@@ -471,5 +477,22 @@ impl<'a> PlacementSearch<'a> {
             freedom: at(fixture),
         });
         sites.collect()
+    }
+}
+
+/// What is free along a path, if the tool leans or external axes move.
+fn free_search(analysis: &PathAnalysis, is_of_holes: bool) -> Option<&PostureSearch> {
+    let search = analysis.setting.search.as_ref().filter(|_| !is_of_holes)?;
+    (search.lean.is_some() || !search.axes.is_empty()).then_some(search)
+}
+
+/// The question with a little more clearance: the placement of a result is rounded.
+fn with_room(question: Question<'_>) -> Question<'_> {
+    Question {
+        clearance: question.clearance.map(|demanded| DemandedClearance {
+            least: demanded.least + ROUNDED,
+            ..demanded
+        }),
+        ..question
     }
 }
