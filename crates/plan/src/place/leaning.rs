@@ -12,13 +12,14 @@ use armill_core::kernel::{PartPlacement, Question};
 use armill_core::load::PathLoad;
 use armill_core::map::along_postures;
 use armill_core::optimize::{
-    FollowedTrack, FreePath, Gain, PlacementEvaluation, PlacementObjective, PostureSearch, Score, ToolTurn,
-    gain_along, on_part, postures_along,
+    FollowedTrack, FreePath, Gain, PlacementEvaluation, PlacementObjective, PostureSearch, Score, gain_along,
+    on_part, postures_along,
 };
 use armill_core::path::LoadedTrack;
 use armill_core::robot::{Robot, Unreachable};
 use armill_core::units::{to_deg, to_mm, to_um};
 use armill_core::watch::{Cancelled, Watch};
+use armill_study::analysis::path::PathAnalysis;
 use armill_study::analysis::path::answer::search::{component_name, objective_name};
 use armill_study::analysis::runner::Runner;
 use armill_study::error::StudyError;
@@ -27,7 +28,7 @@ use armill_study::number::decimals;
 
 use super::answer::{OutcomeAnswer, PlacementAnswer, rank_by_name};
 use super::certificate::{CertificateAnswer, GridAnswer};
-use super::followed::{Outcome, PathConflicts, PathThere};
+use super::followed::{Outcome, PathConflicts, PathThere, with_room};
 use super::freedom::Freedom;
 use super::journal::{Fingerprint, Journal};
 use super::objective::objective;
@@ -35,7 +36,6 @@ use super::rail::{home_at, rail_of};
 use super::result::PlacementResult;
 use super::rounds::{Best, Site};
 use super::search::{Spot, apart, sobol};
-use super::{PlacementSearch, with_room};
 
 /// Placements of the quick score, spread over all that is free.
 const SPREAD: usize = 512;
@@ -93,22 +93,41 @@ struct LeaningSearch<'a> {
     given: &'a dyn Fn(&str),
 }
 
-impl PlacementSearch<'_> {
-    /// [`PlacementSearch::search`] with what `search` permits along the path.
-    pub(super) fn search_leaning(
+/// What is placed, and what may move.
+pub(super) struct LeaningRequest<'a> {
+    pub robot: &'a Robot,
+    /// Index and name of the analysis, and its path.
+    pub named: (usize, &'a str, &'a PathAnalysis),
+    pub table: &'a PlaceTable,
+    pub search: &'a PostureSearch,
+    pub sites: &'a [Site<'a>],
+    /// The placement of the study.
+    pub nominal: &'a Freedom,
+    pub seed: u64,
+}
+
+impl LeaningRequest<'_> {
+    /// The result, without `home_deg` and `forces_stay`, and its placement.
+    pub fn result(
         &self,
-        search: &PostureSearch,
         journal: &mut Journal<'_>,
         (watch, given): (Watch<'_>, &dyn Fn(&str)),
-    ) -> Result<PlacementResult, StudyError> {
+    ) -> Result<(PlacementResult, PartPlacement), StudyError> {
+        let LeaningRequest {
+            robot,
+            named: (index, name, analysis),
+            search,
+            sites,
+            ..
+        } = *self;
         let quiet = Watch {
             finished: &|_| (),
             ..watch
         };
-        let (robot, setting) = (&self.study.robot.robot, &self.analysis.setting);
+        let setting = &analysis.setting;
         let runner = Runner::new(robot, quiet)?;
-        let (load, _) = runner.pushed(self.analysis)?;
-        let mut objective = objective(&self.table, self.analysis, Some(search), robot)?;
+        let (load, _) = runner.pushed(analysis)?;
+        let mut objective = objective(self.table, analysis, Some(search), robot)?;
         if self.table.margin_deg.is_none() {
             objective.margin = search.margin;
         }
@@ -120,9 +139,8 @@ impl PlacementSearch<'_> {
             wrist: objective.wrist,
             ..search.clone()
         };
-        let track = &self.analysis.track;
+        let track = &analysis.track;
         let question = with_room(runner.question(setting));
-        let sites = self.sites(ToolTurn::of(track));
         let leaning = LeaningSearch {
             free: FreePath {
                 question: &question,
@@ -130,7 +148,7 @@ impl PlacementSearch<'_> {
                 search: &search,
             },
             objective,
-            sites: &sites,
+            sites,
             seed: self.seed,
             watch,
             given,
@@ -143,10 +161,14 @@ impl PlacementSearch<'_> {
         print.take(&self.seed.to_le_bytes());
         journal.take_up(print.value());
         let best = leaning.best(journal)?;
-        let Site { name, freedom } = &sites[best.site];
+        let Site {
+            name: fixture,
+            freedom,
+        } = &sites[best.site];
+        let placement = freedom.part_placement(&best.spot.at);
         let at = |placement: &PartPlacement| outcome(&leaning.free, objective, placement, quiet);
-        let nominal = at(&self.nominal().part_placement(&[]))?;
-        let recommended = at(&freedom.part_placement(&best.spot.at))?;
+        let nominal = at(&self.nominal.part_placement(&[]))?;
+        let recommended = at(&placement)?;
         let [before, after] = [&nominal, &recommended].map(|outcome| outcome.evaluation.score);
         let gain = match before.unreachable + after.unreachable {
             0 => gain_between(&question, [&nominal, &recommended], &load, quiet)?,
@@ -166,7 +188,7 @@ impl PlacementSearch<'_> {
         };
         let answer = PlacementAnswer {
             format: 1,
-            analysis: self.name.to_owned(),
+            analysis: name.to_owned(),
             component: component_name(objective.component),
             objective: objective_name(objective.objective),
             margin_deg: decimals(to_deg(objective.margin), 4),
@@ -178,8 +200,8 @@ impl PlacementSearch<'_> {
             gain_um: to_um(gain.by()),
             gain_u_um: gain.uncertainty.map(to_um),
             least_gain_um: to_um(gain.required(least)),
-            fixture: name.map(str::to_owned),
-            home_deg: place.rail_mm.and_then(|rail| self.home_with_rail(rail)),
+            fixture: fixture.map(str::to_owned),
+            home_deg: None,
             place,
             free: freedom.reported(&best.spot.at),
             certificate: CertificateAnswer {
@@ -187,7 +209,7 @@ impl PlacementSearch<'_> {
                 wide: grid,
             },
             by_margin: Vec::new(),
-            forces_stay: self.forces_stay(&freedom.part_placement(&best.spot.at)),
+            forces_stay: false,
             seed: self.seed,
             points: track.len(),
             demanded_clearance_mm: setting.cell.as_ref().map(|cell| decimals(to_mm(cell.least), 4)),
@@ -198,13 +220,14 @@ impl PlacementSearch<'_> {
             },
             tool_turns_with_part: false,
         };
-        Ok(PlacementResult {
+        let result = PlacementResult {
             answer,
             pictures: Vec::new(),
-            analysis: self.index,
+            analysis: index,
             is_of_holes: false,
             with_part: None,
-        })
+        };
+        Ok((result, placement))
     }
 }
 

@@ -35,8 +35,7 @@ pub use freedom::{FreeAnswer, PlaceAnswer};
 pub use journal::Journal;
 pub use result::PlacementResult;
 
-use armill_core::clearance::DemandedClearance;
-use armill_core::kernel::{BranchChoice, PartPlacement, Question};
+use armill_core::kernel::{BranchChoice, PartPlacement};
 use armill_core::load::{LoadFrame, PathLoad};
 use armill_core::nalgebra::{Point3, UnitQuaternion, Vector3};
 use armill_core::optimize::{PlacementObjective, PostureSearch, ToolTurn, on_part};
@@ -57,8 +56,9 @@ use armill_study::number::decimals;
 use self::answer::rank_by_name;
 use self::chosen::chosen;
 use self::fixture::plane_of;
-use self::followed::{FollowedPath, Outcome};
+use self::followed::{FollowedPath, Outcome, with_room};
 use self::freedom::Freedom;
+use self::leaning::LeaningRequest;
 use self::objective::objective;
 use self::rail::{check_rail, home_at, rail_of};
 use self::rounds::{Best, FoundPlacements, MARGINS_DEG, Prepared, Site, SiteSearch};
@@ -68,8 +68,6 @@ use self::search::Effort;
 const USUAL_MM: f64 = 300.0;
 /// Points of a long path.
 const LONG: usize = 50_000;
-/// Places that are rounded as in a result are nearer to bodies by less than this, m: 0.05 µm, and 0.00005 deg at 5 m.
-const ROUNDED: f64 = 5e-6;
 /// A part that is turned by less is not turned, rad.
 const TURNED: f64 = 1e-6;
 
@@ -237,7 +235,20 @@ impl<'a> PlacementSearch<'a> {
         given: &dyn Fn(&str),
     ) -> Result<PlacementResult, StudyError> {
         if let Some(search) = self.free_search() {
-            return self.search_leaning(search, journal, (watch, given));
+            let turn = ToolTurn::of(&self.analysis.track);
+            let request = LeaningRequest {
+                robot: &self.study.robot.robot,
+                named: (self.index, self.name, self.analysis),
+                table: &self.table,
+                search,
+                sites: &self.sites(turn),
+                nominal: &self.nominal(),
+                seed: self.seed,
+            };
+            let (mut found, placement) = request.result(journal, (watch, given))?;
+            found.answer.home_deg = (found.answer.place.rail_mm).and_then(|rail| self.home_with_rail(rail));
+            found.answer.forces_stay = self.forces_stay(&placement);
+            return Ok(found);
         }
         let quiet = Watch {
             finished: &|_| (),
@@ -484,15 +495,4 @@ impl<'a> PlacementSearch<'a> {
 fn free_search(analysis: &PathAnalysis, is_of_holes: bool) -> Option<&PostureSearch> {
     let search = analysis.setting.search.as_ref().filter(|_| !is_of_holes)?;
     (search.lean.is_some() || !search.axes.is_empty()).then_some(search)
-}
-
-/// The question with a little more clearance: the placement of a result is rounded.
-fn with_room(question: Question<'_>) -> Question<'_> {
-    Question {
-        clearance: question.clearance.map(|demanded| DemandedClearance {
-            least: demanded.least + ROUNDED,
-            ..demanded
-        }),
-        ..question
-    }
 }
