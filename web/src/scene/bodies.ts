@@ -132,6 +132,11 @@ const material = (): THREE.MeshStandardMaterial => new THREE.MeshStandardMateria
 
 const count = (geometry: THREE.BufferGeometry): number => (geometry.index?.count ?? geometry.getAttribute("position")?.count ?? 0) / 3;
 
+/** The frame at this position. */
+export function matrixOf({ xyz_mm, quaternion_wxyz: [w, x, y, z] }: BodyPose): THREE.Matrix4 {
+  return new THREE.Matrix4().compose(new THREE.Vector3(...xyz_mm), new THREE.Quaternion(x, y, z, w), new THREE.Vector3(1, 1, 1));
+}
+
 function place({ solid, edges }: Drawn, { xyz_mm, quaternion_wxyz: [w, x, y, z] }: BodyPose): void {
   for (const object of [solid, edges]) {
     object.position.set(...xyz_mm);

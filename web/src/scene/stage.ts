@@ -29,11 +29,15 @@ export class Stage {
   readonly labels: Labels;
   readonly size = new THREE.Vector2(1, 1);
   private readonly ground = new THREE.Group();
+  private readonly lights = new THREE.Group();
   /** Whether an object is in front of a label of this group at this point. */
   covered: (group: string, at: THREE.Vector3) => boolean = () => false;
   /** Called before each frame is drawn. */
   before: () => void = () => {};
   private ground_key = "";
+  /** From the ground to the base; only where a positioner moves the table is it not the same. */
+  private base_from_ground = new THREE.Matrix4();
+  private ticks: { text: string; at: THREE.Vector3 }[] = [];
   private requested = false;
   private readonly by_card: boolean;
   private rests: ReturnType<typeof setTimeout> | undefined;
@@ -108,15 +112,38 @@ export class Stage {
       const geometry = new THREE.BufferGeometry().setFromPoints([new THREE.Vector3(), to]);
       this.ground.add(new THREE.Line(geometry, new THREE.LineBasicMaterial({ color: shade(`--axis-${axis}`) })));
     }
-    this.ground.position.z = height;
-    this.labels.group("ground");
+    this.ground.children.forEach((child) => (child.position.z = height));
+    this.ticks = [];
     for (let at = 500; at <= half; at += half > 2500 ? 1000 : 500) {
       const last = at + 500 > half;
-      this.labels.add("ground", new THREE.Vector3(at, 0, height), last ? `x ${at} mm` : String(at), "tick");
-      this.labels.add("ground", new THREE.Vector3(0, at, height), last ? `y ${at} mm` : String(at), "tick");
-      if (at <= half * 0.9) this.labels.add("ground", new THREE.Vector3(0, 0, height + at), `z ${at}`, "tick");
+      this.ticks.push({ text: last ? `x ${at} mm` : String(at), at: new THREE.Vector3(at, 0, height) }, { text: last ? `y ${at} mm` : String(at), at: new THREE.Vector3(0, at, height) });
+      if (at <= half * 0.9) this.ticks.push({ text: `z ${at}`, at: new THREE.Vector3(0, 0, height + at) });
     }
+    this.labelGround();
     this.draw();
+  }
+
+  /** Where the ground is, on which robot and observer stand: in the picture it stands still, and the table of a positioner turns. */
+  standOn(base_from_ground: THREE.Matrix4): void {
+    const moved = base_from_ground.clone().multiply(this.base_from_ground.clone().invert());
+    if (moved.elements.every((value, i) => Math.abs(value - (i % 5 === 0 ? 1 : 0)) < 1e-9)) return;
+    this.base_from_ground.copy(base_from_ground);
+    this.ground.matrixAutoUpdate = false;
+    this.ground.matrix.copy(base_from_ground);
+    this.lights.matrixAutoUpdate = false;
+    this.lights.matrix.copy(base_from_ground);
+    this.labelGround();
+    this.camera.position.applyMatrix4(moved);
+    this.controls.target.applyMatrix4(moved);
+    this.camera.up.set(0, 0, 1).transformDirection(base_from_ground);
+    orbitAbout(this.controls, this.camera.up);
+    this.controls.update();
+    this.draw();
+  }
+
+  private labelGround(): void {
+    this.labels.group("ground");
+    for (const { text, at } of this.ticks) this.labels.add("ground", at.clone().applyMatrix4(this.base_from_ground), text, "tick");
   }
 
   /** Ground and axes; hidden where they would be in front of the plate. */
@@ -136,7 +163,8 @@ export class Stage {
       top: new THREE.Vector3(-0.0001, 0, 1),
       plate: plate ? plate.normal.clone().addScaledVector(plate.up, 0.0001) : new THREE.Vector3(-1, 0, 0.0001),
     };
-    this.aim(target, radius, from[view].normalize());
+    const direction = from[view].normalize();
+    this.aim(target, radius, view === "plate" ? direction : direction.transformDirection(this.base_from_ground));
   }
 
   /** All of the subject, from the present direction. */
@@ -165,7 +193,8 @@ export class Stage {
     key.position.set(-900, -1600, 2600);
     const rim = new THREE.DirectionalLight(0xdde8ff, 0.8);
     rim.position.set(1800, 1500, 900);
-    this.scene.add(sky, key, rim);
+    this.lights.add(sky, key, rim);
+    this.scene.add(this.lights);
   }
 
   private resize(): void {
@@ -183,4 +212,11 @@ export class Stage {
 function isProcessor(gl: WebGLRenderingContext | WebGL2RenderingContext): boolean {
   const info = gl.getExtension("WEBGL_debug_renderer_info");
   return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(String(gl.getParameter(info?.UNMASKED_RENDERER_WEBGL ?? gl.RENDERER)));
+}
+
+/** Orbits about another vertical direction, which the controls take from the camera only when they are made. */
+function orbitAbout(controls: OrbitControls, up: THREE.Vector3): void {
+  const own = controls as unknown as { _quat: THREE.Quaternion; _quatInverse: THREE.Quaternion };
+  own._quat.setFromUnitVectors(up, new THREE.Vector3(0, 1, 0));
+  own._quatInverse.copy(own._quat).invert();
 }

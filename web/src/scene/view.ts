@@ -10,7 +10,7 @@ import { sharesOf } from "../shares";
 import type { At, Body, Line, Plate, Vec3 } from "../types";
 import { Arm } from "./arm";
 import { Arrow } from "./arrows";
-import { Bodies } from "./bodies";
+import { Bodies, matrixOf } from "./bodies";
 import { BodyMeshes } from "./body-meshes";
 import { shade } from "./colour";
 import { isCovered } from "./covered";
@@ -205,6 +205,7 @@ export class SceneView {
     // At an unreachable point it stays faintly at its last position.
     if (!drawing) this.arm.ghost(true);
     for (const hidden of [this.force, this.deviation, this.in_plane, this.normal, this.ellipsoid]) hidden.group.visible = false;
+    if (drawing) this.stage.standOn(matrixOf(drawing.ground));
     if (drawing && this.new_subject) {
       this.new_subject = false;
       this.stage.floor(0, this.reach());

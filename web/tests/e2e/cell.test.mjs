@@ -141,3 +141,79 @@ test("a path into the fence: its points in collision have a colour, and the poin
   assert.deepEqual(page.complaints, []);
   await page.context().close();
 });
+
+/** A ring on a turntable in front of the robot. */
+const TURNTABLE = `format = 1
+title = "A ring on a turntable"
+robot = "kuka/kr210r2700extra"
+tolerance_um = 500
+base = "table"
+tool = { flange_from_tool_mm_deg = [0, 0, 200, 0, 0, 0] }
+plane = { centre_mm = [0, 0, 50], tilt_deg = 90, half_size_mm = 100, step_mm = 50 }
+
+[[obstacle]]
+name = "wall"
+box_mm = { from = [-2600, 1200, -500], to = [1000, 1300, 1500] }
+
+[[analysis]]
+kind = "path"
+name = "ring"
+load = { frame = "feed", cases_n = [[0, 0, 50]] }
+circle = { radius_mm = 900 }
+step_mm = 200
+
+[positioner]
+robot = "table.toml"
+base_from_root_mm_deg = [2300, 150, 0, 0, 0, 20]
+joints_deg = [0]
+
+[posture.search]
+step_deg = 30
+axes = [{ joint = "turn", range_deg = [-360, 360], deg_per_mm = 1 }]
+`;
+const TABLE = `format = 1
+name = "Turntable"
+chain = { source = "made-up", motions = [{ along = "z", length_mm = 400 }, { about = "z", joint = "turn" }, { along = "z", length_mm = 100 }] }
+
+[[joint]]
+name = "turn"
+sign = -1
+limits_deg = [-360, 360]
+max_speed_deg_per_s = 90
+source = "made-up"
+compliance_rad_per_n_m = 2e-7
+compliance_source = "made-up"
+
+[sources.made-up]
+what = "all"
+where = "this test"
+licence = "none needed"
+`;
+
+test("the ground stands still in the picture while a turntable turns the part", async () => {
+  const own = await serve(() => TURNTABLE);
+  writeFileSync(join(own.folder, "table.toml"), TABLE);
+  const page = await open(browser, own.url, { answers: false });
+  const table = () => page.locator(".bars.joints").innerText();
+  const ticks = () => page.locator(".label.tick").evaluateAll((all) => all.map((label) => [label.textContent, ...label.style.transform.match(/-?[\d.]+/g).map(Number)]));
+  try {
+    await settled(page);
+    await page.locator(".charts").focus();
+    await page.keyboard.press("Home");
+    await settled(page);
+    const [first, turned_first] = [await ticks(), await table()];
+    await page.keyboard.press("End");
+    await settled(page);
+    assert.notEqual(await table(), turned_first);
+    const last = await ticks();
+    assert.ok(first.length > 6);
+    first.forEach((tick, i) => {
+      assert.equal(last[i][0], tick[0]);
+      for (const k of [1, 2]) assert.ok(Math.abs(last[i][k] - tick[k]) < 1, `${tick} ${last[i]}`);
+    });
+    assert.deepEqual(page.complaints, []);
+  } finally {
+    await page.context().close();
+    await own.stop();
+  }
+});

@@ -2,7 +2,8 @@
 
 use nalgebra::{Unit, Vector3};
 
-use crate::clearance::{ClearanceCheck, DemandedClearance};
+use crate::clearance::{ClearanceCheck, DemandedClearance, PlacedCell};
+use crate::frame::Isometry;
 use crate::load::InputUncertainty;
 use crate::robot::BranchPattern;
 use crate::source::Arm;
@@ -48,6 +49,21 @@ impl<'a> Question<'a> {
         let count = self.arm.robot.joints().len();
         let of_point = self.homes.map(|homes| &homes[index * count..][..count]);
         of_point.or(self.home)
+    }
+
+    /// The demanded clearance with the frame of the part here in base.
+    pub fn clearance_with_part_at<'p>(
+        &'p self,
+        base_from_part: &'p Isometry,
+    ) -> Option<DemandedClearance<'p>> {
+        let demanded = self.clearance?;
+        Some(DemandedClearance {
+            placed: PlacedCell {
+                base_from_part,
+                ..demanded.placed
+            },
+            ..demanded
+        })
     }
 
     /// A check of the demanded clearance, if there is one.

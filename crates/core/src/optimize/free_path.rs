@@ -12,7 +12,7 @@ use super::placement::Score;
 use super::posture_search::{Objective, PostureSearch};
 use super::walk::WITHIN;
 use super::window::Window;
-use crate::clearance::{ClearanceAlong, DemandedClearance, PlacedCell};
+use crate::clearance::ClearanceAlong;
 use crate::kernel::{Column, Columns, PartPlacement, Question};
 use crate::path::LoadedTrack;
 use crate::watch::{Cancelled, Watch};
@@ -53,22 +53,10 @@ impl FreePath<'_> {
         placements.par_iter().map(score).collect()
     }
 
-    /// The demanded clearance with the part at this placement.
-    pub fn clearance_at<'p>(&'p self, placement: &'p PartPlacement) -> Option<DemandedClearance<'p>> {
-        let demanded = self.question.clearance?;
-        Some(DemandedClearance {
-            placed: PlacedCell {
-                base_from_part: &placement.base_from_part,
-                ..demanded.placed
-            },
-            ..demanded
-        })
-    }
-
     fn quick_score(&self, placement: &PartPlacement, points: &[usize]) -> Score {
         let LoadedTrack { track, load } = self.path;
         let question = Question {
-            clearance: self.clearance_at(placement),
+            clearance: self.question.clearance_with_part_at(&placement.base_from_part),
             ..*self.question
         };
         let there = track.moved(placement.base_from_part, placement.spin);

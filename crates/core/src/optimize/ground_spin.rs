@@ -13,18 +13,18 @@
 //! Spin zero is that of [`tool_orientation`]: y of the tool next to y of the frame. Spins relative to the feed, and those of a
 //! program, turn with the part already.
 
-use nalgebra::{Rotation3, Unit, Vector3};
+use nalgebra::{Unit, UnitQuaternion, Vector3};
 
 use crate::frame::tool_orientation;
 use crate::path::{Spin, Track};
 use crate::robot::Robot;
-use crate::robot::forward::forward;
+use crate::robot::forward::base_from_ground;
 
 /// What the positioner adds to the spins of a search.
 pub(super) struct GroundSpin<'a> {
     robot: &'a Robot,
     /// The ground in base at home; none where spins are relative to the part.
-    at_home: Option<Rotation3<f64>>,
+    at_home: Option<UnitQuaternion<f64>>,
 }
 
 impl<'a> GroundSpin<'a> {
@@ -33,7 +33,7 @@ impl<'a> GroundSpin<'a> {
         let turns = !robot.chain().ground().is_base() && matches!(track.placing.spin, Spin::Fixed(_));
         GroundSpin {
             robot,
-            at_home: turns.then(|| base_from_ground(robot, &robot.home(home))),
+            at_home: turns.then(|| base_from_ground(robot, &robot.home(home)).rotation),
         }
     }
 
@@ -42,22 +42,14 @@ impl<'a> GroundSpin<'a> {
     pub fn at(&self, home: &[f64], axis: &Vector3<f64>) -> f64 {
         self.at_home.map_or(0.0, |at_home| {
             let axis = Unit::new_normalize(*axis);
-            let here = base_from_ground(self.robot, home);
+            let here = base_from_ground(self.robot, home).rotation;
             ahead(&here, axis) - ahead(&at_home, axis)
         })
     }
 }
 
-fn base_from_ground(robot: &Robot, home: &[f64]) -> Rotation3<f64> {
-    robot
-        .chain()
-        .ground()
-        .in_base(&forward(robot, home).base_from_joint)
-        .rotation
-}
-
 /// From spin zero in base to spin zero in the ground, about the tool axis, rad.
-fn ahead(base_from_ground: &Rotation3<f64>, axis: Unit<Vector3<f64>>) -> f64 {
+fn ahead(base_from_ground: &UnitQuaternion<f64>, axis: Unit<Vector3<f64>>) -> f64 {
     let in_ground = Unit::new_unchecked(base_from_ground.inverse() * axis.into_inner());
     let x = base_from_ground * (tool_orientation(in_ground, 0.0) * Vector3::x());
     let in_base = tool_orientation(axis, 0.0);
@@ -73,12 +65,12 @@ mod tests {
     fn spins_follow_a_turn_about_the_tool_and_no_other() {
         let down = Unit::new_normalize(-Vector3::z());
         for angle in [-2.0, -0.3, 0.0, 1.2, 3.0] {
-            let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), angle);
+            let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), angle);
             let expected = turn * (tool_orientation(down, 0.0) * Vector3::x());
             let spun = tool_orientation(down, ahead(&turn, down)) * Vector3::x();
             assert!((spun - expected).norm() < 1e-14, "{angle}");
         }
-        let tilt = Rotation3::from_axis_angle(&Vector3::x_axis(), 0.4);
+        let tilt = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), 0.4);
         let axis = Unit::new_unchecked(tilt * -Vector3::z());
         let spun = tool_orientation(axis, ahead(&tilt, axis)) * Vector3::x();
         assert!((spun - tilt * (tool_orientation(down, 0.0) * Vector3::x())).norm() < 1e-14);

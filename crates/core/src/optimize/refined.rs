@@ -301,4 +301,6 @@ fn nothing(track: &Track, seen: &Seen) -> PostureFound {
 #[cfg(test)]
 mod ring;
 #[cfg(test)]
+mod several_axes;
+#[cfg(test)]
 mod tests;

@@ -47,6 +47,15 @@ pub fn forward(robot: &Robot, q: &[f64]) -> Frames {
     frames
 }
 
+/// The ground ([`Ground`](super::ground::Ground)) in the base at joint positions `q` (rad, m).
+///
+/// # Panics
+/// If `q` has fewer entries than the robot has joints.
+pub fn base_from_ground(robot: &Robot, q: &[f64]) -> Isometry {
+    let frames = forward(robot, q);
+    nalgebra::convert(robot.chain().ground().in_base(&frames.base_from_joint))
+}
+
 /// [`forward`] into existing frames.
 pub fn forward_into(robot: &Robot, q: &[f64], frames: &mut Frames) {
     chain_forward_into(robot.chain(), |index| robot.theta(index, q), frames);

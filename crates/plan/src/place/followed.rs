@@ -11,8 +11,9 @@
 //!
 //! Holes are single points; of them the score is the result.
 
-use armill_core::clearance::{Conflict, DemandedClearance, PlacedCell};
+use armill_core::clearance::{Conflict, DemandedClearance};
 use armill_core::kernel::{BranchChoice, PartPlacement, PlacedPath, Question, evaluate};
+use armill_core::load::PathLoad;
 use armill_core::map::{along_postures, turns_along};
 use armill_core::nalgebra::{UnitQuaternion, Vector3};
 use armill_core::optimize::{
@@ -111,7 +112,7 @@ impl FollowedPath<'_> {
             cases: &[Wrench::ZERO],
             choice: choice_of(score, objective.branches),
             home: home.as_deref().or(self.question.home),
-            clearance: self.clearance_at(placement),
+            clearance: self.question.clearance_with_part_at(&placement.base_from_part),
             ..*self.question
         };
         let track = self.path.track.moved(placement.base_from_part, placement.spin);
@@ -170,7 +171,10 @@ impl FollowedPath<'_> {
                 choice: choice_of(&score, objective.branches),
                 home: home.as_deref().or(self.question.home),
                 // Scores of named branches have it.
-                clearance: self.clearance_at(placement).filter(|_| score.branch.is_none()),
+                clearance: self
+                    .question
+                    .clearance_with_part_at(&placement.base_from_part)
+                    .filter(|_| score.branch.is_none()),
                 ..*self.question
             };
             let there = track.moved(placement.base_from_part, placement.spin);
@@ -228,7 +232,7 @@ impl FollowedPath<'_> {
         let home = self.home(placement);
         let question = Question {
             home: home.as_deref().or(self.question.home),
-            clearance: self.clearance_at(placement),
+            clearance: self.question.clearance_with_part_at(&placement.base_from_part),
             ..*self.question
         };
         let there = track.moved(placement.base_from_part, placement.spin);
@@ -288,26 +292,8 @@ impl FollowedPath<'_> {
     /// # Errors
     /// Cancelled by the watch.
     pub fn gain(&self, before: &Outcome, after: &Outcome) -> Result<Gain, Cancelled> {
-        let PlacementObjective {
-            component, objective, ..
-        } = after.objective;
-        if let (Some(from), Some(to)) = (&before.there, &after.there) {
-            let followed = [from, to].map(|there| FollowedTrack {
-                path: LoadedTrack {
-                    track: &there.track,
-                    load: self.path.load,
-                },
-                choices: &there.choices,
-                home: there.home.as_deref(),
-            });
-            // Both keep their clearance, each with the part at its own place.
-            let question = Question {
-                clearance: None,
-                ..*self.question
-            };
-            return gain_along(&question, followed, (component, objective), self.watch);
-        }
-        Ok(self.gain_of_scores(before, after))
+        let followed = gain_of_paths(self.question, self.path.load, [before, after], self.watch)?;
+        Ok(followed.unwrap_or_else(|| self.gain_of_scores(before, after)))
     }
 
     /// The same by the scores of the search, which take each point by itself.
@@ -333,18 +319,6 @@ impl FollowedPath<'_> {
         }
     }
 
-    /// The demanded clearance with the part at this placement.
-    fn clearance_at<'p>(&'p self, placement: &'p PartPlacement) -> Option<DemandedClearance<'p>> {
-        let demanded = self.question.clearance?;
-        Some(DemandedClearance {
-            placed: PlacedCell {
-                base_from_part: &placement.base_from_part,
-                ..demanded.placed
-            },
-            ..demanded
-        })
-    }
-
     /// The home positions of the redundant joints at a placement of the rail; `None` where they are those of the study.
     fn home(&self, placement: &PartPlacement) -> Option<Vec<f64>> {
         let Question { arm, home, .. } = self.question;
@@ -362,4 +336,36 @@ impl FollowedPath<'_> {
 /// The branch of a score, or those that are open.
 fn choice_of(score: &Score, open: BranchPattern) -> BranchChoice {
     BranchChoice::Of(score.branch.map_or(open, BranchPattern::from))
+}
+
+/// The gain from one path to another, each as it is followed there; `None` where one of them is not followed.
+///
+/// # Errors
+/// Cancelled by the watch.
+pub(super) fn gain_of_paths(
+    question: &Question<'_>,
+    load: &PathLoad,
+    [before, after]: [&Outcome; 2],
+    watch: Watch<'_>,
+) -> Result<Option<Gain>, Cancelled> {
+    let (Some(from), Some(to)) = (&before.there, &after.there) else {
+        return Ok(None);
+    };
+    let PlacementObjective {
+        component, objective, ..
+    } = after.objective;
+    let followed = [from, to].map(|there| FollowedTrack {
+        path: LoadedTrack {
+            track: &there.track,
+            load,
+        },
+        choices: &there.choices,
+        home: there.home.as_deref(),
+    });
+    // Both keep their clearance, each with the part at its own place.
+    let question = Question {
+        clearance: None,
+        ..*question
+    };
+    gain_along(&question, followed, (component, objective), watch).map(Some)
 }

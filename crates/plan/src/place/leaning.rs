@@ -12,8 +12,7 @@ use armill_core::kernel::{PartPlacement, Question};
 use armill_core::load::PathLoad;
 use armill_core::map::along_postures;
 use armill_core::optimize::{
-    FollowedTrack, FreePath, Gain, PlacementEvaluation, PlacementObjective, PostureSearch, Score, gain_along,
-    on_part, postures_along,
+    FreePath, Gain, PlacementEvaluation, PlacementObjective, PostureSearch, Score, on_part, postures_along,
 };
 use armill_core::path::LoadedTrack;
 use armill_core::robot::{Robot, Unreachable};
@@ -28,7 +27,7 @@ use armill_study::number::decimals;
 
 use super::answer::{OutcomeAnswer, PlacementAnswer, rank_by_name};
 use super::certificate::{CertificateAnswer, GridAnswer};
-use super::followed::{Outcome, PathConflicts, PathThere, with_room};
+use super::followed::{Outcome, PathConflicts, PathThere, gain_of_paths, with_room};
 use super::freedom::Freedom;
 use super::journal::{Fingerprint, Journal};
 use super::objective::objective;
@@ -170,14 +169,15 @@ impl LeaningRequest<'_> {
         let nominal = at(&self.nominal.part_placement(&[]))?;
         let recommended = at(&placement)?;
         let [before, after] = [&nominal, &recommended].map(|outcome| outcome.evaluation.score);
-        let gain = match before.unreachable + after.unreachable {
-            0 => gain_between(&question, [&nominal, &recommended], &load, quiet)?,
-            _ => Gain {
-                before: before.cost,
-                after: after.cost,
-                uncertainty: None,
-            },
+        let of_paths = match before.unreachable + after.unreachable {
+            0 => gain_of_paths(&question, &load, [&nominal, &recommended], quiet)?,
+            _ => None,
         };
+        let gain = of_paths.unwrap_or(Gain {
+            before: before.cost,
+            after: after.cost,
+            uncertainty: None,
+        });
         let least = &setting.least_gain;
         let place = freedom.answer(&best.spot.at);
         let grid = GridAnswer {
@@ -229,39 +229,6 @@ impl LeaningRequest<'_> {
         };
         Ok((result, placement))
     }
-}
-
-/// The gain from one path to another, each as it is followed there.
-fn gain_between(
-    question: &Question<'_>,
-    [before, after]: [&Outcome; 2],
-    load: &PathLoad,
-    watch: Watch<'_>,
-) -> Result<Gain, Cancelled> {
-    let PlacementObjective {
-        component, objective, ..
-    } = after.objective;
-    let (Some(from), Some(to)) = (&before.there, &after.there) else {
-        return Ok(Gain {
-            before: before.evaluation.score.cost,
-            after: after.evaluation.score.cost,
-            uncertainty: None,
-        });
-    };
-    let followed = [from, to].map(|there| FollowedTrack {
-        path: LoadedTrack {
-            track: &there.track,
-            load,
-        },
-        choices: &there.choices,
-        home: there.home.as_deref(),
-    });
-    // Both keep their clearance, each with the part at its own place.
-    let question = Question {
-        clearance: None,
-        ..*question
-    };
-    gain_along(&question, followed, (component, objective), watch)
 }
 
 impl LeaningSearch<'_> {
@@ -389,7 +356,7 @@ pub(super) fn outcome(
         .map(|rail| home_at(free.question.arm.robot, free.question.home, rail));
     let question = Question {
         home: home.as_deref().or(free.question.home),
-        clearance: free.clearance_at(placement),
+        clearance: free.question.clearance_with_part_at(&placement.base_from_part),
         ..*free.question
     };
     let there = track.moved(placement.base_from_part, placement.spin);

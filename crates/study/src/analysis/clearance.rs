@@ -1,5 +1,8 @@
 //! The clearance of the points of an analysis: the least one, and what is in the way.
 
+use std::fmt;
+
+use armill_core::clearance::Cell;
 use armill_core::kernel::Answers;
 use armill_core::robot::Unreachable;
 use armill_core::units::to_mm;
@@ -23,6 +26,40 @@ pub struct LeastClearance {
 /// where the point is out of reach.
 pub fn clearance_mm(setting: &Setting, answers: &Answers, index: usize) -> Option<f64> {
     at(setting.cell.as_ref()?, answers, index).map(|(distance, _)| distance)
+}
+
+/// The two bodies at a point between which the clearance is.
+#[derive(Clone, Copy, Debug)]
+pub struct NearestBodies<'a> {
+    cell: &'a Cell,
+    bodies: [usize; 2],
+}
+
+impl PartialEq for NearestBodies<'_> {
+    fn eq(&self, other: &Self) -> bool {
+        self.bodies == other.bodies
+    }
+}
+
+impl fmt::Display for NearestBodies<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [first, second] = self.bodies.map(|body| self.cell.name(body));
+        write!(f, "{first} and {second}")
+    }
+}
+
+/// The bodies of [`clearance_mm`].
+pub fn nearest_bodies<'a>(
+    setting: &'a Setting,
+    answers: &Answers,
+    index: usize,
+) -> Option<NearestBodies<'a>> {
+    let placed = setting.cell.as_ref()?;
+    let (_, bodies) = at(placed, answers, index)?;
+    Some(NearestBodies {
+        cell: &placed.cell,
+        bodies,
+    })
 }
 
 /// Distance (mm) and bodies at a point.

@@ -23,7 +23,7 @@ use armill_formats::table::{Column, ColumnData, Table};
 use rayon::prelude::*;
 
 use crate::analysis::AnalysisData;
-use crate::analysis::clearance::clearance_mm;
+use crate::analysis::clearance::{clearance_mm, nearest_bodies};
 use crate::analysis::numbers::Numbers;
 use crate::analysis::quantity::{self, Quantity};
 use crate::analysis::rows::{MM_DECIMALS, Rows, of_points};
@@ -98,6 +98,14 @@ pub fn table(
         series,
         |rows, i| Some(rows.answers.points[i].as_ref().ok()?.singularity?.word()),
     ));
+    if series.iter().any(|rows| !rows.answers.clearances.is_empty()) {
+        columns.push(words(
+            "nearest",
+            "the two bodies that `clearance_mm` is between",
+            series,
+            |rows, i| nearest_bodies(rows.setting, rows.answers, i),
+        ));
+    }
     columns.extend(filled(&numbers_of(robot, found, series), series));
     Ok(Table::new(name, columns)?)
 }
@@ -219,11 +227,11 @@ fn section(series: &[Rows<'_>]) -> Column {
 }
 
 /// A column of few words, by name and description; points without one get an empty text.
-fn words<W: PartialEq + Display>(
+fn words<'s, 'r, W: PartialEq + Display>(
     name: &str,
     description: &str,
-    series: &[Rows<'_>],
-    word: impl Fn(&Rows<'_>, usize) -> Option<W>,
+    series: &'s [Rows<'r>],
+    word: impl Fn(&'s Rows<'r>, usize) -> Option<W>,
 ) -> Column {
     let mut words: Vec<Option<W>> = Vec::new();
     let mut codes = Vec::new();

@@ -225,7 +225,7 @@ impl ShapeInScene {
 }
 
 impl BodyPose {
-    fn of(origin: &Point3<f64>, rotation: &UnitQuaternion<f64>) -> BodyPose {
+    pub(super) fn of(origin: &Point3<f64>, rotation: &UnitQuaternion<f64>) -> BodyPose {
         let turn = rotation.coords;
         BodyPose {
             xyz_mm: point_mm(origin),

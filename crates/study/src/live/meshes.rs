@@ -4,10 +4,8 @@
 
 use std::path::Path;
 
-use armill_core::frame::Isometry;
-use armill_core::nalgebra;
 use armill_core::robot::Robot;
-use armill_core::robot::forward::forward;
+use armill_core::robot::forward::base_from_ground;
 use armill_core::units::to_mm;
 use armill_formats::input;
 use schemars::JsonSchema;
@@ -53,8 +51,7 @@ impl Shapes {
             q.get(index).copied()
         };
         // They are given in the base of the arm: the ground, wherever that is in the chain.
-        let base_from_ground: Isometry =
-            nalgebra::convert(robot.chain().ground().in_base(&forward(robot, q).base_from_joint));
+        let base_from_ground = base_from_ground(robot, q);
         let one = |LinkMesh { mesh, .. }: &LinkMesh| {
             let at = base_from_ground * mesh.base_from_mesh(position);
             let turn = at.rotation.coords;

@@ -11,7 +11,7 @@ use armill_core::frame::{Isometry, tool_orientation};
 use armill_core::kernel::{BranchChoice, Question, evaluate_posture};
 use armill_core::nalgebra::{Point2, Point3, Rotation3, Unit, Vector3};
 use armill_core::robot::Robot;
-use armill_core::robot::forward::{forward, joint_axis};
+use armill_core::robot::forward::{base_from_ground, forward, joint_axis};
 use armill_core::robot::inverse::tool_on;
 use armill_core::source::Arm;
 use armill_core::spatial::Wrench;
@@ -27,7 +27,7 @@ use crate::file::resolve::Study;
 use crate::input::setting::Setting;
 use crate::joint_unit::{JointUnit, joint_positions};
 use crate::live::along::{ToolTarget, answered_posture, at_hole, on_path};
-use crate::live::bodies::{DrawnBodies, DrawnCell};
+use crate::live::bodies::{BodyPose, DrawnBodies, DrawnCell};
 use crate::live::meshes::{DrawnMesh, Shapes};
 use crate::live::{EditedAnalysis, StudyText};
 use crate::number::without_rounding;
@@ -103,6 +103,8 @@ pub struct DrawnPosture {
     pub tool_axis: [f64; 3],
     /// The arm as a line: from its base through its joints and the flange to the TCP; without the joints of a positioner.
     pub links_mm: Vec<[f64; 3]>,
+    /// The ground on which robot and obstacles stand: the base, unless a positioner moves the table.
+    pub ground: BodyPose,
     /// The meshes of its links, if the robot file names them and all exist.
     pub meshes: Vec<DrawnMesh>,
     /// The bodies of the cell; `null` without any.
@@ -410,6 +412,7 @@ pub(super) fn axes(rotation: &Rotation3<f64>) -> [[f64; 3]; 3] {
 fn drawn(robot: &Robot, q: &[f64], flange_from_tool: &Isometry) -> DrawnPosture {
     let arm = arm_posture(robot, q, flange_from_tool);
     let frames = forward(robot, q);
+    let ground = base_from_ground(robot, q);
     let clean = |v: Vector3<f64>| -> [f64; 3] { v.map(without_rounding).into() };
     let joint = |i: usize| DrawnJoint {
         name: robot.joints()[i].name.clone(),
@@ -428,6 +431,7 @@ fn drawn(robot: &Robot, q: &[f64], flange_from_tool: &Isometry) -> DrawnPosture 
         tool_mm: arm.tool_mm,
         tool_axis: clean(tool_on(&frames, flange_from_tool) * Vector3::z()),
         links_mm: links.collect(),
+        ground: BodyPose::of(&ground.translation.vector.into(), &ground.rotation),
         meshes: Vec::new(),
         cell: None,
     }

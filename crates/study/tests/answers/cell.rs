@@ -1,5 +1,8 @@
 //! The cell: clearances by hand, postures that keep them, problems of bodies.
 
+use armill_formats::table::ColumnData;
+use armill_study::analysis::columns;
+
 use super::*;
 
 /// Tool down above a plate: a spindle of 120 mm diameter whose end is 80 mm above the tip, and a wall that begins at x = 1050 mm. The links of
@@ -43,6 +46,31 @@ fn points(text: &str) -> Vec<(Option<f64>, &'static str, f64)> {
         (clearance, rows[0].state(index), rows[0].at_mm[index][0])
     };
     (0..rows[0].at_mm.len()).map(one).collect()
+}
+
+#[test]
+fn the_table_names_the_nearest_bodies_of_every_point() {
+    let study = study(CELL);
+    let all = run(&study, Watch::NONE).unwrap();
+    let rows = all[0].found.rows();
+    let table = columns::table(&study.robot.robot, "map", &all[0].found, &rows).unwrap();
+    let column = table.columns().iter().find(|column| column.name == "nearest");
+    let ColumnData::Category { codes, labels } = &column.unwrap().data else {
+        panic!("words")
+    };
+    assert_eq!(codes.len(), 169);
+    for (at, code) in rows[0].at_mm.iter().zip(codes) {
+        let to_wall = 1050.0 - 60.0 - at[0];
+        // Where both are as far either may be named.
+        if (to_wall - 80.0).abs() > 1e-6 {
+            let expected = if to_wall < 80.0 {
+                "spindle and wall"
+            } else {
+                "spindle and part"
+            };
+            assert_eq!(labels[*code as usize], expected, "{at:?}");
+        }
+    }
 }
 
 #[test]
