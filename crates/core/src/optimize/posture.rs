@@ -28,9 +28,10 @@
 use super::freedoms::MOST_MOVING;
 use super::posture_search::{PostureFound, PostureSearch};
 use super::refined::refined;
-use crate::kernel::{AT_LIMIT, Question};
-use crate::map::along_postures;
-use crate::path::LoadedTrack;
+use crate::kernel::{AT_LIMIT, Answers, Question};
+use crate::map::{ObstacleKind, along_postures, obstacles};
+use crate::path::{LoadedTrack, SampledPath};
+use crate::robot::Robot;
 use crate::watch::{Cancelled, Watch};
 
 /// Least increase of a clearance that was not kept after smoothing, m.
@@ -61,8 +62,13 @@ pub fn postures_along(
     let mut search = search.clone();
     let margin = search.margin;
     let mut of_lattice = *question;
-    let rounds = if question.clearance.is_some() { 5 } else { 3 };
-    for round in 1..=rounds {
+    let rounds = if question.clearance.is_some() || !search.is_of_spins() {
+        5
+    } else {
+        3
+    };
+    let mut best: Option<(usize, PostureFound)> = None;
+    for _ in 0..rounds {
         let found = refined(&of_lattice, path, &search, watch)?;
         let turned = found.turned(track);
         let along = along_postures(question, &turned, load.clone(), found.choices(), watch)?;
@@ -81,8 +87,25 @@ pub fn postures_along(
             .map(|(_, room)| room)
             .fold(f64::INFINITY, f64::min);
         let missing = along.answers.missing_clearance(usable);
-        if round == rounds || (least >= margin - AT_LIMIT && missing.is_none()) {
+        let lost = match search.is_of_spins() {
+            true => 0,
+            false => lost_by_smoothing(question.arm.robot, &track.path, &along.answers, &found),
+        };
+        let keeps = least >= margin - AT_LIMIT && missing.is_none();
+        let stops = !found.breaks.is_empty() && !search.is_of_spins();
+        if keeps && lost == 0 && !stops {
             return Ok(found);
+        }
+        let all_lost = lost + found.breaks.len() + found.unreachable.len();
+        if best.as_ref().is_none_or(|(least, _)| all_lost <= *least) {
+            best = Some((all_lost, found));
+        }
+        if lost > 0 {
+            search = search.finer();
+        }
+        // A chain of large steps with sudden motions is not followed by one of small steps.
+        if stops {
+            search = search.calmer();
         }
         // By smoothing a joint is this much nearer to a limit, and a body to another, than in the lattice.
         search.margin += 1.5 * (margin - least).max(0.0);
@@ -90,7 +113,26 @@ pub fn postures_along(
             demanded.least += 1.5 * missing + LEAST_MORE;
         }
     }
-    unreachable!("the last round returns")
+    Ok(best.expect("at least one round").1)
+}
+
+/// Points that the chain of the lattice reaches, but the smoothed one does not, and joints that jump there or are too slow.
+fn lost_by_smoothing(robot: &Robot, path: &SampledPath, answers: &Answers, found: &PostureFound) -> usize {
+    let is_known = |index: &usize| {
+        let unreachable = &found.unreachable;
+        found.breaks.contains(index) || unreachable.binary_search_by_key(index, |(lost, _)| *lost).is_ok()
+    };
+    let all = obstacles(robot, path, answers, 0.0);
+    let by_smoothing = all.filter(|obstacle| {
+        let kind = &obstacle.kind;
+        // Limits and clearance have their own margins.
+        let has_margin = matches!(
+            kind,
+            ObstacleKind::OutsideLimits { .. } | ObstacleKind::InCollision { .. }
+        );
+        !has_margin && !is_known(&obstacle.index)
+    });
+    by_smoothing.count()
 }
 
 #[cfg(test)]

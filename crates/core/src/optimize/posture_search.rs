@@ -59,6 +59,38 @@ pub struct PostureSearch {
     pub margin: f64,
 }
 
+impl PostureSearch {
+    /// Whether the tool keeps its axis and no external axis moves.
+    pub fn is_of_spins(&self) -> bool {
+        self.lean.is_none() && self.axes.is_empty()
+    }
+
+    /// The same with half the rates of spin, lean and external axes.
+    #[must_use]
+    pub(super) fn calmer(mut self) -> PostureSearch {
+        self.turn_rate *= 0.5;
+        if let Some(lean) = &mut self.lean {
+            lean.rate *= 0.5;
+        }
+        for axis in &mut self.axes {
+            axis.rate *= 0.5;
+        }
+        self
+    }
+
+    /// The same in half the steps of lean and external axes.
+    #[must_use]
+    pub(super) fn finer(mut self) -> PostureSearch {
+        if let Some(lean) = &mut self.lean {
+            (lean.leads, lean.tilts) = (lean.leads.halved(), lean.tilts.halved());
+        }
+        for axis in &mut self.axes {
+            axis.positions = axis.positions.halved();
+        }
+        self
+    }
+}
+
 /// Postures along a path.
 #[derive(Clone, Debug)]
 pub struct PostureFound {

@@ -31,6 +31,15 @@ impl Steps {
         self.at(self.count - 1)
     }
 
+    /// The same range in half the steps.
+    pub(super) fn halved(&self) -> Steps {
+        Steps {
+            step: 0.5 * self.step,
+            count: 2 * self.count - 1,
+            ..*self
+        }
+    }
+
     /// Every `stride`-th value.
     pub(super) fn every(&self, stride: usize) -> Steps {
         Steps {
