@@ -96,6 +96,20 @@ pub enum RobotError {
         /// Name of the joint.
         joint: String,
     },
+    /// An arm on external axes that holds the part.
+    #[error(
+        "an arm on {external} external axes cannot hold the part: their joints are not known in this chain"
+    )]
+    ExternalAxesOfHand {
+        /// Number of external axes in front of the arm.
+        external: usize,
+    },
+    /// An arm of a positioner, or one that holds the part already, where a plain arm is needed.
+    #[error("the chain of robot `{robot}` begins at a part, not at the base of an arm")]
+    NotAnArm {
+        /// Name of the robot.
+        robot: String,
+    },
     /// A joint coupled to itself or to a later joint.
     #[error("joint {joint} is coupled to joint number {other}: it can only be coupled to an earlier joint")]
     Coupling {
@@ -131,8 +145,15 @@ impl Robot {
                 described: joints.len(),
             });
         }
+        let in_hand = chain.ground().part_is_in_hand();
         for (index, joint) in joints.iter().enumerate() {
-            check_joint(index, joint)?;
+            check_joint(joint, |other| {
+                // Earlier is nearer to the ground.
+                match in_hand {
+                    true => (index + 1..joints.len()).contains(&other),
+                    false => other < index,
+                }
+            })?;
         }
         let inverse = Inverse::recognise(&chain);
         Ok(Robot {
@@ -235,6 +256,12 @@ impl Robot {
         self
     }
 
+    /// This robot with this inverse kinematics.
+    pub(super) fn with_inverse(mut self, inverse: Inverse) -> Robot {
+        self.inverse = inverse;
+        self
+    }
+
     /// The name given.
     pub fn name(&self) -> &str {
         &self.name
@@ -300,8 +327,18 @@ impl Robot {
     /// The external axes in the order of a controller: those that carry the arm, then those of the positioner, each
     /// from the ground on.
     pub fn external_axes(&self) -> impl Iterator<Item = usize> + use<> {
-        let of_part = self.chain.ground().joints;
+        let of_part = self.chain.ground().positioner_joints();
         (of_part..self.inverse.rail_joints().max(of_part)).chain((0..of_part).rev())
+    }
+
+    /// Index of the joint with this number of the arm, counted from 0 at its base, without external axes.
+    ///
+    /// Not checked: that the arm has it.
+    pub fn joint_of_arm(&self, number: usize) -> usize {
+        match self.chain.ground().part_is_in_hand() {
+            true => self.joints.len() - 1 - number,
+            false => self.inverse.rail_joints() + number,
+        }
     }
 
     /// Chain position `theta` of joint `index` at the joint positions `q`.
@@ -342,7 +379,7 @@ impl Robot {
     }
 }
 
-fn check_joint(index: usize, joint: &Joint) -> Result<(), RobotError> {
+fn check_joint(joint: &Joint, is_earlier: impl Fn(usize) -> bool) -> Result<(), RobotError> {
     let finite = |what, value: f64| {
         if value.is_finite() {
             Ok(())
@@ -356,7 +393,7 @@ fn check_joint(index: usize, joint: &Joint) -> Result<(), RobotError> {
     finite("zero offset", joint.zero_offset)?;
     for coupling in &joint.coupling {
         finite("coupling factor", coupling.factor)?;
-        if coupling.joint >= index {
+        if !is_earlier(coupling.joint) {
             return Err(RobotError::Coupling {
                 joint: joint.name.clone(),
                 other: coupling.joint,

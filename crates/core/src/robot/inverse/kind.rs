@@ -7,11 +7,13 @@
 //! | [`Inverse::SphericalWrist`] | the axes of three joints at one end meet in a point, within 10 mm | up to eight, without names |
 //! | [`Inverse::OneFixed`] | seven revolute joints, one of which can be fixed so that a spherical wrist remains | those of the other six |
 //! | [`Inverse::Searched`] | any other chain | those that descents from many starts find |
+//! | [`Inverse::InHand`] | an arm that holds the part, read from its flange back | those of the arm |
 //! | [`Inverse::OnRail`] | external axes first: prismatic joints of a chain of more than six, joints of a positioner, joints stated to be external | the external axes are fixed, the rest has its own inverse |
 
 use std::fmt;
 
 use super::super::chain::{Amount, Chain, Motion};
+use super::super::model::Robot;
 use super::closed_form::ClosedForm;
 use super::fixed_joint::FixedJoint;
 use super::ortho_parallel::OrthoParallel;
@@ -33,6 +35,29 @@ pub enum Inverse {
     Searched,
     /// On fixed external axes.
     OnRail(Box<Rail>),
+    /// That of the arm that holds the part.
+    InHand(Box<Hand>),
+}
+
+/// An arm that holds the part, as it is without one.
+#[derive(Clone, Debug)]
+pub struct Hand {
+    /// The arm, base to flange.
+    pub(in super::super) arm: Robot,
+    /// From its base to the mount of the tool.
+    pub(in super::super) base_from_mount: Isometry,
+}
+
+impl Hand {
+    /// Where the flange of the arm is if the mount of the tool is at `flange_from_mount` as seen from it.
+    pub(super) fn base_from_flange(&self, flange_from_mount: &Isometry) -> Isometry {
+        self.base_from_mount * flange_from_mount.inverse()
+    }
+}
+
+/// Joint positions in the opposite order: of the arm from those of the chain that begins at its flange, and back.
+pub(in super::super) fn in_opposite_order(q: &[f64]) -> Vec<f64> {
+    q.iter().rev().copied().collect()
 }
 
 /// External axes in front of an arm: a rail or gantry that carries it, a positioner that carries the part.
@@ -117,6 +142,7 @@ impl Inverse {
     pub(crate) fn of_arm(&self) -> &Inverse {
         match self {
             Inverse::OnRail(rail) => &rail.inverse,
+            Inverse::InHand(hand) => hand.arm.inverse().of_arm(),
             own => own,
         }
     }
@@ -196,6 +222,7 @@ impl fmt::Display for Inverse {
                 },
                 fixed.joint + 1
             ),
+            Inverse::InHand(hand) => write!(f, "{}; the part is in its hand", hand.arm.inverse()),
             Inverse::Searched => f.write_str("numeric from many starts: the postures that are found"),
             Inverse::OnRail(rail) => write!(
                 f,

@@ -28,7 +28,7 @@ use super::super::unreachable::Unreachable;
 use super::closed_form::ClosedForm;
 use super::descent::Descent;
 use super::descents::Descents;
-use super::kind::{Inverse, end_of};
+use super::kind::{Hand, Inverse, end_of, in_opposite_order};
 use super::starts::Starts;
 use super::verify::{Requested, verify};
 use crate::frame::Isometry;
@@ -101,6 +101,8 @@ pub struct Finder<'r> {
     fixed: Option<(usize, f64)>,
     /// The other six joints with the fixed one at home, and its chain position there.
     at_home: Option<(f64, Option<SixJoints>)>,
+    /// Of an arm that holds the part: finds its postures.
+    hand: Option<(&'r Hand, Box<Finder<'r>>)>,
 }
 
 /// The chain of the inverse: the robot's own, or that of the arm on its rail.
@@ -154,6 +156,10 @@ impl<'r> Finder<'r> {
             middles: robot.middles(),
             fixed: None,
             at_home: None,
+            hand: match robot.inverse() {
+                Inverse::InHand(hand) => Some((hand, Box::new(Finder::new(&hand.arm)))),
+                _ => None,
+            },
         }
     }
 
@@ -161,6 +167,9 @@ impl<'r> Finder<'r> {
     pub fn forget(&mut self) {
         self.spare.append(&mut self.before);
         self.is_remembered = true;
+        if let Some((_, of_arm)) = &mut self.hand {
+            of_arm.forget();
+        }
     }
 
     /// Every posture; of a searched chain those that are found. Those without names come nearest to `near` first, or to
@@ -191,6 +200,9 @@ impl<'r> Finder<'r> {
         pattern: BranchPattern,
         most: usize,
     ) -> Result<&[InverseSolution], Unreachable> {
+        if self.hand.is_some() {
+            return self.of_hand(expected, pattern, most);
+        }
         self.remember();
         self.discard();
         self.settle_home(expected);
@@ -200,10 +212,37 @@ impl<'r> Finder<'r> {
             Inverse::Polished(form) => self.polished(form, expected, &arm_from_flange, pattern),
             Inverse::SphericalWrist(form) => self.with_wrist(form, expected, &arm_from_flange, most),
             Inverse::OneFixed(fixed) => self.with_fixed_joint(fixed, expected, &arm_from_flange, most),
-            Inverse::Searched | Inverse::OnRail(_) => self.search(expected, &arm_from_flange, most, THOROUGH),
+            Inverse::Searched | Inverse::OnRail(_) | Inverse::InHand(_) => {
+                self.search(expected, &arm_from_flange, most, THOROUGH)
+            }
         };
         if self.found.is_empty() {
             return Err(missed.unwrap_or(Unreachable::OtherBranch));
+        }
+        Ok(&self.found)
+    }
+
+    /// The postures of the arm that holds the part, its joints from the flange back.
+    fn of_hand(
+        &mut self,
+        expected: &InverseTarget<'_>,
+        pattern: BranchPattern,
+        most: usize,
+    ) -> Result<&[InverseSolution], Unreachable> {
+        self.discard();
+        if let Some((hand, of_arm)) = &mut self.hand {
+            let near = expected.near.map(in_opposite_order);
+            let home = expected.home.or(self.robot.rest()).map(in_opposite_order);
+            let of_flange = InverseTarget {
+                base_from_flange: hand.base_from_flange(&expected.base_from_flange),
+                near: near.as_deref(),
+                home: home.as_deref(),
+            };
+            let found = of_arm.find(&of_flange, pattern, most)?.iter();
+            self.found.extend(found.map(|one| InverseSolution {
+                joints: in_opposite_order(&one.joints),
+                ..one.clone()
+            }));
         }
         Ok(&self.found)
     }
@@ -458,6 +497,9 @@ impl<'r> Finder<'r> {
 
 /// Name of the posture at the joint positions `q`, and the singularity that it is near, if any.
 pub(crate) fn name(robot: &Robot, q: &[f64]) -> (PostureName, Option<Singularity>) {
+    if let Inverse::InHand(hand) = robot.inverse() {
+        return name(&hand.arm, &in_opposite_order(q));
+    }
     let arm = Arm::of(robot);
     let theta: Vec<f64> = (arm.first..q.len()).map(|i| robot.theta(i, q)).collect();
     match arm.inverse.names() {
