@@ -59,7 +59,7 @@ impl JointUnit {
 /// # Errors
 /// Not one a joint.
 pub fn joint_positions(robot: &Robot, given: &[f64]) -> Result<Vec<f64>, StudyError> {
-    let of_positioner = robot.chain().ground().joints;
+    let of_positioner = robot.chain().ground().positioner_joints();
     if of_positioner > 0 && given.len() + of_positioner == robot.joints().len() {
         let home = robot.home(None);
         let of_arm = given.iter().enumerate();

@@ -116,7 +116,10 @@ fn the_chain_goes_from_the_flange_back_to_the_mount_of_the_tool() {
         assert!(!hand.is_external(0));
         for (index, joint) in arm.joints().iter().enumerate() {
             let same = &hand.joints()[hand.joint_of_arm(index)];
-            assert_eq!((&same.name, same.limits, same.max_speed), (&joint.name, joint.limits, joint.max_speed));
+            assert_eq!(
+                (&same.name, same.limits, same.max_speed),
+                (&joint.name, joint.limits, joint.max_speed)
+            );
         }
     }
 }
@@ -153,7 +156,11 @@ fn postures_are_those_of_the_arm_with_their_names() {
             for (found, expected) in found.iter().zip(&expected) {
                 assert_eq!(found.name, expected.name);
                 for (found, expected) in found.joints.iter().rev().zip(&expected.joints) {
-                    assert!((found - expected).abs() < 1e-9, "{found} {expected} of {}", arm.name());
+                    assert!(
+                        (found - expected).abs() < 1e-9,
+                        "{found} {expected} of {}",
+                        arm.name()
+                    );
                 }
                 let reached = found.base_from_tool.to_homogeneous() - part_from_tool.to_homogeneous();
                 assert!(reached.norm() < 1e-8);
@@ -280,7 +287,10 @@ fn the_part_deflects_sags_grows_and_moves_in_its_backlash_as_a_tool_at_its_place
         for (index, torque) in of_arm.gravity_torques().iter().enumerate().take(6) {
             let found = of_hand.gravity_torques()[5 - index];
             // The positive direction in the chain is the opposite. Of some kN m.
-            assert!((found + torque).abs() < 1e-8, "joint {index}: {found} {torque} N m");
+            assert!(
+                (found + torque).abs() < 1e-8,
+                "joint {index}: {found} {torque} N m"
+            );
         }
         let sag = |state: &ArmState<'_>| -> Twist {
             let all = state.sagging().unwrap();
@@ -312,7 +322,10 @@ fn gravity_is_relative_to_tool_setting_in_the_axes_of_the_ground() {
         state.set_joints(&in_opposite_order(q));
         let all = state.sagging().unwrap();
         let sag: Twist = all.into_iter().map(|(twist, _)| twist).sum();
-        (flange(&arm, q).rotation * sag.linear, state.gravity().unwrap().unwrap())
+        (
+            flange(&arm, q).rotation * sag.linear,
+            state.gravity().unwrap().unwrap(),
+        )
     };
     let (at_setting, nothing) = in_ground(&reference);
     assert!(nothing.linear.norm() < 1e-15);
@@ -330,10 +343,7 @@ fn the_mount_deflects_under_the_weight_of_the_tool_and_the_load_on_it() {
     let arm = arms::mh12().with_compliance(vec![rigid; 6]).unwrap();
     let hand = arm.holding_part(&base_from_mount()).unwrap();
     let mut model = model(&hand, &[0.0; 6]);
-    let soft = JointCompliance {
-        value: 2e-8,
-        ..rigid
-    };
+    let soft = JointCompliance { value: 2e-8, ..rigid };
     model.structure.springs = vec![Spring::along(Attachment::Flange, Vector3::z(), soft)];
     model.structure.masses = vec![Mass {
         attachment: Attachment::Tool,
@@ -344,9 +354,14 @@ fn the_mount_deflects_under_the_weight_of_the_tool_and_the_load_on_it() {
     let q = [0.3, -0.2, 0.4, 0.5, -0.6, 0.7];
     let mut state = state(&hand, &model, &tool);
     state.set_joints(&in_opposite_order(&q));
-    let (z, turn) = (base_from_mount().rotation * Vector3::z(), flange(&arm, &q).rotation);
+    let (z, turn) = (
+        base_from_mount().rotation * Vector3::z(),
+        flange(&arm, &q).rotation,
+    );
     let force = Vector3::new(100.0, -200.0, 300.0);
-    let found = state.elastic(&Wrench::from_force(turn.inverse() * force)).unwrap();
+    let found = state
+        .elastic(&Wrench::from_force(turn.inverse() * force))
+        .unwrap();
     assert!((turn * found.linear - z * (2e-8 * z.dot(&force))).norm() < 1e-15);
     let g = model.gravity.as_ref().unwrap().acceleration;
     let (sag, _) = state.sagging().unwrap()[6];
@@ -360,11 +375,17 @@ fn uncertainty_and_the_other_parts_keep_their_values() {
     let arm = arm();
     let hand = arm.holding_part(&base_from_mount()).unwrap();
     let (own, back) = (arm.structure(), hand.structure());
-    let (own_u, back_u) = (own.covariance.as_ref().unwrap(), back.covariance.as_ref().unwrap());
+    let (own_u, back_u) = (
+        own.covariance.as_ref().unwrap(),
+        back.covariance.as_ref().unwrap(),
+    );
     assert_eq!(own_u[(0, 0)], back_u[(5, 5)]);
     assert_eq!(own_u[(2, 7)], back_u[(3, 7)]);
     assert_eq!(own_u[(9, 9)], back_u[(9, 9)]);
-    assert_eq!((own.repeatability, own.model_error), (back.repeatability, back.model_error));
+    assert_eq!(
+        (own.repeatability, own.model_error),
+        (back.repeatability, back.model_error)
+    );
     assert_eq!(back.backlash[5], own.backlash[0]);
     assert_eq!(back.curve(3).unwrap().reversed(), own.curves[2].clone().unwrap());
 }
@@ -374,6 +395,8 @@ fn arms_on_external_axes_and_chains_of_a_part_are_refused() {
     let hand = arms::mh12().holding_part(&base_from_mount()).unwrap();
     let error = hand.holding_part(&base_from_mount()).unwrap_err();
     assert!(matches!(error, RobotError::NotAnArm { .. }));
-    let error = arms::other::on_rail(&arms::mh12()).holding_part(&base_from_mount()).unwrap_err();
+    let error = arms::other::on_rail(&arms::mh12())
+        .holding_part(&base_from_mount())
+        .unwrap_err();
     assert_eq!(error, RobotError::ExternalAxesOfHand { external: 1 });
 }

@@ -43,12 +43,22 @@ pub enum Inverse {
 #[derive(Clone, Debug)]
 pub struct Hand {
     /// The arm, base to flange.
-    pub(in super::super) arm: Robot,
+    pub(in crate::robot) arm: Robot,
     /// From its base to the mount of the tool.
-    pub(in super::super) base_from_mount: Isometry,
+    pub(in crate::robot) base_from_mount: Isometry,
 }
 
 impl Hand {
+    /// The arm without a part, base to flange.
+    pub fn arm(&self) -> &Robot {
+        &self.arm
+    }
+
+    /// From the base of the arm to the mount of the tool.
+    pub fn base_from_mount(&self) -> &Isometry {
+        &self.base_from_mount
+    }
+
     /// Where the flange of the arm is if the mount of the tool is at `flange_from_mount` as seen from it.
     pub(super) fn base_from_flange(&self, flange_from_mount: &Isometry) -> Isometry {
         self.base_from_mount * flange_from_mount.inverse()
@@ -56,7 +66,7 @@ impl Hand {
 }
 
 /// Joint positions in the opposite order: of the arm from those of the chain that begins at its flange, and back.
-pub(in super::super) fn in_opposite_order(q: &[f64]) -> Vec<f64> {
+pub(in crate::robot) fn in_opposite_order(q: &[f64]) -> Vec<f64> {
     q.iter().rev().copied().collect()
 }
 
