@@ -1,8 +1,8 @@
 //! A part in the hand of the robot: the robot holds the part, and the tool stands in the cell.
 //!
 //! Robot and tool become one chain, from the flange to the mount of the tool ([`armill_core::robot::hand`]): its base is the
-//! flange, so that what is given of the part is constant while the robot moves. The joints are in the order of that chain,
-//! from the flange back.
+//! flange, so that what is given of the part is constant while the robot moves. In results joints are in the order of that
+//! chain, from the flange back; in the study in that of the robot.
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
@@ -87,12 +87,6 @@ pub(super) fn check(log: &mut ProblemLog<'_>, file: &StudyFile) {
         "positioner",
         "a part is either on a positioner or in the hand of the robot",
         "remove `[positioner]` or `[part_in_hand]`",
-    );
-    refuse(
-        file.place.is_some(),
-        "place",
-        "the search for a placement is not known of a part in the hand",
-        "change `plane` by hand, relative to the flange",
     );
     let of_clearance = "the clearance of a part in the hand is not known";
     let without = "remove it: deviations do not depend on it";
