@@ -27,6 +27,16 @@ use crate::naming::FLANGE;
 /// What the chain cannot have, such as external axes in front of the arm.
 pub(super) fn holding(table: &PartInHandTable, arm: &Robot) -> Result<Robot, StudyError> {
     let mut structure = arm.structure().clone();
+    let springs = structure.springs.iter().map(|spring| spring.attachment);
+    let mut attachments = springs.chain(structure.masses.iter().map(|mass| mass.attachment));
+    if attachments.any(|attachment| attachment == Attachment::Tool) {
+        let message = format!(
+            "the file of robot `{}` has a spring or a mass at the tool",
+            arm.name()
+        );
+        let hint = "the robot of `[part_in_hand]` has no tool: attach it to the flange";
+        return Err(StudyError::value(message, hint));
+    }
     structure.masses.extend(table.mass.iter().map(|mass| Mass {
         attachment: Attachment::Flange,
         mass: mass.mass_kg,

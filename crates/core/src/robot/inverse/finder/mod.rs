@@ -3,11 +3,13 @@
 //! Closed forms give the eight branches at once, verified in `eight`; a calibrated arm takes them as starts; those
 //! without names for their branches are in `unnamed` (`six_joints` of a redundant arm), their singularities in
 //! `dependence`, their order in `order`. Other chains are searched from starts spread over the ranges of their joints,
-//! or from the postures of the pose before, in `search`. All work in chain positions; `positions` converts them to
+//! or from the postures of the pose before, in `search`. Those of an arm that holds
+//! the part are in `in_hand`. All work in chain positions; `positions` converts them to
 //! joint positions.
 
 mod dependence;
 mod eight;
+mod in_hand;
 mod order;
 mod positions;
 mod search;
@@ -218,31 +220,6 @@ impl<'r> Finder<'r> {
         };
         if self.found.is_empty() {
             return Err(missed.unwrap_or(Unreachable::OtherBranch));
-        }
-        Ok(&self.found)
-    }
-
-    /// The postures of the arm that holds the part, its joints from the flange back.
-    fn of_hand(
-        &mut self,
-        expected: &InverseTarget<'_>,
-        pattern: BranchPattern,
-        most: usize,
-    ) -> Result<&[InverseSolution], Unreachable> {
-        self.discard();
-        if let Some((hand, of_arm)) = &mut self.hand {
-            let near = expected.near.map(in_opposite_order);
-            let home = expected.home.or(self.robot.rest()).map(in_opposite_order);
-            let of_flange = InverseTarget {
-                base_from_flange: hand.base_from_flange(&expected.base_from_flange),
-                near: near.as_deref(),
-                home: home.as_deref(),
-            };
-            let found = of_arm.find(&of_flange, pattern, most)?.iter();
-            self.found.extend(found.map(|one| InverseSolution {
-                joints: in_opposite_order(&one.joints),
-                ..one.clone()
-            }));
         }
         Ok(&self.found)
     }
