@@ -4,7 +4,6 @@ use armill_core::frame::Isometry;
 use armill_core::kernel::BranchChoice;
 use armill_core::nalgebra::UnitQuaternion;
 use armill_core::robot::forward::forward;
-use armill_core::robot::inverse::Inverse;
 use armill_core::robot::{BranchPattern, Robot};
 
 /// Name of the frame on the robot's floor plane, which every robot has.
@@ -83,12 +82,8 @@ pub fn base_from_controller(robot: &Robot, positioner: Option<&[f64]>) -> Isomet
 /// Where the tool of a robot that holds the part stands: from the reference frame of its controller to the mount; `None`
 /// of a robot that holds the tool.
 pub fn controller_from_mount(robot: &Robot) -> Option<Isometry> {
-    match robot.inverse() {
-        Inverse::InHand(hand) => {
-            Some(base_from_controller(hand.arm(), None).inverse() * hand.base_from_mount())
-        }
-        _ => None,
-    }
+    let hand = robot.hand()?;
+    Some(base_from_controller(&hand.arm, None).inverse() * hand.base_from_mount)
 }
 
 /// The posture that `words` specify: a branch completed by the nominal one, `nominal`, or `best`.

@@ -24,10 +24,8 @@ use nalgebra::DMatrix;
 use super::chain::Chain;
 use super::compensator::{Compensator, Mass};
 use super::ground::{Ground, HeldByArm};
-use super::inverse::Inverse;
-use super::inverse::kind::{Hand, in_opposite_order};
 use super::joint::{Coupling, Joint};
-use super::model::{Robot, RobotError};
+use super::model::{Hand, Robot, RobotError};
 use super::positioner::{Positioner, constants, reversed};
 use super::spring::Spring;
 use super::structure::Structure;
@@ -70,12 +68,12 @@ impl Robot {
         if let Some(compliance) = self.compliance() {
             robot = robot.with_compliance(compliance.iter().rev().copied().collect())?;
         }
-        let inverse = Inverse::InHand(Box::new(Hand {
+        let hand = Hand {
             arm: self.clone(),
             base_from_mount: *base_from_mount,
-        }));
+        };
         let robot = robot
-            .with_inverse(inverse)
+            .with_hand(hand)
             .with_nominal_branch(self.nominal_branch())
             .with_structure(structure_read_back(&read_back))?;
         Ok(match self.rest() {
@@ -83,6 +81,11 @@ impl Robot {
             None => robot,
         })
     }
+}
+
+/// Joint positions in the opposite order: of the arm from those of the chain that begins at its flange, and back.
+pub(super) fn in_opposite_order(q: &[f64]) -> Vec<f64> {
+    q.iter().rev().copied().collect()
 }
 
 /// A joint of the arm of `count` joints, read from the flange back.

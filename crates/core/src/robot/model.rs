@@ -29,6 +29,16 @@ pub struct Robot {
     nominal: BranchPattern,
     inverse: Inverse,
     rest: Option<Vec<f64>>,
+    hand: Option<Box<Hand>>,
+}
+
+/// What a chain that begins at the flange of an arm is made of: the arm holds the part.
+#[derive(Clone, Debug)]
+pub struct Hand {
+    /// The arm without a part, base to flange.
+    pub arm: Robot,
+    /// From its base to the mount of the tool.
+    pub base_from_mount: Isometry,
 }
 
 /// Why a robot description is not consistent. Joint positions are in rad (m for prismatic joints).
@@ -166,6 +176,7 @@ impl Robot {
             nominal: BranchPattern::FRONT_ELBOW_UP,
             inverse,
             rest: None,
+            hand: None,
         })
     }
 
@@ -256,9 +267,10 @@ impl Robot {
         self
     }
 
-    /// This robot with this inverse kinematics.
-    pub(super) fn with_inverse(mut self, inverse: Inverse) -> Robot {
-        self.inverse = inverse;
+    /// This robot with the inverse kinematics of the arm that holds its part.
+    pub(super) fn with_hand(mut self, hand: Hand) -> Robot {
+        self.inverse = Inverse::InHand(Box::new(hand.arm.inverse.clone()));
+        self.hand = Some(Box::new(hand));
         self
     }
 
@@ -300,6 +312,11 @@ impl Robot {
     /// The method of the inverse kinematics.
     pub fn inverse(&self) -> &Inverse {
         &self.inverse
+    }
+
+    /// The arm that holds the part, and where the tool stands; `None` if the tool is on the flange.
+    pub fn hand(&self) -> Option<&Hand> {
+        self.hand.as_deref()
     }
 
     /// The geometry of an ortho-parallel arm with spherical wrist, if it is one.

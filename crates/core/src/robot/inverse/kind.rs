@@ -13,7 +13,6 @@
 use std::fmt;
 
 use super::super::chain::{Amount, Chain, Motion};
-use super::super::model::Robot;
 use super::closed_form::ClosedForm;
 use super::fixed_joint::FixedJoint;
 use super::ortho_parallel::OrthoParallel;
@@ -36,38 +35,7 @@ pub enum Inverse {
     /// On fixed external axes.
     OnRail(Box<Rail>),
     /// That of the arm that holds the part.
-    InHand(Box<Hand>),
-}
-
-/// An arm that holds the part, as it is without one.
-#[derive(Clone, Debug)]
-pub struct Hand {
-    /// The arm, base to flange.
-    pub(in crate::robot) arm: Robot,
-    /// From its base to the mount of the tool.
-    pub(in crate::robot) base_from_mount: Isometry,
-}
-
-impl Hand {
-    /// The arm without a part, base to flange.
-    pub fn arm(&self) -> &Robot {
-        &self.arm
-    }
-
-    /// From the base of the arm to the mount of the tool.
-    pub fn base_from_mount(&self) -> &Isometry {
-        &self.base_from_mount
-    }
-
-    /// Where the flange of the arm is if the mount of the tool is at `flange_from_mount` as seen from it.
-    pub(super) fn base_from_flange(&self, flange_from_mount: &Isometry) -> Isometry {
-        self.base_from_mount * flange_from_mount.inverse()
-    }
-}
-
-/// Joint positions in the opposite order: of the arm from those of the chain that begins at its flange, and back.
-pub(in crate::robot) fn in_opposite_order(q: &[f64]) -> Vec<f64> {
-    q.iter().rev().copied().collect()
+    InHand(Box<Inverse>),
 }
 
 /// External axes in front of an arm: a rail or gantry that carries it, a positioner that carries the part.
@@ -152,7 +120,7 @@ impl Inverse {
     pub(crate) fn of_arm(&self) -> &Inverse {
         match self {
             Inverse::OnRail(rail) => &rail.inverse,
-            Inverse::InHand(hand) => hand.arm.inverse().of_arm(),
+            Inverse::InHand(arm) => arm.of_arm(),
             own => own,
         }
     }
@@ -232,7 +200,7 @@ impl fmt::Display for Inverse {
                 },
                 fixed.joint + 1
             ),
-            Inverse::InHand(hand) => write!(f, "{}; the part is in its hand", hand.arm.inverse()),
+            Inverse::InHand(arm) => write!(f, "{arm}; the part is in its hand"),
             Inverse::Searched => f.write_str("numeric from many starts: the postures that are found"),
             Inverse::OnRail(rail) => write!(
                 f,

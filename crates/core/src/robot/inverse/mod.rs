@@ -32,7 +32,7 @@ pub use closed_form::ClosedForm;
 pub use finder::{Finder, InverseSolution, InverseTarget};
 pub(crate) use finder::{WholeTurns, name as name_of};
 pub use fixed_joint::FixedJoint;
-pub use kind::{Hand, Inverse};
+pub use kind::Inverse;
 pub use ortho_parallel::OrthoParallel;
 pub use spherical_wrist::SphericalWrist;
 pub use three_parallel::ThreeParallel;

@@ -23,6 +23,7 @@ use nalgebra::Point3;
 use super::super::branch::{Branch, BranchPattern};
 use super::super::chain::{Chain, Motion};
 use super::super::forward::{Frames, forward_into, tool_at};
+use super::super::hand::in_opposite_order;
 use super::super::jacobian::screws_at;
 use super::super::model::Robot;
 use super::super::posture::{Posture, PostureName, Sides, Singularity};
@@ -30,7 +31,7 @@ use super::super::unreachable::Unreachable;
 use super::closed_form::ClosedForm;
 use super::descent::Descent;
 use super::descents::Descents;
-use super::kind::{Hand, Inverse, end_of, in_opposite_order};
+use super::kind::{Inverse, end_of};
 use super::starts::Starts;
 use super::verify::{Requested, verify};
 use crate::frame::Isometry;
@@ -103,8 +104,8 @@ pub struct Finder<'r> {
     fixed: Option<(usize, f64)>,
     /// The other six joints with the fixed one at home, and its chain position there.
     at_home: Option<(f64, Option<SixJoints>)>,
-    /// Of an arm that holds the part: finds its postures.
-    hand: Option<(&'r Hand, Box<Finder<'r>>)>,
+    /// Finds the postures of the arm that holds the part, if there is one.
+    holding: Option<Box<Finder<'r>>>,
 }
 
 /// The chain of the inverse: the robot's own, or that of the arm on its rail.
@@ -158,10 +159,7 @@ impl<'r> Finder<'r> {
             middles: robot.middles(),
             fixed: None,
             at_home: None,
-            hand: match robot.inverse() {
-                Inverse::InHand(hand) => Some((hand, Box::new(Finder::new(&hand.arm)))),
-                _ => None,
-            },
+            holding: robot.hand().map(|hand| Box::new(Finder::new(&hand.arm))),
         }
     }
 
@@ -169,9 +167,7 @@ impl<'r> Finder<'r> {
     pub fn forget(&mut self) {
         self.spare.append(&mut self.before);
         self.is_remembered = true;
-        if let Some((_, of_arm)) = &mut self.hand {
-            of_arm.forget();
-        }
+        self.holding.iter_mut().for_each(|holding| holding.forget());
     }
 
     /// Every posture; of a searched chain those that are found. Those without names come nearest to `near` first, or to
@@ -202,8 +198,8 @@ impl<'r> Finder<'r> {
         pattern: BranchPattern,
         most: usize,
     ) -> Result<&[InverseSolution], Unreachable> {
-        if self.hand.is_some() {
-            return self.of_hand(expected, pattern, most);
+        if self.holding.is_some() {
+            return self.in_hand(expected, pattern, most);
         }
         self.remember();
         self.discard();
@@ -474,7 +470,7 @@ impl<'r> Finder<'r> {
 
 /// Name of the posture at the joint positions `q`, and the singularity that it is near, if any.
 pub(crate) fn name(robot: &Robot, q: &[f64]) -> (PostureName, Option<Singularity>) {
-    if let Inverse::InHand(hand) = robot.inverse() {
+    if let Some(hand) = robot.hand() {
         return name(&hand.arm, &in_opposite_order(q));
     }
     let arm = Arm::of(robot);
