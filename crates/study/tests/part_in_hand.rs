@@ -237,3 +237,20 @@ licence = "none needed"
         "{found}"
     );
 }
+
+#[test]
+fn the_example_of_the_guide_runs() {
+    let guide = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/guide/cell.md");
+    let guide = fs::read_to_string(guide).unwrap();
+    let section = guide.split("## Part in the hand").nth(1).unwrap();
+    let example = section
+        .split("```toml")
+        .nth(1)
+        .unwrap()
+        .split("```")
+        .next()
+        .unwrap();
+    let answer = answered(&format!("format = 1\ntolerance_um = 200\n{example}"));
+    let counts = &answer.maps[0].counts;
+    assert!(counts.within > 400 && counts.out_of_reach == 0, "{counts:?}");
+}
