@@ -41,7 +41,7 @@ fn flange_mm(joints: &[f64]) -> [f64; 3] {
         .output()
         .unwrap();
     let answer: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    let at = &answer["postures"][0]["xyz_mm"];
+    let at = &answer["postures"][0]["tool"]["xyz_mm"];
     [0, 1, 2].map(|axis| at[axis].as_f64().unwrap())
 }
 
