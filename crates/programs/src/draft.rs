@@ -13,11 +13,11 @@ pub struct Draft {
     pub name: String,
     /// Remarks for its header: origin of the program.
     pub remarks: Vec<String>,
-    /// Controller's reference frame to the user frame of the targets; if that is carried, the table of the positioner to it.
+    /// From what [`Draft::frame_on`] says to the user frame of the targets.
     pub base_from_frame: Isometry,
-    /// Whether external axes move the user frame: it is fixed to the table of a positioner.
-    pub frame_is_carried: bool,
-    /// Flange to TCP.
+    /// What the user frame is fixed to.
+    pub frame_on: FrameOn,
+    /// Flange to TCP; of a tool that stands in the cell, the controller's reference frame to it.
     pub flange_from_tool: Isometry,
     /// How the cell writes its programs.
     pub controller: Controller,
@@ -25,6 +25,17 @@ pub struct Draft {
     pub external_slides: Vec<bool>,
     /// Moves and statements in order; the first move is a joint move.
     pub steps: Vec<DraftStep>,
+}
+
+/// What the user frame of a program is fixed to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FrameOn {
+    /// The controller's reference frame: it does not move.
+    Cell,
+    /// The table of a positioner, which external axes move.
+    Table,
+    /// The flange of the robot, which holds the part; the tool stands in the cell.
+    Flange,
 }
 
 /// An element of a program.
@@ -187,7 +198,7 @@ mod tests {
             name: String::new(),
             remarks: Vec::new(),
             base_from_frame: Isometry::identity(),
-            frame_is_carried: false,
+            frame_on: FrameOn::Cell,
             flange_from_tool: Isometry::identity(),
             controller: Controller::default(),
             external_slides: Vec::new(),

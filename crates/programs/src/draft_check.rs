@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use crate::draft::{Draft, DraftPoint, DraftStep};
+use crate::draft::{Draft, DraftPoint, DraftStep, FrameOn};
 
 /// Ranges of a language.
 pub(super) struct Bounds {
@@ -17,6 +17,8 @@ pub(super) struct Bounds {
     /// Which names a mechanical unit that carries the user frame may have, and the rule for them; `None`: no external axis
     /// can carry it.
     pub units: Option<UnitNames>,
+    /// Whether the robot can hold the part, with a tool that stands in the cell.
+    pub holds_part: bool,
     /// Numbers of user frames.
     pub frames: RangeInclusive<u32>,
     /// Numbers of tools.
@@ -61,7 +63,7 @@ impl Draft {
     pub(super) fn check(&self, bounds: &Bounds) -> Result<(), DraftError> {
         check_name(&self.name, bounds.longest_name, bounds.language, bounds.names)?;
         self.check_controller(bounds)?;
-        self.check_unit(bounds)?;
+        self.check_frame(bounds)?;
         let first = self.points().next().ok_or(DraftError::Empty)?;
         if first.speed.is_some() {
             return Err(DraftError::FirstMove);
@@ -158,12 +160,15 @@ impl Draft {
         Ok(())
     }
 
-    /// The mechanical unit of a frame that is carried.
-    fn check_unit(&self, bounds: &Bounds) -> Result<(), DraftError> {
-        if !self.frame_is_carried {
-            return Ok(());
-        }
+    /// What the user frame is fixed to, and the mechanical unit of one on a table.
+    fn check_frame(&self, bounds: &Bounds) -> Result<(), DraftError> {
         let language = bounds.language;
+        match self.frame_on {
+            FrameOn::Cell => return Ok(()),
+            FrameOn::Flange if bounds.holds_part => return Ok(()),
+            FrameOn::Flange => return Err(DraftError::PartInHand { language }),
+            FrameOn::Table => {}
+        }
         let names = bounds.units.ok_or(DraftError::Carried { language })?;
         match &self.controller.positioner_unit {
             Some(unit) if !(names.are)(unit) => Err(DraftError::Unit {
@@ -300,6 +305,15 @@ pub enum DraftError {
         "a positioner moves the part along the path, but {language} programs are written with a part that stands still"
     )]
     Carried {
+        /// The language.
+        language: &'static str,
+    },
+    /// The robot holds the part, and the language has no tools that stand in the cell, or how it names them is not known here.
+    #[error(
+        "the robot holds the part, but {language} programs are written with the tool on the flange; of these languages ABB RAPID \
+         programs are written with a tool that stands in the cell"
+    )]
+    PartInHand {
         /// The language.
         language: &'static str,
     },

@@ -46,7 +46,7 @@ mod tokens;
 
 pub use armill_formats::language::Language;
 pub use controller::{Controller, FrameData};
-pub use draft::{Draft, DraftPoint, DraftStep, Written};
+pub use draft::{Draft, DraftPoint, DraftStep, FrameOn, Written};
 pub use draft_check::DraftError;
 pub use followed::{Cell, FollowError, Followed, FollowedMove, follow};
 pub use languages::{language_of, read, read_as, write};

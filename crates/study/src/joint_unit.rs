@@ -59,30 +59,51 @@ impl JointUnit {
 /// # Errors
 /// Not one a joint.
 pub fn joint_positions(robot: &Robot, given: &[f64]) -> Result<Vec<f64>, StudyError> {
-    let of_positioner = robot.chain().ground().joints;
+    let of_positioner = robot.chain().ground().positioner_joints();
     if of_positioner > 0 && given.len() + of_positioner == robot.joints().len() {
         let home = robot.home(None);
         let of_arm = given.iter().enumerate();
         let of_arm = of_arm.map(|(joint, value)| JointUnit::of(robot, joint + of_positioner).to_si(*value));
         return Ok(home[..of_positioner].iter().copied().chain(of_arm).collect());
     }
-    let names: Vec<&str> = robot.joints().iter().map(|joint| joint.name.as_str()).collect();
-    if given.len() != names.len() {
+    let order: Vec<usize> = (0..robot.joints().len()).collect();
+    positions_in(&order, robot, given)
+}
+
+/// [`joint_positions`] in the order of the robot itself, from its base on: the opposite of that of the chain where it holds
+/// the part.
+///
+/// # Errors
+/// Not one a joint.
+pub fn joint_positions_from_base(robot: &Robot, given: &[f64]) -> Result<Vec<f64>, StudyError> {
+    if !robot.chain().ground().part_is_in_hand() {
+        return joint_positions(robot, given);
+    }
+    let order: Vec<usize> = (0..robot.joints().len()).rev().collect();
+    positions_in(&order, robot, given)
+}
+
+/// Joint positions in rad (m) from those in deg (mm) of the joints in this order.
+fn positions_in(order: &[usize], robot: &Robot, given: &[f64]) -> Result<Vec<f64>, StudyError> {
+    if given.len() != order.len() {
         let message = format!(
             "{} joint positions for the {} joints of `{}`",
             given.len(),
-            names.len(),
+            order.len(),
             robot.name()
         );
+        let names = order.iter().map(|joint| robot.joints()[*joint].name.as_str());
+        let names: Vec<&str> = names.collect();
         return Err(StudyError::value(
             message,
             format!("one each for {}", names.join(", ")),
         ));
     }
-    let si = given.iter().enumerate();
-    Ok(si
-        .map(|(joint, value)| JointUnit::of(robot, joint).to_si(*value))
-        .collect())
+    let mut all = vec![0.0; order.len()];
+    for (joint, value) in order.iter().zip(given) {
+        all[*joint] = JointUnit::of(robot, *joint).to_si(*value);
+    }
+    Ok(all)
 }
 
 #[cfg(test)]

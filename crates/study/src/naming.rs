@@ -12,16 +12,39 @@ pub const BASE_LINK: &str = "base_link";
 /// Name of the table of a positioner as a reference frame.
 pub const TABLE: &str = "table";
 
-/// Name of the base of the chain: the table of a positioner, if one carries the part.
+/// Name of the flange of a robot that holds the part as a reference frame.
+pub const FLANGE: &str = "flange";
+
+/// Name of the base of the chain: the table of a positioner that carries the part, the flange of a robot that holds it.
 pub fn base_name(robot: &Robot) -> &'static str {
-    match robot.chain().ground().is_base() {
-        true => BASE_LINK,
-        false => TABLE,
+    let ground = robot.chain().ground();
+    match (ground.is_base(), ground.part_is_in_hand()) {
+        (true, _) => BASE_LINK,
+        (false, true) => FLANGE,
+        (false, false) => TABLE,
     }
 }
 
+/// The frame that coordinates are relative to where none is given: `base_link`, or the flange of a robot that holds the part.
+pub fn usual_reference(robot: &Robot) -> &'static str {
+    match robot.chain().ground().part_is_in_hand() {
+        true => FLANGE,
+        false => BASE_LINK,
+    }
+}
+
+/// Names of all frames that coordinates can be relative to.
+pub fn references(robot: &Robot) -> Vec<&str> {
+    let usual = usual_reference(robot);
+    let others = robot.frames().iter().map(|frame| frame.name.as_str());
+    std::iter::once(usual)
+        .chain(others.filter(|name| *name != usual))
+        .collect()
+}
+
 /// The frame `name` that coordinates count from, in base. If a positioner carries the part, base is its table, and
-/// `base_link` is where the base of the robot is as seen from there, with the positioner at home.
+/// `base_link` is where the base of the robot is as seen from there, with the positioner at home. A robot that holds the part has
+/// no frame but its flange.
 ///
 /// # Errors
 /// The names that the robot knows.
@@ -30,12 +53,10 @@ pub fn base_from_reference(robot: &Robot, name: &str) -> Result<Isometry, String
     if let Some(frame) = found {
         return Ok(frame.base_from_frame);
     }
-    if name == BASE_LINK {
-        return Ok(Isometry::identity());
+    match name == usual_reference(robot) {
+        true => Ok(Isometry::identity()),
+        false => Err(references(robot).join(", ")),
     }
-    let others = robot.frames().iter().filter(|frame| frame.name != BASE_LINK);
-    let named = others.map(|frame| format!(", {}", frame.name));
-    Err(format!("{BASE_LINK}{}", named.collect::<String>()))
 }
 
 /// Name of the reference frame of a controller, if that is not `base_link`.
@@ -56,6 +77,13 @@ pub fn base_from_controller(robot: &Robot, positioner: Option<&[f64]>) -> Isomet
     let base_from_link = ground.in_base(&forward(robot, &joints).base_from_joint);
     let turned = UnitQuaternion::from_rotation_matrix(&base_from_link.rotation);
     Isometry::from_parts(base_from_link.translation, turned) * link_from_base * controller
+}
+
+/// Where the tool of a robot that holds the part stands: from the reference frame of its controller to the mount; `None`
+/// of a robot that holds the tool.
+pub fn controller_from_mount(robot: &Robot) -> Option<Isometry> {
+    let hand = robot.hand()?;
+    Some(base_from_controller(&hand.arm, None).inverse() * hand.base_from_mount)
 }
 
 /// The posture that `words` specify: a branch completed by the nominal one, `nominal`, or `best`.

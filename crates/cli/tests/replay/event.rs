@@ -127,6 +127,8 @@ pub struct Reference {
     pub pose: Option<Pose>,
     /// The mechanical unit that moves it.
     pub unit: Option<String>,
+    /// Whether it is on the other side than usual: a tool that stands in the cell, a frame on the flange.
+    pub is_swapped: bool,
 }
 
 impl Reference {
@@ -135,6 +137,7 @@ impl Reference {
             name: name.into(),
             pose,
             unit: None,
+            is_swapped: false,
         }
     }
 }

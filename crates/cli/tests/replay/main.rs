@@ -3,7 +3,7 @@
 //! `replay` runs a program to a list of events. What it is made of: `source` (files and places), `words`, `value`
 //! (statements), `pose` (orientations), `event`, `log`. The languages: `krl`, `rapid`, `inform`, `tp`, `urscript`,
 //! `val3`. What is checked: `checks` (of the events of any program), `expect` (of short programs), `written` (what
-//! armill writes), `cells` (holes, rails, data of the controller), `positioner` (a part on a turntable),
+//! armill writes), `cells` (holes, rails, data of the controller), `positioner` (a part on a turntable), `part_in_hand` (one that the robot holds),
 //! `samples` (programs of other software).
 
 // A panic is how a test says that its claim is false; helper functions too.
@@ -16,6 +16,7 @@ mod expect;
 mod inform;
 mod krl;
 mod log;
+mod part_in_hand;
 mod pose;
 mod positioner;
 mod rapid;

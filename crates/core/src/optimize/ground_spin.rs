@@ -30,7 +30,8 @@ pub(super) struct GroundSpin<'a> {
 impl<'a> GroundSpin<'a> {
     /// For this robot and track, with the positioner of `home`, rad (m).
     pub fn of(robot: &'a Robot, track: &Track, home: Option<&[f64]>) -> GroundSpin<'a> {
-        let turns = !robot.chain().ground().is_base() && matches!(track.placing.spin, Spin::Fixed(_));
+        let turns =
+            robot.chain().ground().positioner_joints() > 0 && matches!(track.placing.spin, Spin::Fixed(_));
         GroundSpin {
             robot,
             at_home: turns.then(|| base_from_ground(robot, &robot.home(home)).rotation),

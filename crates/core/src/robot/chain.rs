@@ -248,10 +248,10 @@ impl Chain {
         })
     }
 
-    /// This chain with the ground at another link; the joints in front of it are external axes.
+    /// This chain with the ground at another link; the joints of a positioner in front of it are external axes.
     pub(super) fn with_ground(self, ground: Ground) -> Chain {
         Chain {
-            external: self.external.max(ground.joints),
+            external: self.external.max(ground.positioner_joints()),
             ground,
             ..self
         }
@@ -260,7 +260,7 @@ impl Chain {
     /// This chain with its first joints as external axes, of any kind: those of a turntable that carries an arm.
     pub(super) fn with_external(self, joints: usize) -> Chain {
         Chain {
-            external: joints.max(self.ground.joints),
+            external: joints.max(self.ground.positioner_joints()),
             ..self
         }
     }

@@ -7,8 +7,14 @@
 //! table (base) - joints of the positioner, from the table back - ground - joints of the arm - flange
 //! ```
 //!
+//! If the arm itself holds the part, and the tool stands in the cell, all joints are in front of the ground:
+//!
+//! ```text
+//! flange of the arm (base) - joints of the arm, from the flange back - ground - mount of the tool
+//! ```
+//!
 //! Gravity is constant in the ground, and the links of the arm grow from there. Positions in the ground are relative to the
-//! base of the arm ([`crate::robot::positioner`]).
+//! base of the arm ([`crate::robot::positioner`], [`crate::robot::hand`]).
 
 use nalgebra::IsometryMatrix3;
 
@@ -17,13 +23,25 @@ use super::spring::{Attachment, Spring};
 use crate::frame::Isometry;
 use crate::spatial::Twist;
 
+/// What the arm of a chain holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HeldByArm {
+    /// The tool: the arm is behind the ground.
+    Tool,
+    /// The part: the arm is in front of the ground, and the tool stands there.
+    Part,
+}
+
 /// Where the ground is in a chain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ground {
-    /// Number of joints between the base of the chain and the ground: those of the positioner; 0 without one.
+    /// Number of joints between the base of the chain and the ground: those of the positioner, or of an arm that holds
+    /// the part; 0 without either.
     pub joints: usize,
     /// The ground in the frame of the last of these joints; in the base of the chain without any.
     pub joint_from_ground: Isometry,
+    /// What the arm holds.
+    pub held: HeldByArm,
 }
 
 impl Ground {
@@ -32,7 +50,27 @@ impl Ground {
         Ground {
             joints: 0,
             joint_from_ground: Isometry::identity(),
+            held: HeldByArm::Tool,
         }
+    }
+
+    /// Number of joints of the positioner: the first ones of the chain.
+    pub fn positioner_joints(&self) -> usize {
+        match self.held {
+            HeldByArm::Tool => self.joints,
+            HeldByArm::Part => 0,
+        }
+    }
+
+    /// Whether the arm holds the part, and the tool stands on the ground.
+    pub fn part_is_in_hand(&self) -> bool {
+        self.held == HeldByArm::Part
+    }
+
+    /// Whether the spring with this attachment, of a chain of `joints` joints, is between the part and the ground. One at
+    /// the base of the arm is on the side of the arm.
+    pub fn spring_is_in_front(&self, attachment: Attachment, joints: usize) -> bool {
+        self.part_is_in_hand() && attachment.rank(joints) <= self.joints
     }
 
     /// Whether the base of the chain is the ground.

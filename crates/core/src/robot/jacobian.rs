@@ -23,18 +23,19 @@ pub fn screws_at(robot: &Robot, frames: &Frames, tcp: &Point3<f64>) -> Vec<Twist
 /// Bend of the wrist at joint positions `q`: the angle between axes 4 and 6, 0 to 90 deg (rad). `None` of an arm
 /// without named branches, whose wrist is not defined by two axes.
 pub fn wrist_bend(robot: &Robot, q: &[f64]) -> Option<f64> {
-    if !robot.inverse().has_branches() {
-        return None;
-    }
     let screws = screws_at(robot, &forward(robot, q), &Point3::origin());
-    let [_, _, _, fourth, _, sixth] = screws[..] else {
-        return None;
-    };
-    let (sine, cosine) = (
-        fourth.angular.cross(&sixth.angular).norm(),
-        fourth.angular.dot(&sixth.angular),
-    );
+    let [fourth, sixth] = axes_4_and_6(robot, &screws).filter(|_| screws.len() == 6)?;
+    let (sine, cosine) = (fourth.cross(&sixth).norm(), fourth.dot(&sixth));
     Some(sine.atan2(cosine.abs()))
+}
+
+/// Directions of axes 4 and 6 of an arm with named branches, from the screws of all joints.
+pub(crate) fn axes_4_and_6(robot: &Robot, screws: &[Twist]) -> Option<[Vector3<f64>; 2]> {
+    let axis = |number| Some(screws.get(robot.joint_of_arm(number))?.angular);
+    robot
+        .inverse()
+        .has_branches()
+        .then(|| Some([axis(3)?, axis(5)?]))?
 }
 
 /// [`screws_at`] into existing screws, one per joint.

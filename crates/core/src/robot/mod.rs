@@ -3,7 +3,7 @@
 //! In reading order: [`chain`] (elementary motions and their inner form), [`joint`] (limits, signs, zeros, compliance),
 //! [`structure_error`] (why a structure is not valid), [`spring`], [`compensator`], [`torque_curve`], [`backlash`],
 //! [`structure`] (the parts other than drives), [`ground`] (the link that does not move), [`model`] (the robot as one
-//! value), [`positioner`] (an arm and the positioner of the part as one chain), [`forward`] (joint positions to frames), [`jacobian`] (screws at the tool), `forward_of_eight` (both for eight postures at once, along the chain by
+//! value), [`positioner`] (an arm and the positioner of the part as one chain), [`hand`] (an arm that holds the part), [`forward`] (joint positions to frames), [`jacobian`] (screws at the tool), `forward_of_eight` (both for eight postures at once, along the chain by
 //! `frame_in_lanes`), [`deflected_arm`] (frames and screws of the deflected arm), [`branch`] and [`posture`] (the
 //! postures of a pose), [`unreachable`](mod@unreachable) (why there may be none), [`inverse`] (tool pose to every
 //! posture), [`mod@reach`] (reach of the wrist centre), [`convention`] (which sign or zero disagrees with the pendant).
@@ -18,6 +18,7 @@ pub mod forward;
 mod forward_of_eight;
 mod frame_in_lanes;
 pub mod ground;
+pub mod hand;
 pub mod inverse;
 pub mod jacobian;
 pub mod joint;
@@ -35,7 +36,7 @@ pub use backlash::{Backlash, BacklashSide, STANDSTILL};
 pub use branch::{Branch, BranchPattern, Elbow, Shoulder, Wrist};
 pub use chain::{Amount, Axis, Chain, Motion};
 pub use compensator::{Compensator, Mass};
-pub use ground::Ground;
+pub use ground::{Ground, HeldByArm};
 pub use joint::{Joint, JointCompliance, Limits};
 pub use model::{Robot, RobotError};
 pub use posture::{Posture, PostureName, Sides, Singularity};

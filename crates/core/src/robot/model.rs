@@ -29,6 +29,16 @@ pub struct Robot {
     nominal: BranchPattern,
     inverse: Inverse,
     rest: Option<Vec<f64>>,
+    hand: Option<Box<Hand>>,
+}
+
+/// What a chain that begins at the flange of an arm is made of: the arm holds the part.
+#[derive(Clone, Debug)]
+pub struct Hand {
+    /// The arm without a part, base to flange.
+    pub arm: Robot,
+    /// From its base to the mount of the tool.
+    pub base_from_mount: Isometry,
 }
 
 /// Why a robot description is not consistent. Joint positions are in rad (m for prismatic joints).
@@ -96,6 +106,20 @@ pub enum RobotError {
         /// Name of the joint.
         joint: String,
     },
+    /// An arm on external axes that holds the part.
+    #[error(
+        "an arm on {external} external axes cannot hold the part: their joints are not known in this chain"
+    )]
+    ExternalAxesOfHand {
+        /// Number of external axes in front of the arm.
+        external: usize,
+    },
+    /// An arm of a positioner, or one that holds the part already, where a plain arm is needed.
+    #[error("the chain of robot `{robot}` begins at a part, not at the base of an arm")]
+    NotAnArm {
+        /// Name of the robot.
+        robot: String,
+    },
     /// A joint coupled to itself or to a later joint.
     #[error("joint {joint} is coupled to joint number {other}: it can only be coupled to an earlier joint")]
     Coupling {
@@ -131,8 +155,15 @@ impl Robot {
                 described: joints.len(),
             });
         }
+        let in_hand = chain.ground().part_is_in_hand();
         for (index, joint) in joints.iter().enumerate() {
-            check_joint(index, joint)?;
+            check_joint(joint, |other| {
+                // Earlier is nearer to the ground.
+                match in_hand {
+                    true => (index + 1..joints.len()).contains(&other),
+                    false => other < index,
+                }
+            })?;
         }
         let inverse = Inverse::recognise(&chain);
         Ok(Robot {
@@ -145,6 +176,7 @@ impl Robot {
             nominal: BranchPattern::FRONT_ELBOW_UP,
             inverse,
             rest: None,
+            hand: None,
         })
     }
 
@@ -235,6 +267,13 @@ impl Robot {
         self
     }
 
+    /// This robot with the inverse kinematics of the arm that holds its part.
+    pub(super) fn with_hand(mut self, hand: Hand) -> Robot {
+        self.inverse = Inverse::InHand(Box::new(hand.arm.inverse.clone()));
+        self.hand = Some(Box::new(hand));
+        self
+    }
+
     /// The name given.
     pub fn name(&self) -> &str {
         &self.name
@@ -275,6 +314,11 @@ impl Robot {
         &self.inverse
     }
 
+    /// The arm that holds the part, and where the tool stands; `None` if the tool is on the flange.
+    pub fn hand(&self) -> Option<&Hand> {
+        self.hand.as_deref()
+    }
+
     /// The geometry of an ortho-parallel arm with spherical wrist, if it is one.
     pub fn ortho_parallel(&self) -> Option<&OrthoParallel> {
         self.inverse.ortho_parallel()
@@ -300,8 +344,18 @@ impl Robot {
     /// The external axes in the order of a controller: those that carry the arm, then those of the positioner, each
     /// from the ground on.
     pub fn external_axes(&self) -> impl Iterator<Item = usize> + use<> {
-        let of_part = self.chain.ground().joints;
+        let of_part = self.chain.ground().positioner_joints();
         (of_part..self.inverse.rail_joints().max(of_part)).chain((0..of_part).rev())
+    }
+
+    /// Index of the joint with this number of the arm, counted from 0 at its base, without external axes.
+    ///
+    /// Not checked: that the arm has it.
+    pub fn joint_of_arm(&self, number: usize) -> usize {
+        match self.chain.ground().part_is_in_hand() {
+            true => self.joints.len() - 1 - number,
+            false => self.inverse.rail_joints() + number,
+        }
     }
 
     /// Chain position `theta` of joint `index` at the joint positions `q`.
@@ -342,7 +396,7 @@ impl Robot {
     }
 }
 
-fn check_joint(index: usize, joint: &Joint) -> Result<(), RobotError> {
+fn check_joint(joint: &Joint, is_earlier: impl Fn(usize) -> bool) -> Result<(), RobotError> {
     let finite = |what, value: f64| {
         if value.is_finite() {
             Ok(())
@@ -356,7 +410,7 @@ fn check_joint(index: usize, joint: &Joint) -> Result<(), RobotError> {
     finite("zero offset", joint.zero_offset)?;
     for coupling in &joint.coupling {
         finite("coupling factor", coupling.factor)?;
-        if coupling.joint >= index {
+        if !is_earlier(coupling.joint) {
             return Err(RobotError::Coupling {
                 joint: joint.name.clone(),
                 other: coupling.joint,

@@ -23,7 +23,7 @@ use nalgebra::DMatrix;
 use super::backlash::Backlash;
 use super::chain::{Amount, Axis, Chain, Motion};
 use super::compensator::Mass;
-use super::ground::Ground;
+use super::ground::{Ground, HeldByArm};
 use super::joint::{Joint, JointCompliance, Sign};
 use super::model::{NamedFrame, Robot, RobotError};
 use super::spring::{Attachment, Spring};
@@ -54,18 +54,19 @@ impl Positioner<'_> {
     }
 
     /// Its motions read from the table back, up to the base of the arm.
-    fn motions_from_table(&self) -> Vec<Motion> {
+    pub(super) fn motions_from_table(&self) -> Vec<Motion> {
         let own = self.robot.chain().motions().iter().rev();
         let own = own.map(|motion| backwards(motion, self.joints()));
         own.chain(constants(&self.base_from_root.inverse())).collect()
     }
 
     /// The ground in the whole chain.
-    fn ground(&self) -> Ground {
+    pub(super) fn ground(&self) -> Ground {
         let joints = self.joints();
         Ground {
             joints,
             joint_from_ground: last_joint_from_end(&self.motions_from_table(), joints),
+            held: HeldByArm::Tool,
         }
     }
 
@@ -225,7 +226,7 @@ fn with_amount(motion: &Motion, amount: Amount) -> Motion {
 }
 
 /// The constant motions that make this displacement.
-fn constants(displacement: &Isometry) -> Vec<Motion> {
+pub(super) fn constants(displacement: &Isometry) -> Vec<Motion> {
     let along = displacement.translation.vector;
     let about = fixed_angles(&displacement.rotation);
     let slides = Axis::ALL.map(|axis| Motion::Along(axis, Amount::Constant(along[axis.index()])));
@@ -249,7 +250,7 @@ fn last_joint_from_end(motions: &[Motion], count: usize) -> Isometry {
 }
 
 /// A joint of the positioner as seen from its table.
-fn reversed(joint: &Joint) -> Joint {
+pub(super) fn reversed(joint: &Joint) -> Joint {
     Joint {
         sign: match joint.sign {
             Sign::Positive => Sign::Negative,

@@ -59,6 +59,14 @@ impl TorqueCurve {
         (a1 - a0) / (t1 - t0)
     }
 
+    /// The same with torque and angle of the opposite sign.
+    fn reversed(&self) -> TorqueCurve {
+        let points = self.points.iter().rev();
+        TorqueCurve {
+            points: points.map(|[torque, angle]| [-torque, -angle]).collect(),
+        }
+    }
+
     fn more_compliant(&self, by: f64) -> TorqueCurve {
         let points = self
             .points
@@ -96,6 +104,22 @@ impl JointCurve {
     /// Slope (rad/(N m)) at the end of that turn.
     pub fn slope(&self, before: f64, change: f64) -> f64 {
         self.towards(change).slope(before + change)
+    }
+
+    /// The same of a joint whose positive direction is the opposite: rising and falling change places.
+    #[must_use]
+    pub fn reversed(&self) -> JointCurve {
+        let rising = self.rising.reversed();
+        match &self.falling {
+            None => JointCurve {
+                rising,
+                falling: None,
+            },
+            Some(falling) => JointCurve {
+                rising: falling.reversed(),
+                falling: Some(rising),
+            },
+        }
     }
 
     /// The same with an additional compliance, rad/(N m).

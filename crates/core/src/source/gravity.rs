@@ -14,8 +14,9 @@
 //! | `p` | TCP in base | m |
 //! | `tau_k` | torque on drive or spring k | N m (N) |
 //!
-//! A joint of a positioner, between the part and the ground, carries the masses on the other side: those of the part and of the
-//! links between it and the part. Its motion moves them against its screw: `tau_k = -s_k . [ M_k g ; S_k x g ]`.
+//! A joint or spring between the part and the ground, of a positioner or of an arm that holds the part, carries the masses on
+//! the other side: those of the part and of the links between it and the part. Its motion moves them against its screw:
+//! `tau_k = -s_k . [ M_k g ; S_k x g ]`.
 //!
 //! Source: principle of virtual work; `docs/theory/gravity.md`.
 
@@ -78,9 +79,10 @@ pub fn torque(screw: &Twist, carried: &Carried, g: &Vector3<f64>) -> f64 {
     screw.dot(&carried.weight(g))
 }
 
-/// Torque of the weight on the joint `joint` of a positioner with this screw at the TCP, N m (N); `carried` by rank.
-pub fn torque_of_positioner(screw: &Twist, carried: &[Carried], joint: usize, g: &Vector3<f64>) -> f64 {
-    let (all, behind) = (carried[0], carried[joint + 1]);
+/// Torque of the weight on a drive or spring between the part and the ground with this screw at the TCP, N m (N). `carried` is
+/// given by rank; the masses of the first `ranks` ranks are on its other side.
+pub fn torque_in_front(screw: &Twist, carried: &[Carried], ranks: usize, g: &Vector3<f64>) -> f64 {
+    let (all, behind) = (carried[0], carried[ranks]);
     let in_front = Carried {
         mass: all.mass - behind.mass,
         moment: all.moment - behind.moment,

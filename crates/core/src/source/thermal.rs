@@ -12,6 +12,8 @@
 //! | `r` | centre of the flange, base | m |
 //! | `a_j`, `d_j` | axis (base) and travel of each prismatic joint: a scale measures it, so it does not grow | 1, m |
 //!
+//! An arm that holds the part moves it by `delta`: the tool moves relative to the part by the opposite.
+//!
 //! All lengths grow alike, so no axis turns, and the displacement is exactly proportional to `g`. Tool and part do not grow.
 //! Source: linear expansion, ISO 1:2022 and `docs/theory/thermal.md`.
 

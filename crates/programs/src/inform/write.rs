@@ -46,6 +46,7 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
         // Those of a base axis or station are positions of another group, in pulses.
         external: 0,
         units: None,
+        holds_part: false,
         frames: 1..=63,
         tools: 0..=63,
         longest_dwell: LONGEST_DWELL,

@@ -11,7 +11,7 @@ use armill_formats::convention::Convention;
 
 use super::aggregate::whole;
 use crate::controller::Controller;
-use crate::draft::{Blend, Draft, DraftPoint, DraftStep, Written, text_lines};
+use crate::draft::{Blend, Draft, DraftPoint, DraftStep, FrameOn, Written, text_lines};
 use crate::draft_check::{Bounds, DraftError, LEAST_ACCELERATION, LONGEST_DWELL, UnitNames, avoid};
 use crate::number::fixed;
 use crate::text::latin1;
@@ -128,6 +128,7 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
             are: |unit| unit.parse().is_ok_and(|number: u32| MACHINES.contains(&number)),
             rule: "it is the number of its MACHINE_DEF, 2 to 16",
         }),
+        holds_part: false,
         frames: 0..=MOST_FRAMES,
         tools: 0..=MOST_FRAMES,
         longest_dwell: LONGEST_DWELL,
@@ -205,12 +206,12 @@ fn head(draft: &Draft) -> String {
 /// The base; one on the table of a positioner moves with it: `EK` couples it to the external kinematic system.
 fn base(draft: &Draft) -> String {
     let frame = set(&draft.base_from_frame);
-    match draft.frame_is_carried {
-        true => {
+    match draft.frame_on {
+        FrameOn::Table => {
             let unit = unit(draft);
             format!("EK(MACHINE_DEF[{unit}].ROOT,MACHINE_DEF[{unit}].MECH_TYPE,{frame})")
         }
-        false => frame,
+        FrameOn::Cell | FrameOn::Flange => frame,
     }
 }
 
@@ -320,7 +321,7 @@ impl<'a> Body<'a> {
 fn notes(draft: &Draft) -> Vec<String> {
     let (frame, tool) = (draft.controller.frame_number, draft.controller.tool_number);
     let data = match draft.controller.sets_data() {
-        true if draft.frame_is_carried => {
+        true if draft.frame_on == FrameOn::Table => {
             let unit = unit(draft);
             format!(
                 "$BASE is coupled to the external kinematic system of MACHINE_DEF[{unit}], whose frame at its table must be \
@@ -335,9 +336,9 @@ fn notes(draft: &Draft) -> Vec<String> {
         false => format!(
             "BASE_DATA[{frame}] must be {}{} and TOOL_DATA[{tool}] {} on the controller, for which this program was made",
             set(&draft.base_from_frame),
-            match draft.frame_is_carried {
-                true => " on the table of the positioner",
-                false => "",
+            match draft.frame_on {
+                FrameOn::Table => " on the table of the positioner",
+                FrameOn::Cell | FrameOn::Flange => "",
             },
             set(&draft.flange_from_tool)
         ),

@@ -8,7 +8,7 @@ use std::fmt::Write;
 
 use super::spell::whole;
 use crate::controller::Controller;
-use crate::draft::{Blend, Draft, DraftPoint, DraftStep, Written, text_lines};
+use crate::draft::{Blend, Draft, DraftPoint, DraftStep, FrameOn, Written, text_lines};
 use crate::draft_check::{Bounds, DraftError, LONGEST_DWELL, UnitNames, avoid};
 use crate::number::fixed;
 use crate::posture::Configuration;
@@ -164,6 +164,7 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
             are: is_unit,
             rule: "it has letters, digits and underscores, at most 32, such as \"STN1\"",
         }),
+        holds_part: true,
         frames: 0..=MOST_FRAMES,
         tools: 0..=MOST_FRAMES,
         longest_dwell: LONGEST_DWELL,
@@ -233,11 +234,22 @@ fn names(controller: &Controller) -> [String; 2] {
 }
 
 /// A work object with this frame. On the table of a positioner the user frame is that of its mechanical unit, and the frame is the
-/// object frame on it (ABB 3HAC021272-001, section 6.3).
+/// object frame on it (ABB 3HAC021272-001, section 6.3). One that the robot holds has its user frame in the wrist frame
+/// (ABB RAPID reference manual, `wobjdata`).
 fn work_object(draft: &Draft, frame: &str) -> String {
-    match draft.frame_is_carried {
-        true => format!("[FALSE,FALSE,\"{}\",[[0,0,0],[1,0,0,0]],[{frame}]]", unit(draft)),
-        false => format!("[FALSE,TRUE,\"\",[{frame}],[[0,0,0],[1,0,0,0]]]"),
+    match draft.frame_on {
+        FrameOn::Table => format!("[FALSE,FALSE,\"{}\",[[0,0,0],[1,0,0,0]],[{frame}]]", unit(draft)),
+        FrameOn::Cell => format!("[FALSE,TRUE,\"\",[{frame}],[[0,0,0],[1,0,0,0]]]"),
+        FrameOn::Flange => format!("[TRUE,TRUE,\"\",[{frame}],[[0,0,0],[1,0,0,0]]]"),
+    }
+}
+
+/// Whether the robot holds the tool. The frame of a tool that it does not hold is in the world frame, and its load is that
+/// of the gripper (ABB RAPID reference manual, `tooldata`).
+fn holds_tool(draft: &Draft) -> &'static str {
+    match draft.frame_on {
+        FrameOn::Flange => "FALSE",
+        FrameOn::Cell | FrameOn::Table => "TRUE",
     }
 }
 
@@ -265,8 +277,9 @@ fn head(draft: &Draft, name: &str, blends: &[Blend]) -> String {
         whole(&draft.base_from_frame, &mut frame);
         _ = write!(
             out,
-            "  LOCAL PERS tooldata {tool_name}:=[TRUE,[{tool}],[1,[0,0,1],[1,0,0,0],0,0,0]];\r\n  \
+            "  LOCAL PERS tooldata {tool_name}:=[{},[{tool}],[1,[0,0,1],[1,0,0,0],0,0,0]];\r\n  \
              LOCAL PERS wobjdata {frame_name}:={};\r\n",
+            holds_tool(draft),
             work_object(draft, &frame)
         );
     }
@@ -401,11 +414,25 @@ fn notes(draft: &Draft) -> Vec<String> {
     let [tool, frame] = names(&draft.controller);
     let mut notes = match draft.controller.sets_data() {
         true => vec![
-            format!(
-                "{tool} and {frame} are data of this module, relative to flange and robot base: compare them with those \
-                 of the controller"
-            ),
-            format!("the load of {tool} is written as 1 kg: set mass, centre of gravity and inertia"),
+            match draft.frame_on {
+                FrameOn::Flange => format!(
+                    "{tool} stands in the cell, and its frame is relative to the world frame, taken as that of the robot base; {frame} is \
+                     on the flange: compare them with those of the controller"
+                ),
+                FrameOn::Cell | FrameOn::Table => format!(
+                    "{tool} and {frame} are data of this module, relative to flange and robot base: compare them with those \
+                     of the controller"
+                ),
+            },
+            match draft.frame_on {
+                FrameOn::Flange => format!(
+                    "the load of {tool}, that of the gripper, is written as 1 kg: set mass, centre of gravity and inertia, and \
+                     those of the part by GripLoad"
+                ),
+                FrameOn::Cell | FrameOn::Table => {
+                    format!("the load of {tool} is written as 1 kg: set mass, centre of gravity and inertia")
+                }
+            },
         ],
         false => {
             let (mut tool_values, mut frame_values) = (String::new(), String::new());
@@ -417,7 +444,7 @@ fn notes(draft: &Draft) -> Vec<String> {
             )]
         }
     };
-    if draft.frame_is_carried {
+    if draft.frame_on == FrameOn::Table {
         notes.push(format!(
             "{frame} is coupled to the mechanical unit {}, whose user frame must be that of the robot file of the positioner: \
              compare them, and the senses and zeros of its axes, before the first run; the unit must be active",

@@ -55,6 +55,7 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
             into several parts",
         external: MOST_EXTERNAL,
         units: None,
+        holds_part: false,
         frames: 1..=9,
         tools: 1..=10,
         longest_dwell: LONGEST_DWELL,

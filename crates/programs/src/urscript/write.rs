@@ -78,6 +78,7 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
         names: "a letter, then letters, digits and underscores, at most 64 characters, and not a reserved word",
         external: 0,
         units: None,
+        holds_part: false,
         frames: 0..=MOST_FRAMES,
         tools: 0..=MOST_FRAMES,
         longest_dwell: LONGEST_DWELL,

@@ -43,6 +43,7 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
         names: "a letter, then letters, digits and underscores, at most 31 characters",
         external: 0,
         units: None,
+        holds_part: false,
         frames: 0..=99,
         tools: 0..=99,
         longest_dwell: LONGEST_DWELL,

@@ -6,8 +6,8 @@ use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::{Branch, BranchPattern};
 use armill_programs::{
-    Controller, Draft, DraftPoint, DraftStep, Frame, FrameData, Language, Motion, ProgramText, RobotProgram,
-    Speed, Target, Written, read, write,
+    Controller, Draft, DraftPoint, DraftStep, Frame, FrameData, FrameOn, Language, Motion, ProgramText,
+    RobotProgram, Speed, Target, Written, read, write,
 };
 use proptest::prelude::*;
 
@@ -156,7 +156,7 @@ pub fn drafts(writes: Writes) -> impl Strategy<Value = Draft> {
                 flange_from_tool: tool,
                 controller,
                 external_slides,
-                frame_is_carried: false,
+                frame_on: FrameOn::Cell,
                 steps,
             },
         )
@@ -183,7 +183,7 @@ pub fn spaced(points: usize, apart_mm: f64) -> Draft {
             ..Controller::default()
         },
         external_slides: Vec::new(),
-        frame_is_carried: false,
+        frame_on: FrameOn::Cell,
         steps: (0..points).map(point).map(DraftStep::Move).collect(),
     }
 }

@@ -10,6 +10,7 @@ use armill_report::{AxisLabels, Grid, PointState, ShareBar, ShareBars};
 
 use crate::analysis::point::PointAnswer;
 use crate::input::setting::Setting;
+use crate::naming::FLANGE;
 
 /// The quantity of the colours.
 pub const QUANTITY: &str = "in-plane deviation (µm)";
@@ -45,6 +46,7 @@ pub fn axes(setting: &Setting) -> AxisLabels {
 pub fn subtitle(setting: &Setting) -> String {
     let tool = match to_mm(setting.flange_from_tool.translation.vector.norm()) {
         0.0 => "bare flange".to_owned(),
+        length if setting.base_name == FLANGE => format!("TCP {length:.0} mm from the mount of the tool"),
         length => format!("TCP {length:.0} mm from the flange"),
     };
     let tilt = setting

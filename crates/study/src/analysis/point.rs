@@ -20,6 +20,7 @@ use serde::Serialize;
 
 use crate::input::setting::Setting;
 use crate::model_words::parts;
+use crate::naming::usual_reference;
 use crate::number::without_rounding;
 use crate::uncertainty_words::inputs_without_uncertainty;
 
@@ -82,7 +83,7 @@ impl SettingAnswer {
             tilt_deg: setting.tilt.map(to_deg).map(without_rounding),
             normal_axis: clean(setting.plane.normal().into_inner().into()),
             tool_length_mm: without_rounding(to_mm(setting.flange_from_tool.translation.vector.norm())),
-            load_frame: if turns { "feed" } else { crate::BASE_LINK },
+            load_frame: if turns { "feed" } else { usual_reference(robot) },
             cases_n: cases.iter().map(|w| clean(w.force.into())).collect(),
             moments_n_m: cases.iter().map(|w| clean(w.moment.into())).collect(),
             load_source: setting.load_source.clone(),

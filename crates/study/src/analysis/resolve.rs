@@ -37,6 +37,7 @@ use crate::input::quantities::{grid, load_cases, plane_at, pose_mm_deg};
 use crate::input::setting::Setting;
 use crate::input::stiffness;
 use crate::input::tables::{LoadFrameName, PlaneTable, PostureTable, ToolTable};
+use crate::naming::usual_reference;
 
 /// The plane of the study with the changes of the analysis.
 pub fn plane_of(plane: &PlaneTable, analysis: &AnalysisTable) -> PlaneTable {
@@ -185,7 +186,10 @@ impl Resolver<'_> {
             .base
             .clone()
             .or_else(|| self.common.base.map(str::to_owned));
-        let base_name = base_name.unwrap_or_else(|| crate::BASE_LINK.to_owned());
+        let usual = self
+            .robot
+            .map_or(crate::BASE_LINK, |found| usual_reference(&found.robot));
+        let base_name = base_name.unwrap_or_else(|| usual.to_owned());
         let base_from_reference = self.base_from_reference(log, &base_name);
         let choice = self.choice(log);
         let home = self.home(log);
@@ -208,6 +212,7 @@ impl Resolver<'_> {
             _ => None,
         };
         let base_from_link = self.base_from_link();
+        self.refuse_load_of_base(log, push);
         if let Some(LoadSource::Measured(table, _)) = push
             && table.frame.frame() == LoadFrame::Base
             && base_from_link != Isometry::identity()
@@ -324,6 +329,29 @@ impl Resolver<'_> {
         found.and_then(Result::ok).unwrap_or_else(Isometry::identity)
     }
 
+    /// Whether the robot holds the part.
+    fn part_is_in_hand(&self) -> bool {
+        self.robot
+            .is_some_and(|found| found.robot.chain().ground().part_is_in_hand())
+    }
+
+    /// Reports forces along the axes of the base of a robot that turns the part below them.
+    fn refuse_load_of_base(&self, log: &mut ProblemLog<'_>, push: Option<LoadSource<'_>>) {
+        let key = match push {
+            Some(LoadSource::Load(table)) => (table.frame.map_or(LoadFrame::Base, LoadFrameName::frame)
+                == LoadFrame::Base)
+                .then_some("load.frame"),
+            Some(LoadSource::Measured(table, _)) => {
+                (table.frame.frame() == LoadFrame::Base).then_some("program.measured.frame")
+            }
+            _ => None,
+        };
+        if let Some(key) = key.filter(|_| self.part_is_in_hand()) {
+            let message = "forces in the axes of base_link are not known of a part in the hand, which turns";
+            log.problem(key, message, "`part`, or along a path `feed`");
+        }
+    }
+
     /// The value of the analysis for a key of the posture, else that of the study.
     pub fn of_posture<T>(&self, get: impl Fn(&'_ PostureTable) -> Option<&T>) -> Option<&T> {
         let own = self.table.posture.as_ref().and_then(&get);
@@ -345,7 +373,7 @@ impl Resolver<'_> {
     /// The position of a rail and the preferred positions of redundant joints; `None` also if that has problems.
     fn home(&self, log: &mut ProblemLog<'_>) -> Option<Vec<f64>> {
         let given = self.of_posture(|posture| posture.home_deg.as_ref())?;
-        match crate::joint_unit::joint_positions(&self.robot?.robot, given) {
+        match crate::joint_unit::joint_positions_from_base(&self.robot?.robot, given) {
             Ok(home) => Some(home),
             Err(StudyError::Value { message, hint }) => {
                 log.problem("posture.home_deg", message, &hint);

@@ -54,6 +54,8 @@ pub struct StudyFile {
     pub least_clearance_mm: Option<f64>,
     /// A turntable or positioner that carries the part; coordinates may then be relative to its frame `table`.
     pub positioner: Option<PositionerTable>,
+    /// The robot holds the part, and the tool stands in the cell; coordinates are then relative to the flange.
+    pub part_in_hand: Option<PartInHandTable>,
     /// Gravity on the masses of robot and tool; neglected without this table.
     pub gravity: Option<GravityTable>,
     /// Thermal growth of the links since the calibration of the arm; neglected without this table.
@@ -154,14 +156,27 @@ pub struct PositionerTable {
     pub mass: Vec<TableMassTable>,
 }
 
-/// A mass on the table of a positioner.
+/// The robot holds the part, and the tool stands in the cell.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PartInHandTable {
+    /// Where the tool stands: base_link of the robot to the mount of the tool, from which `flange_from_tool_mm_deg` of the
+    /// tool goes on; x, y, z in mm, then rotations about the fixed axes x, y, z in degrees.
+    #[schemars(inner(range(min = -1e6, max = 1e6)))]
+    pub base_from_mount_mm_deg: [f64; 6],
+    /// Masses of gripper and part on the flange, for gravity.
+    #[serde(default)]
+    pub mass: Vec<TableMassTable>,
+}
+
+/// A mass on the table of a positioner, or in the hand of the robot.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TableMassTable {
     /// Mass.
     #[schemars(range(min = 0.0, max = 1e6))]
     pub mass_kg: f64,
-    /// Centre of mass in the frame of the table.
+    /// Centre of mass in the frame of the table, or of the flange.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub centre_mm: [f64; 3],
 }

@@ -26,7 +26,7 @@ use crate::file::experiment::Experiment;
 use crate::file::format::{StatementTable, StudyFile};
 use crate::file::names::{check_statements, name_of, unfit_names};
 use crate::file::placement::PlaceTable;
-use crate::file::{ResolvedAnalyses, compliance, positioner};
+use crate::file::{ResolvedAnalyses, compliance, part_in_hand, positioner};
 use crate::input::cell::CellBodies;
 use crate::input::problem_log::ProblemLog;
 use crate::input::setting::Setting;
@@ -200,6 +200,15 @@ impl Parsed {
                 actual.robot = Arc::new(found.under(&actual.robot)?);
             }
         }
+        if let Some(table) = &file.part_in_hand {
+            part_in_hand::check(&mut log, file);
+            if file.positioner.is_none() {
+                robot = robot.map(|arm| part_in_hand::described(table, arm)).transpose()?;
+                if let Some(actual) = &mut actual {
+                    actual.robot = Arc::new(part_in_hand::holding(table, &actual.robot)?);
+                }
+            }
+        }
         let bodies = match &robot {
             Some(robot) => CellBodies::read(&mut log, &file.cell_tables(&tables), robot, folder)?,
             None => None,
@@ -248,7 +257,7 @@ impl Parsed {
             problems.extend(table.problems(
                 document,
                 robot.robot.joints().len(),
-                robot.robot.chain().ground().joints,
+                robot.robot.chain().ground().positioner_joints(),
             ));
         }
         problems.extend(unfit_names(document, file));

@@ -82,8 +82,9 @@ fn angles(setting: &Setting) -> Vec<String> {
 
 fn plane(described: &RobotDescription, setting: &Setting) -> Option<String> {
     let robot = &described.robot;
-    // The origin of a rail is a place for a part.
-    if (0..robot.joints().len()).any(|joint| robot.slides(joint)) {
+    // The origin of a rail is a place for a part, and so is the flange of a robot that holds it.
+    let is_in_hand = robot.chain().ground().part_is_in_hand();
+    if is_in_hand || (0..robot.joints().len()).any(|joint| robot.slides(joint)) {
         return None;
     }
     let from_base = setting.plane.base_from_part.translation.vector;

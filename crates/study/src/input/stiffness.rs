@@ -24,7 +24,7 @@ use armill_formats::robot::spring_tables::SpringTableError;
 use crate::error::StudyError;
 use crate::input::problem_log::ProblemLog;
 use crate::input::tables::{CutterMaterial, GravityTable, ThermalTable, ToolTable};
-use crate::joint_unit::joint_positions;
+use crate::joint_unit::joint_positions_from_base;
 
 /// What the study adds to the stiffness model of the robot file, as written.
 #[derive(Clone, Copy, Debug)]
@@ -60,7 +60,7 @@ pub fn model(
         .gravity
         .and_then(|table| gravity(log, table, robot, &structure));
     if given.load_dependent && gravity.is_some() && !robot.chain().ground().is_base() {
-        let message = "a load-dependent equilibrium with gravity is not known of a robot with a positioner";
+        let message = "a load-dependent equilibrium with gravity is not known of a robot with a positioner or with the part in its hand";
         log.problem("load_dependent", message, "remove one of the three");
     }
     (log.problems.len() == before).then_some(StiffnessModel {
@@ -93,6 +93,17 @@ impl ToolTable {
 fn add_tool(log: &mut ProblemLog<'_>, tool: &ToolTable, robot: &Robot, structure: &mut Structure) {
     let joints: Vec<&str> = robot.joints().iter().map(|joint| joint.name.as_str()).collect();
     let ground = robot.chain().ground();
+    let of_stand = ["flange", "tool"];
+    let held = tool.spring.iter().map(|table| ("spring", &table.at));
+    let held = held.chain(tool.mass.iter().map(|table| ("mass", &table.at)));
+    if ground.part_is_in_hand()
+        && let Some((kind, at)) = held.into_iter().find(|(_, at)| !of_stand.contains(&at.as_str()))
+    {
+        let message =
+            format!("a {kind} of the tool is at `{at}`, but the tool is not on the robot: it holds the part");
+        log.problem("tool", message, "`flange` (the mount of the tool) or `tool`");
+        return;
+    }
     let mut report = |table: String, fault: SpringTableError| {
         log.problem(&fault.path_in(&table), fault.message, &fault.hint);
     };
@@ -154,7 +165,7 @@ fn gravity(
     robot: &Robot,
     structure: &Structure,
 ) -> Option<Gravity> {
-    let reference = match joint_positions(robot, &table.reference_joints_deg) {
+    let reference = match joint_positions_from_base(robot, &table.reference_joints_deg) {
         Ok(reference) => Some(reference),
         Err(StudyError::Value { message, .. }) => {
             let hint = "the joint positions when the tool was set, base to flange";

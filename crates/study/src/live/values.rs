@@ -15,6 +15,7 @@ use crate::input::tables::HalfSize;
 use crate::live::process::ProcessValues;
 use crate::live::scene::{PlateInScene, half_of};
 use crate::live::{EditedAnalysis, StudyText};
+use crate::naming::references;
 use crate::number::without_rounding;
 
 /// Every setting of one analysis; `null` if it has none.
@@ -94,16 +95,13 @@ pub(super) fn values_of(edited: &EditedAnalysis<'_>) -> Result<ValuesAnswer, Stu
     };
     let tool = table.tool.as_ref().or(file.tool.as_ref());
     let load = table.load.as_ref().or(file.load.as_ref());
-    let frames = robot.frames().iter().map(|frame| frame.name.clone());
     let of_box = table.in_box.as_ref().and_then(|of| of.centre_mm);
     let upright = plane.rotation_deg.is_none();
     Ok(ValuesAnswer {
         kind: table.kind.name(),
         robot: file.robot.clone(),
         base: setting.base_name.clone(),
-        bases: std::iter::once(crate::BASE_LINK.to_owned())
-            .chain(frames.filter(|frame| frame != crate::BASE_LINK))
-            .collect(),
+        bases: references(robot).into_iter().map(str::to_owned).collect(),
         centre_mm: of_box.unwrap_or(plane.centre_mm),
         centre_key: match of_box {
             Some(_) => "box.centre_mm",

@@ -8,10 +8,10 @@ use armill_core::nalgebra::Point3;
 use armill_core::robot::inverse::{ToolAt, posture_at, postures};
 use armill_core::robot::{Branch, Robot};
 use armill_core::units::to_mm;
-use armill_programs::DraftPoint;
+use armill_programs::{DraftPoint, FrameOn};
 
 use crate::input::setting::Setting;
-use crate::naming::base_from_controller;
+use crate::naming::{base_from_controller, controller_from_mount};
 
 /// Joints of an arm that programs are written for; further ones, first in the chain, are external axes.
 const ARM_JOINTS: usize = 6;
@@ -62,7 +62,11 @@ impl Arm<'_> {
         let external = at.joints.len().saturating_sub(ARM_JOINTS);
         DraftPoint {
             frame_from_tool: self.base_from_path.inverse() * at.base_from_tool,
-            joints: at.joints[external..].to_vec(),
+            joints: match self.frame_on() {
+                // The controller counts its joints from the base of the robot.
+                FrameOn::Flange => at.joints.iter().rev().copied().collect(),
+                FrameOn::Cell | FrameOn::Table => at.joints[external..].to_vec(),
+            },
             external: self.external().map(|joint| at.joints[joint]).collect(),
             branch: at.branch,
             speed,
@@ -73,7 +77,7 @@ impl Arm<'_> {
     /// The joints that a program moves as external axes, in the order of a controller; without a positioner that stands.
     fn external(&self) -> impl Iterator<Item = usize> {
         let robot = self.robot;
-        let of_positioner = robot.chain().ground().joints;
+        let of_positioner = robot.chain().ground().positioner_joints();
         let first_of_arm = robot.joints().len().saturating_sub(ARM_JOINTS);
         let carrying = of_positioner..first_of_arm.max(of_positioner);
         let moving = if self.standing.is_some() { 0 } else { of_positioner };
@@ -85,17 +89,31 @@ impl Arm<'_> {
         self.external().map(|joint| self.robot.slides(joint)).collect()
     }
 
-    /// Whether a positioner moves the frame of the targets.
-    pub fn frame_is_carried(&self) -> bool {
-        !self.robot.chain().ground().is_base() && self.standing.is_none()
+    /// What the frame of the targets is fixed to.
+    pub fn frame_on(&self) -> FrameOn {
+        let ground = self.robot.chain().ground();
+        if ground.part_is_in_hand() {
+            FrameOn::Flange
+        } else if !ground.is_base() && self.standing.is_none() {
+            FrameOn::Table
+        } else {
+            FrameOn::Cell
+        }
     }
 
-    /// The frame of the targets: relative to the table of a positioner that moves it, else to the frame of the controller.
+    /// The frame of the targets: relative to the table of a positioner that moves it, to the flange of a robot that holds
+    /// the part, else to the frame of the controller.
     pub fn reference_from_frame(&self) -> Isometry {
-        match self.frame_is_carried() {
-            true => self.base_from_path,
-            false => base_from_controller(self.robot, self.standing).inverse() * self.base_from_path,
+        match self.frame_on() {
+            FrameOn::Table | FrameOn::Flange => self.base_from_path,
+            FrameOn::Cell => base_from_controller(self.robot, self.standing).inverse() * self.base_from_path,
         }
+    }
+
+    /// The tool: relative to the flange, or to the frame of the controller where it stands in the cell.
+    pub fn mount_from_tool(&self) -> Isometry {
+        let controller_from_mount = controller_from_mount(self.robot).unwrap_or_else(Isometry::identity);
+        controller_from_mount * self.setting.flange_from_tool
     }
 
     /// The arm at these joint positions, rad (m).

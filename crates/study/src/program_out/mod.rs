@@ -40,7 +40,7 @@ use crate::analysis::path::answer::obstacles;
 use crate::error::StudyError;
 use crate::file::resolve::Study;
 use crate::input::setting::Setting;
-use crate::joint_unit::{JointUnit, joint_positions};
+use crate::joint_unit::{JointUnit, joint_positions_from_base};
 use crate::number::decimals;
 
 /// A path with its postures, to be written as a program.
@@ -130,9 +130,11 @@ pub fn program(
 /// moves, or if there is none.
 fn standing(study: &Study, answers: &Answers) -> Result<Option<Vec<f64>>, StudyError> {
     let robot = &study.robot.robot;
-    let count = robot.chain().ground().joints;
+    let count = robot.chain().ground().positioner_joints();
     let home = study.controller.home_deg.as_ref();
-    let home = home.map(|home| joint_positions(robot, home)).transpose()?;
+    let home = home
+        .map(|home| joint_positions_from_base(robot, home))
+        .transpose()?;
     let reached = (0..answers.points.len()).filter(|index| answers.points[*index].is_ok());
     let mut all = reached
         .map(|index| answers.joints_at(index))
@@ -162,8 +164,8 @@ fn written(
         name: requested.name.clone(),
         remarks: remarks(study),
         base_from_frame: arm.reference_from_frame(),
-        frame_is_carried: arm.frame_is_carried(),
-        flange_from_tool: arm.setting.flange_from_tool,
+        frame_on: arm.frame_on(),
+        flange_from_tool: arm.mount_from_tool(),
         controller: settings::controller(&study.controller, requested),
         external_slides: arm.external_slides(),
         steps,

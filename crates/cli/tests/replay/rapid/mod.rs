@@ -3,7 +3,7 @@
 //! Sources: Technical reference manual, RAPID instructions, functions and data types (3HAC16581-1), RAPID overview
 //! (3HAC16580-1) and RAPID kernel (3HAC16585-1); all [recalled].
 //!
-//! Not interpreted: branches, loops, functions, parameters of procedures, stationary tools.
+//! Not interpreted: branches, loops, functions, parameters of procedures.
 
 mod data;
 mod motion;

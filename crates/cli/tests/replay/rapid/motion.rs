@@ -5,7 +5,7 @@
 
 use super::data::Data;
 use super::records::predefined;
-use super::target::{RobTarget, lists, robtarget, tool_frame, used, work_object};
+use super::target::{RobTarget, lists, robtarget, tool as tool_of, used, work_object};
 use crate::event::{Action, Blend, JointMove, JointTarget, LinearMove, Posture, Reference, Speed};
 use crate::source::ReplayError;
 use crate::value::Value;
@@ -132,6 +132,11 @@ fn how(data: &Data, cursor: &mut Cursor, module: &str) -> Result<How, ReplayErro
         let (name, value) = named(data, cursor, module)?;
         base = (name, Some(value));
     }
+    let tool = tool_of(cursor, tool_name, &tool)?;
+    let base = work_object(cursor, base.0, base.1.as_ref())?;
+    if tool.is_swapped != base.is_swapped {
+        return Err(cursor.error("the robot holds either the tool or the work object"));
+    }
     Ok(How {
         speed,
         blend: if fine || distance == 0.0 {
@@ -139,8 +144,8 @@ fn how(data: &Data, cursor: &mut Cursor, module: &str) -> Result<How, ReplayErro
         } else {
             Blend::DistanceMm(distance)
         },
-        tool: Reference::new(tool_name, Some(tool_frame(cursor, &tool)?)),
-        base: work_object(cursor, base.0, base.1.as_ref())?,
+        tool,
+        base,
     })
 }
 

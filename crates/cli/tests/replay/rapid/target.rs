@@ -52,26 +52,29 @@ fn frame_of(cursor: &Cursor, value: &Value) -> Result<Pose, ReplayError> {
     pose_of(cursor, &parts[0], &parts[1])
 }
 
-pub fn tool_frame(cursor: &Cursor, value: &Value) -> Result<Pose, ReplayError> {
-    match value {
-        Value::List(parts) => match &parts[..] {
-            [Value::Truth(true), frame, _load] => frame_of(cursor, frame),
-            [Value::Truth(false), ..] => Err(cursor.error("a stationary tool is not interpreted")),
-            _ => Err(cursor.error("not a tooldata")),
-        },
+/// The tool of this name: on the flange, or standing in the world frame.
+pub fn tool(cursor: &Cursor, name: String, value: &Value) -> Result<Reference, ReplayError> {
+    let Value::List(parts) = value else {
+        return Err(cursor.error("not a tooldata"));
+    };
+    match &parts[..] {
+        [Value::Truth(is_held), frame, _load] => Ok(Reference {
+            is_swapped: !is_held,
+            ..Reference::new(name, Some(frame_of(cursor, frame)?))
+        }),
         _ => Err(cursor.error("not a tooldata")),
     }
 }
 
 /// The work object of this name: user frame, then object frame; of one that a mechanical unit moves the object frame, which is
-/// relative to this unit.
+/// relative to this unit; of one that the robot holds both are relative to the flange.
 pub fn work_object(cursor: &Cursor, name: String, value: Option<&Value>) -> Result<Reference, ReplayError> {
     let Some(Value::List(parts)) = value else {
         return Err(cursor.error("not a wobjdata"));
     };
     match &parts[..] {
         [
-            Value::Truth(false),
+            Value::Truth(is_held),
             Value::Truth(fixed),
             Value::Text(unit),
             user,
@@ -79,12 +82,15 @@ pub fn work_object(cursor: &Cursor, name: String, value: Option<&Value>) -> Resu
         ] => {
             let (user, object) = (frame_of(cursor, user)?, frame_of(cursor, object)?);
             let pose = if *fixed { user.then(&object) } else { object };
+            if *is_held && !*fixed {
+                return Err(cursor.error("a work object at the robot is not moved by a unit"));
+            }
             Ok(Reference {
                 unit: (!fixed).then(|| unit.clone()),
+                is_swapped: *is_held,
                 ..Reference::new(name, Some(pose))
             })
         }
-        [Value::Truth(true), ..] => Err(cursor.error("a work object at the robot is not interpreted")),
         _ => Err(cursor.error("not a wobjdata")),
     }
 }

@@ -239,7 +239,7 @@ fn what_is_not_known_is_refused_with_its_place() {
     refused(
         "PERS tooldata t:=[FALSE,[[0,0,1],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];",
         &format!("MoveL {at},v10,fine,t;"),
-        "stationary tool",
+        "the robot holds either the tool or the work object",
     );
     assert!(refusal(Rapid, &[("m.mod", &module("", ""))], "q").contains("no PROC q"));
 }

@@ -8,9 +8,9 @@ use crate::kernel::answer::AT_LIMIT;
 use crate::predict::deviation_of;
 use crate::robot::forward::{Frames, forward_into, joint_axis};
 use crate::robot::inverse::{Finder, InverseSolution, InverseTarget};
+use crate::robot::jacobian::axes_4_and_6;
 use crate::robot::{Branch, PostureName, Robot, Singularity};
 use crate::source::{Arm, ArmState, Links};
-use crate::spatial::Twist;
 
 /// The arm, and the margins to limits and singularities.
 #[derive(Clone, Copy)]
@@ -50,7 +50,6 @@ impl OneByOne<'_> {
             return;
         };
         let named = arm.robot.inverse().has_branches();
-        let rail = arm.robot.inverse().rail_joints();
         for (order, one) in found.iter().enumerate() {
             let slot = match one.name {
                 PostureName::Branch(branch) if named => Branch::ALL.iter().position(|other| *other == branch),
@@ -70,12 +69,8 @@ impl OneByOne<'_> {
                 let tcp = pose.translation.vector.into();
                 self.arm_state.set_frames(&one.joints, &self.frames, &tcp);
                 let wrist = margins.wrist.max(margins.margin);
-                if is_singular(
-                    named,
-                    one,
-                    self.arm_state.screws().get(rail..).unwrap_or_default(),
-                    wrist,
-                ) || elbow_bend(arm.robot, &self.frames) < margins.margin.sin()
+                let bend = axes_4_and_6(arm.robot, self.arm_state.screws());
+                if is_singular(one, bend, wrist) || elbow_bend(arm.robot, &self.frames) < margins.margin.sin()
                 {
                     PostureStatus::Singular
                 } else {
@@ -108,15 +103,13 @@ impl OneByOne<'_> {
     }
 }
 
-/// Whether a posture is nearer to a singularity than allowed: of an arm with branch names by the angle between axes 4
-/// and 6, of others by its flag. `screws` are those of the arm, without its rail.
-fn is_singular(named: bool, found: &InverseSolution, screws: &[Twist], wrist: f64) -> bool {
-    match (found.singularity, screws) {
+/// Whether a posture is nearer to a singularity than allowed: of an arm with branch names by the angle between its axes 4
+/// and 6, of others by its flag.
+fn is_singular(found: &InverseSolution, axes_4_and_6: Option<[Vector3<f64>; 2]>, wrist: f64) -> bool {
+    match (found.singularity, axes_4_and_6) {
         (Some(Singularity::Elbow | Singularity::Shoulder), _) => true,
-        (_, [_, _, _, fourth, _, sixth, ..]) if named => {
-            fourth.angular.cross(&sixth.angular).norm() < wrist.sin()
-        }
-        (singularity, _) => singularity.is_some(),
+        (_, Some([fourth, sixth])) => fourth.cross(&sixth).norm() < wrist.sin(),
+        (singularity, None) => singularity.is_some(),
     }
 }
 

@@ -7,6 +7,7 @@
 //! | [`Inverse::SphericalWrist`] | the axes of three joints at one end meet in a point, within 10 mm | up to eight, without names |
 //! | [`Inverse::OneFixed`] | seven revolute joints, one of which can be fixed so that a spherical wrist remains | those of the other six |
 //! | [`Inverse::Searched`] | any other chain | those that descents from many starts find |
+//! | [`Inverse::InHand`] | an arm that holds the part, read from its flange back | those of the arm |
 //! | [`Inverse::OnRail`] | external axes first: prismatic joints of a chain of more than six, joints of a positioner, joints stated to be external | the external axes are fixed, the rest has its own inverse |
 
 use std::fmt;
@@ -33,6 +34,8 @@ pub enum Inverse {
     Searched,
     /// On fixed external axes.
     OnRail(Box<Rail>),
+    /// That of the arm that holds the part.
+    InHand(Box<Inverse>),
 }
 
 /// External axes in front of an arm: a rail or gantry that carries it, a positioner that carries the part.
@@ -117,6 +120,7 @@ impl Inverse {
     pub(crate) fn of_arm(&self) -> &Inverse {
         match self {
             Inverse::OnRail(rail) => &rail.inverse,
+            Inverse::InHand(arm) => arm.of_arm(),
             own => own,
         }
     }
@@ -196,6 +200,7 @@ impl fmt::Display for Inverse {
                 },
                 fixed.joint + 1
             ),
+            Inverse::InHand(arm) => write!(f, "{arm}; the part is in its hand"),
             Inverse::Searched => f.write_str("numeric from many starts: the postures that are found"),
             Inverse::OnRail(rail) => write!(
                 f,

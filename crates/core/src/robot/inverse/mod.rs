@@ -2,7 +2,7 @@
 //!
 //! [`kind`] is the closed list of methods: [`closed_form`] ([`ortho_parallel`], solved in `eight_branches`;
 //! [`three_parallel`]) with names, [`spherical_wrist`] without, the same followed by damped least squares for calibrated
-//! arms, a redundant [`fixed_joint`], a search for any other chain, and rails. A [`Finder`] solves one pose after the
+//! arms, a redundant [`fixed_joint`], a search for any other chain, rails, and the arm that holds the part. A [`Finder`] solves one pose after the
 //! other; [`postures`] gives all properties of the postures of one. Each posture is verified by forward kinematics.
 //!
 //! `finder` runs them, `verify` checks their solutions, `starts` and `descent` are the search, in lanes in

@@ -63,18 +63,23 @@ impl ArmState<'_> {
         })
     }
 
-    /// From the ground to the flange without the travel of prismatic joints, m, base.
+    /// From the ground to the flange of the arm without the travel of prismatic joints, m, base. Of an arm that holds the part,
+    /// the opposite: the tool moves relative to the part as the ground does.
     fn constant_lengths(&self) -> Vector3<f64> {
-        let tool_from_flange = self.arm.flange_from_tool.inverse().translation.vector;
-        let flange = self.base_from_tool * Point3::from(tool_from_flange);
+        let ground = self.arm.robot.chain().ground();
         let travel = |(joint, theta): (usize, &f64)| {
             let slides = self.arm.robot.slides(joint);
             slides.then(|| self.screws[joint].linear * *theta)
         };
-        let of_positioner = self.arm.robot.chain().ground().joints;
-        let of_arm = self.theta.iter().enumerate().skip(of_positioner);
+        let of_arm = self.theta.iter().enumerate().skip(ground.positioner_joints());
         let travelled: Vector3<f64> = of_arm.filter_map(travel).sum();
-        flange.coords - self.base_from_ground.translation.vector - travelled
+        let base_from_ground = self.base_from_ground.translation.vector;
+        if ground.part_is_in_hand() {
+            return base_from_ground - travelled;
+        }
+        let tool_from_flange = self.arm.flange_from_tool.inverse().translation.vector;
+        let flange = self.base_from_tool * Point3::from(tool_from_flange);
+        flange.coords - base_from_ground - travelled
     }
 
     /// Writes the worst-case positions of the links where load and gravity displace the tool by `by_load` (m, base).

@@ -28,7 +28,7 @@ pub use input_uncertainty::LoadedPosture;
 use nalgebra::{IsometryMatrix3, Matrix3, Matrix6, Point3, Rotation3, Vector3};
 
 use super::equilibrium::{AtRest, Equilibrium, Unstable};
-use super::gravity::{Carried, carry_into, torque, torque_of_positioner};
+use super::gravity::{Carried, carry_into, torque, torque_in_front};
 use super::stiffness_model::{Arm, Gravity};
 use crate::load::TipCompliance;
 use crate::robot::deflected_arm::{attachment_frame, spring_screw};
@@ -181,12 +181,17 @@ impl<'a> ArmState<'a> {
         };
         carry_into(&structure.masses, frame, tcp.coords, &mut weight.carried);
         let g = self.base_from_ground.rotation * weight.gravity.acceleration;
-        for ((before, screw), attachment) in self.before.iter_mut().zip(&self.screws).zip(&self.attachments) {
-            let carried = &weight.carried[attachment.rank(joints)];
-            *before = torque(screw, carried, &g);
-        }
-        for (joint, before) in self.before.iter_mut().enumerate().take(ground.joints) {
-            *before = torque_of_positioner(&self.screws[joint], &weight.carried, joint, &g);
+        let each = self.before.iter_mut().zip(&self.screws).zip(&self.attachments);
+        for (k, ((before, screw), attachment)) in each.enumerate() {
+            let rank = attachment.rank(joints);
+            *before = if k < ground.joints {
+                torque_in_front(screw, &weight.carried, rank, &g)
+            } else if k >= joints && ground.spring_is_in_front(*attachment, joints) {
+                // It carries the masses of its own attachment too.
+                torque_in_front(screw, &weight.carried, rank + 1, &g)
+            } else {
+                torque(screw, &weight.carried[rank], &g)
+            };
         }
         if let Some(c) = &structure.compensator {
             self.before[c.joint] += c.torque(self.theta[c.joint]);

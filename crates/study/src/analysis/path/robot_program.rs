@@ -105,6 +105,11 @@ pub fn read(
         let message = format!("`{key}` is not valid for a robot program ({})", language.title());
         log.problem(&format!("program.{key}"), message, "leave it out");
     }
+    if robot.is_some_and(|found| found.robot.chain().ground().part_is_in_hand()) {
+        let message = "robot programs are not read for a part in the hand of the robot, with a tool that stands in the cell";
+        let hint = "give the path by a CSV, a CL file or G-code, relative to the part";
+        log.problem("program.file", message, hint);
+    }
     if table.frame_mm_deg.is_some() && table.part_from_path_mm_deg.is_some() {
         let message = "`frame_mm_deg` and `part_from_path_mm_deg` both specify the placement of the program";
         log.problem("program.frame_mm_deg", message, "keep one of the two");

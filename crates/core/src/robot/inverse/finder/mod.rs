@@ -3,11 +3,13 @@
 //! Closed forms give the eight branches at once, verified in `eight`; a calibrated arm takes them as starts; those
 //! without names for their branches are in `unnamed` (`six_joints` of a redundant arm), their singularities in
 //! `dependence`, their order in `order`. Other chains are searched from starts spread over the ranges of their joints,
-//! or from the postures of the pose before, in `search`. All work in chain positions; `positions` converts them to
+//! or from the postures of the pose before, in `search`. Those of an arm that holds
+//! the part are in `in_hand`. All work in chain positions; `positions` converts them to
 //! joint positions.
 
 mod dependence;
 mod eight;
+mod in_hand;
 mod order;
 mod positions;
 mod search;
@@ -21,6 +23,7 @@ use nalgebra::Point3;
 use super::super::branch::{Branch, BranchPattern};
 use super::super::chain::{Chain, Motion};
 use super::super::forward::{Frames, forward_into, tool_at};
+use super::super::hand::in_opposite_order;
 use super::super::jacobian::screws_at;
 use super::super::model::Robot;
 use super::super::posture::{Posture, PostureName, Sides, Singularity};
@@ -101,6 +104,8 @@ pub struct Finder<'r> {
     fixed: Option<(usize, f64)>,
     /// The other six joints with the fixed one at home, and its chain position there.
     at_home: Option<(f64, Option<SixJoints>)>,
+    /// Finds the postures of the arm that holds the part, if there is one.
+    holding: Option<Box<Finder<'r>>>,
 }
 
 /// The chain of the inverse: the robot's own, or that of the arm on its rail.
@@ -154,6 +159,7 @@ impl<'r> Finder<'r> {
             middles: robot.middles(),
             fixed: None,
             at_home: None,
+            holding: robot.hand().map(|hand| Box::new(Finder::new(&hand.arm))),
         }
     }
 
@@ -161,6 +167,7 @@ impl<'r> Finder<'r> {
     pub fn forget(&mut self) {
         self.spare.append(&mut self.before);
         self.is_remembered = true;
+        self.holding.iter_mut().for_each(|holding| holding.forget());
     }
 
     /// Every posture; of a searched chain those that are found. Those without names come nearest to `near` first, or to
@@ -191,6 +198,9 @@ impl<'r> Finder<'r> {
         pattern: BranchPattern,
         most: usize,
     ) -> Result<&[InverseSolution], Unreachable> {
+        if self.holding.is_some() {
+            return self.in_hand(expected, pattern, most);
+        }
         self.remember();
         self.discard();
         self.settle_home(expected);
@@ -200,7 +210,9 @@ impl<'r> Finder<'r> {
             Inverse::Polished(form) => self.polished(form, expected, &arm_from_flange, pattern),
             Inverse::SphericalWrist(form) => self.with_wrist(form, expected, &arm_from_flange, most),
             Inverse::OneFixed(fixed) => self.with_fixed_joint(fixed, expected, &arm_from_flange, most),
-            Inverse::Searched | Inverse::OnRail(_) => self.search(expected, &arm_from_flange, most, THOROUGH),
+            Inverse::Searched | Inverse::OnRail(_) | Inverse::InHand(_) => {
+                self.search(expected, &arm_from_flange, most, THOROUGH)
+            }
         };
         if self.found.is_empty() {
             return Err(missed.unwrap_or(Unreachable::OtherBranch));
@@ -458,6 +470,9 @@ impl<'r> Finder<'r> {
 
 /// Name of the posture at the joint positions `q`, and the singularity that it is near, if any.
 pub(crate) fn name(robot: &Robot, q: &[f64]) -> (PostureName, Option<Singularity>) {
+    if let Some(hand) = robot.hand() {
+        return name(&hand.arm, &in_opposite_order(q));
+    }
     let arm = Arm::of(robot);
     let theta: Vec<f64> = (arm.first..q.len()).map(|i| robot.theta(i, q)).collect();
     match arm.inverse.names() {
