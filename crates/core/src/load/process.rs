@@ -20,6 +20,7 @@ use super::cutter::Cutter;
 use super::engagement::{Engagement, feed_per_tooth};
 use super::error::CuttingError;
 use super::law::CuttingLaw;
+use super::lean::LeanInCut;
 use super::mean::MeanForce;
 use super::milling::{Cut, Milling};
 
@@ -91,6 +92,7 @@ impl Process {
             engagement: self.engagement,
             feed: per_tooth * rise.cos(),
             rise: per_tooth * rise.sin(),
+            lean: LeanInCut::default(),
         };
         Milling::new(self.cutter, self.law, cut)
     }

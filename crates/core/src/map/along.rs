@@ -224,8 +224,11 @@ impl EquilibriumForces<'_> {
             let tip = tip.rotated(&base_from_feed.inverse());
             let nominal = [here.mean, here.greatest];
             for force in &nominal[..out.len().min(nominal.len())] {
-                // In plane is across the tool.
-                let in_plane = tip.under(*force).xy().norm();
+                // In plane is across the normal of the surface: across the tool, unless it leans.
+                let deviation = tip.under(*force);
+                let in_plane = here
+                    .cut
+                    .map_or_else(|| deviation.xy().norm(), |cut| cut.in_plane(&deviation));
                 self.summary.largest_nominal = self.summary.largest_nominal.max(in_plane);
             }
             if let Some(cut) = here.cut {

@@ -16,6 +16,7 @@ use super::smooth::without_steps;
 use super::walk::{Cost, Seen, Walk};
 use super::window::{Setting, Window};
 use crate::kernel::{Column, PostureStatus, Question, SLOTS};
+use crate::load::LeaningForces;
 use crate::map::along_postures;
 use crate::path::{Lean, LoadedTrack, Track};
 use crate::robot::Branch;
@@ -138,7 +139,8 @@ impl Last<'_> {
             let other = self.reported(chain, seen);
             let total = |found: &PostureFound| -> Result<f64, Cancelled> {
                 let turned = found.turned(track);
-                let along = along_postures(self.question, &turned, load.clone(), found.choices(), watch)?;
+                let load = found.load(load);
+                let along = along_postures(self.question, &turned, load, found.choices(), watch)?;
                 let backs: usize = reversals(&track.path, &along.answers).iter().sum();
                 Ok(found.reached + price * backs as f64)
             };
@@ -218,11 +220,18 @@ impl Last<'_> {
         let mut states = vec![None; settings.len()];
         let mut kept = Vec::new();
         let mut maker = self.walk.maker();
+        let mut forces = LeaningForces::default();
         let mut column = Column::default();
         for index in (0..settings.len()).step_by(stride) {
             let Some(setting) = settings[index] else { continue };
             let window = Window::of_spins_at(self.search, &setting);
-            fill(&mut maker, self.path, index, (self.search, &window), &mut column);
+            fill(
+                (&mut maker, &mut forces),
+                self.path,
+                index,
+                (self.search, &window),
+                &mut column,
+            );
             let turn = (setting[0] - spins.first) / spins.step;
             let turns = spins.count as isize;
             let turn = (turn.round() as isize).rem_euclid(turns) as usize;

@@ -10,6 +10,7 @@ use super::posture_search::PostureSearch;
 use super::winding::WindingJoints;
 use super::window::{Setting, Window};
 use crate::kernel::{Column, Columns, PostureStatus, Question, SLOTS};
+use crate::load::LeaningForces;
 use crate::path::{LoadedTrack, Pace};
 use crate::watch::{Cancelled, Watch};
 
@@ -108,12 +109,12 @@ impl<'a> Walk<'a> {
         back_price: f64,
         watch: Watch<'_>,
     ) -> Result<(Cheapest, Seen), Cancelled> {
-        let maker = || self.maker();
+        let maker = || (self.maker(), LeaningForces::default());
         let worst_alone = matches!(cost, Cost::Worst);
         let grid = self.window.grid();
         let turns = Turns {
             grid,
-            kept_slots: maker().slots_are_branches(),
+            kept_slots: self.maker().slots_are_branches(),
             price: if worst_alone { 0.0 } else { self.search.turn_price },
             back_price,
             winds: !self.winding.is_empty(),
@@ -139,12 +140,12 @@ impl<'a> Walk<'a> {
                 chunk
                     .par_iter_mut()
                     .enumerate()
-                    .try_for_each_init(maker, |maker, (i, column)| {
+                    .try_for_each_init(maker, |(maker, forces), (i, column)| {
                         if watch.is_cancelled() {
                             return Err(Cancelled);
                         }
                         let tried = (self.search, self.window);
-                        fill(maker, self.path, self.points[first + i], tried, column);
+                        fill((maker, forces), self.path, self.points[first + i], tried, column);
                         Ok(())
                     });
             filled?;

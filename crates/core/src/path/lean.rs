@@ -23,15 +23,7 @@ use nalgebra::{Unit, UnitQuaternion, Vector3};
 use super::placing::{Placing, across};
 use super::program::GivenSpin;
 use super::sampler::PathPoint;
-
-/// Lean of the tool from the programmed axis.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Lean {
-    /// Towards the feed, rad.
-    pub lead: f64,
-    /// To the left of the feed, rad.
-    pub tilt: f64,
-}
+pub use crate::load::Lean;
 
 /// The lower end of a tool with a rounded corner.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,0 +1,196 @@
+//! Forces of the cuts along a path with a tool that leans.
+//!
+//! The cut at a point is that of the programmed axis, or that found in a stock, made with the leaning tool
+//! ([`Cut::leaning`](super::Cut::leaning)). Its forces are in the feed frame of the leaning tool. In a search the greatest force is the
+//! nominal one times the ratio of the mean forces; along a path it is that of the leaning tool.
+
+use std::collections::BTreeMap;
+
+use nalgebra::Vector3;
+use rayon::prelude::*;
+
+use super::along::{CutHere, CutsAlong, GreatestForce, PathLoad};
+use super::lean::Lean;
+use super::milling::{Cut, Milling};
+
+/// Steps of a period at which the peak of a leaning tool is sought: its force has no jumps.
+const PEAK_STEPS: u32 = 120;
+
+impl CutsAlong {
+    /// The cuts with the tool leaning by `leans`, point after point.
+    ///
+    /// # Panics
+    /// If there are fewer leans than points.
+    #[must_use]
+    pub fn leaning(&self, leans: &[Lean]) -> CutsAlong {
+        let points = self.points.par_iter().zip(&leans[..self.points.len()]);
+        CutsAlong {
+            cutters: self.cutters.clone(),
+            points: points
+                .map(|(here, lean)| self.leaning_here(here, *lean))
+                .collect(),
+            ..*self
+        }
+    }
+
+    /// The milling of the cut here with the tool leaning; `None` where nothing is cut.
+    fn leaning_milling(&self, here: &CutHere, lean: Lean) -> Option<Milling> {
+        let cutter = self.cutters[here.cutter];
+        let cut = here.cut?.leaning(lean, cutter.body());
+        Milling::new(cutter, self.law, cut).ok()
+    }
+
+    fn leaning_here(&self, here: &CutHere, lean: Lean) -> CutHere {
+        let upright = here.cut.is_none_or(|cut| cut.lean.lean == Lean::NONE);
+        let Some(milling) = self
+            .leaning_milling(here, lean)
+            .filter(|_| !upright || lean != Lean::NONE)
+        else {
+            return *here;
+        };
+        CutHere {
+            cut: Some(*milling.cut()),
+            mean: milling.mean_force(),
+            greatest: match self.greatest {
+                GreatestForce::LeftOut => here.greatest,
+                GreatestForce::SecondCase => milling.peak(PEAK_STEPS),
+            },
+            ..*here
+        }
+    }
+}
+
+impl PathLoad {
+    /// The load with the tool leaning by `leans` from the programmed axis, point after point: that of a cut changes.
+    ///
+    /// # Panics
+    /// If there are fewer leans than points of a cut.
+    #[must_use]
+    pub fn leaning(&self, leans: &[Lean]) -> PathLoad {
+        match self {
+            PathLoad::Cuts(cuts) => PathLoad::Cuts(cuts.leaning(leans)),
+            given => given.clone(),
+        }
+    }
+}
+
+/// Forces of one cut in many leans, kept until the cut changes.
+#[derive(Clone, Debug, Default)]
+pub struct LeaningForces {
+    cut: Option<(usize, Cut)>,
+    means: BTreeMap<[u64; 2], Vector3<f64>>,
+}
+
+impl LeaningForces {
+    /// Mean and greatest force at point `index` of upright cuts with the tool leaning by `lean`; N, feed frame of the
+    /// leaning tool.
+    ///
+    /// # Panics
+    /// If there is no such point.
+    pub fn at(&mut self, cuts: &CutsAlong, index: usize, lean: Lean) -> [Vector3<f64>; 2] {
+        let here = &cuts.points[index];
+        let Some(cut) = here.cut.filter(|_| lean != Lean::NONE) else {
+            return [here.mean, here.greatest];
+        };
+        if self.cut != Some((here.cutter, cut)) {
+            self.means.clear();
+            self.cut = Some((here.cutter, cut));
+        }
+        let key = [lean.lead, lean.tilt].map(f64::to_bits);
+        let mean = self.means.entry(key).or_insert_with(|| {
+            let milling = cuts.leaning_milling(here, lean);
+            milling.map_or(here.mean, |milling| milling.mean_force())
+        });
+        here.under(*mean)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::load::{Cutter, CuttingLaw, Engagement, Immersion, LeanInCut, Mechanistic};
+
+    const MM: f64 = 1e-3;
+
+    fn cuts(greatest: GreatestForce) -> CutsAlong {
+        let cutter = Cutter::bull_nose(12.0 * MM, 3.0 * MM, 2).unwrap();
+        let law = Mechanistic::new(Vector3::new(8e8, 3e8, 1e8), Vector3::new(1e4, 1e4, 2e3)).unwrap();
+        let law = CuttingLaw::Mechanistic(law);
+        let here = |depth: f64| {
+            let cut = Cut {
+                depth,
+                engagement: Engagement::at_depth(Immersion::Up(3.0 * MM), &cutter, depth).unwrap(),
+                feed: 0.1 * MM,
+                rise: 0.0,
+                lean: LeanInCut::default(),
+            };
+            let milling = Milling::new(cutter, law, cut).unwrap();
+            CutHere {
+                cutter: 0,
+                cut: Some(cut),
+                mean: milling.mean_force(),
+                greatest: milling.peak(PEAK_STEPS),
+            }
+        };
+        CutsAlong {
+            cutters: vec![cutter],
+            law,
+            greatest,
+            points: vec![here(MM), here(MM), CutHere::NOTHING, here(2.0 * MM)],
+        }
+    }
+
+    const LEAN: Lean = Lean {
+        lead: 0.2,
+        tilt: -0.1,
+    };
+
+    #[test]
+    fn the_forces_of_a_search_are_those_of_the_path_that_it_finds() {
+        let cuts = cuts(GreatestForce::LeftOut);
+        let leaning = cuts.leaning(&[LEAN, Lean::NONE, LEAN, LEAN]);
+        let mut forces = LeaningForces::default();
+        for (index, lean) in [
+            (0, LEAN),
+            (1, Lean::NONE),
+            (1, LEAN),
+            (2, LEAN),
+            (3, LEAN),
+            (0, LEAN),
+        ] {
+            let [mean, _] = forces.at(&cuts, index, lean);
+            let expected = if (index, lean) == (1, LEAN) { 0 } else { index };
+            assert_eq!(mean, leaning.points[expected].mean, "{index}");
+        }
+        assert!((leaning.points[0].mean - cuts.points[0].mean).norm() > 5.0);
+        assert_eq!(leaning.points[1], cuts.points[1]);
+        assert_eq!(leaning.points[2], CutHere::NOTHING);
+        // Upright again is the cut before.
+        let upright = leaning.leaning(&[Lean::NONE; 4]);
+        assert_eq!(upright.points[0].cut, cuts.points[0].cut);
+        assert_eq!(upright.points[0].mean, cuts.points[0].mean);
+    }
+
+    #[test]
+    fn the_greatest_force_is_that_of_the_leaning_tool() {
+        let cuts = cuts(GreatestForce::SecondCase);
+        let leaning = cuts.leaning(&[LEAN; 4]);
+        let ratio = |here: &CutHere| here.greatest.norm() / here.mean.norm();
+        let [upright, leaned] = [&cuts, &leaning].map(|of| ratio(&of.points[0]));
+        assert!(
+            leaned > 1.0 && (leaned - upright).abs() > 1e-3,
+            "{leaned} {upright}"
+        );
+        assert_eq!(leaning.points[2], CutHere::NOTHING);
+    }
+
+    #[test]
+    fn given_loads_do_not_change() {
+        let given = PathLoad::OfEach {
+            cases: 1,
+            frame: crate::load::LoadFrame::Feed,
+            wrenches: vec![crate::spatial::Wrench::from_force(Vector3::x()); 2],
+        };
+        assert_eq!(given.leaning(&[LEAN; 2]), given);
+    }
+}
