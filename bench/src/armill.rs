@@ -92,6 +92,7 @@ impl Arm {
             },
             uncertainty: InputUncertainty::NONE,
             home: None,
+            homes: None,
             cases: &self.cases,
             normal: Unit::new_unchecked(NORMAL.into()),
             choice,

@@ -191,7 +191,7 @@ pub struct ArmCell {
 /// The arm of capsules and that of meshes.
 pub fn cells(robot: &Robot) -> [ArmCell; 2] {
     let capsules = ArmCell {
-        cell: cell(robot, Shape::Capsule),
+        cell: cell(robot, Shape::Capsule, LEAST, &[torus_before_arm()]),
         work: [
             "arm of capsules, check along moves",
             "arm of capsules, distance along moves",
@@ -200,7 +200,7 @@ pub fn cells(robot: &Robot) -> [ArmCell; 2] {
         ],
     };
     let meshes = ArmCell {
-        cell: cell(robot, tessellated),
+        cell: cell(robot, tessellated, LEAST, &[torus_before_arm()]),
         work: [
             "arm of meshes, check along moves",
             "arm of meshes, distance along moves",
@@ -212,7 +212,7 @@ pub fn cells(robot: &Robot) -> [ArmCell; 2] {
 }
 
 /// A capsule of 2500 triangles.
-fn tessellated(capsule: Capsule) -> Shape {
+pub(crate) fn tessellated(capsule: Capsule) -> Shape {
     let along = capsule.axis.to - capsule.axis.from;
     let turn = UnitQuaternion::rotation_between(&Vector3::z(), &along).unwrap_or_default();
     let ball = ball(capsule.radius, 50, 26);
@@ -232,7 +232,8 @@ fn tessellated(capsule: Capsule) -> Shape {
     )
 }
 
-fn cell(robot: &Robot, shape: impl Fn(Capsule) -> Shape) -> Cell {
+/// The cell of an arm of these shapes, of which this clearance is demanded, m, and bodies that stand still.
+pub(crate) fn cell(robot: &Robot, shape: impl Fn(Capsule) -> Shape, least: f64, still: &[FixedBody]) -> Cell {
     let body = |(name, attachment, from, to, radius, role): (&str, _, [f64; 3], [f64; 3], f64, _)| ArmBody {
         name: name.to_owned(),
         attachment,
@@ -299,15 +300,18 @@ fn cell(robot: &Robot, shape: impl Fn(Capsule) -> Shape) -> Cell {
             Role::Cutter,
         ),
     ];
-    let torus = FixedBody {
+    let tool = Isometry::translation(0.0, 0.0, 0.28);
+    let cell = Cell::new(robot, &tool, arm.map(body).into(), &[], still);
+    cell.for_clearance(robot, &tool, least)
+}
+
+fn torus_before_arm() -> FixedBody {
+    FixedBody {
         name: "torus".to_owned(),
         shape: mesh(torus()),
         frame_from_body: Isometry::translation(0.9, -0.5, 0.9),
         is_part: false,
-    };
-    let tool = Isometry::translation(0.0, 0.0, 0.28);
-    let cell = Cell::new(robot, &tool, arm.map(body).into(), &[], &[torus]);
-    cell.for_clearance(robot, &tool, LEAST)
+    }
 }
 
 /// A torus about z of 1000 triangles.

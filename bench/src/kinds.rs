@@ -142,6 +142,7 @@ impl Other {
                 flange_from_tool: &self.tool,
             },
             home: None,
+            homes: None,
             cases: &self.cases,
             normal: Unit::new_unchecked(NORMAL.into()),
             choice,

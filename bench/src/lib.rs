@@ -5,10 +5,11 @@
 //!
 //! Read in this order: [`workload`] (arm, poses, loads), [`work`] (the work at a pose), [`clock`] (timing),
 //! [`yardstick`] (plain Rust with trigonometry), [`lanes`], [`armill`], [`kinds`], [`paths`], [`placements`],
-//! [`clearance`], [`peers`], [`agreement`] (all compute the same), [`files`] (input of the Python and C++ peers).
+//! [`clearance`], [`cells`], [`peers`], [`agreement`] (all compute the same), [`files`] (input of the Python and C++ peers).
 
 pub mod agreement;
 pub mod armill;
+pub mod cells;
 pub mod clearance;
 pub mod clock;
 pub mod files;

@@ -17,7 +17,7 @@ use std::process::ExitCode;
 use std::{env, fs};
 
 use armill_bench::armill::{Arm, ONE_POSTURE, candidates as of_armill, isometry};
-use armill_bench::clearance;
+use armill_bench::cells::PlacedCells;
 use armill_bench::clock::{Candidate, rates, row};
 use armill_bench::lanes::{self, Places};
 use armill_bench::paths::{self, Paths};
@@ -25,6 +25,7 @@ use armill_bench::placements;
 use armill_bench::work::{C66, C66_AT, DEV, DEV_AT, DEV8, IK8};
 use armill_bench::workload::{COUNT, Pose, poses};
 use armill_bench::{agreement, files, kinds, peers, yardstick};
+use armill_bench::{cells, clearance};
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
@@ -96,6 +97,7 @@ fn run(folder: &Path, rounds: usize, part: Part, rows: &str) -> Result<(), Strin
 
     let (others, zigzag) = (kinds::others(), Paths::zigzag());
     let (steady, leaning) = (placements::Places::steady(), placements::Places::leaning());
+    let in_cells = PlacedCells::all(&arm);
     let (cells, postures) = (clearance::cells(arm.robot()), clearance::postures(arm.robot()));
     let mut all = Vec::new();
     let question = arm.question(ONE_POSTURE);
@@ -111,6 +113,7 @@ fn run(folder: &Path, rounds: usize, part: Part, rows: &str) -> Result<(), Strin
     } else {
         all.extend(paths::candidates(&arm, &zigzag));
         all.extend(placements::candidates(&arm, [&steady, &leaning], &pools[0]));
+        all.extend(cells::candidates(&arm, &in_cells, &pools[0]));
     }
     all.retain(|candidate| format!("{} {}", candidate.who, candidate.work).contains(rows));
     let rates = rates(&mut all, rounds);

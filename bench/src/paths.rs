@@ -73,6 +73,7 @@ impl Paths {
             points.push(PathPoint {
                 at: at * 1e-3,
                 axis: None,
+                normal: None,
                 spin: None,
                 direction: Unit::try_new(at - before, 0.0).unwrap_or(Vector3::x_axis()),
                 along: k as f64 * 1e-3,
@@ -99,6 +100,7 @@ impl Paths {
             placing: placing(),
             base_from_part: placing().base_from_path,
             spins: None,
+            homes: None,
         }
     }
 }

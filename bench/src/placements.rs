@@ -105,6 +105,7 @@ fn track(lean: f64) -> Track {
             axis: (lean > 0.0).then(|| {
                 Unit::new_normalize(Vector3::new(lean * (3.0 * angle).cos(), lean * angle.sin(), 1.0))
             }),
+            normal: None,
             spin: None,
             direction: Unit::new_normalize(Vector3::new(-angle.sin(), angle.cos(), 0.01)),
             along: k as f64 * 1e-3,
@@ -132,6 +133,7 @@ fn track(lean: f64) -> Track {
         },
         base_from_part,
         spins: None,
+        homes: None,
     }
 }
 

@@ -89,7 +89,7 @@ impl EnclosedLinks {
             let placed = link.shape.placed(&attachment_from_mesh);
             for (index, part) in enclosing_capsules(&surface, most).into_iter().enumerate() {
                 let capsule = in_whole_millimetres(&part.capsule, &part.surface);
-                let distance = |point: &Point3<f64>| placed.distance_of(point);
+                let distance = |point: &Point3<f64>| placed.distance_of(point, f64::INFINITY);
                 let farthest = points_on(&capsule).iter().map(distance).fold(0.0, f64::max);
                 let bound_mm = to_mm(farthest + SPACING * std::f64::consts::FRAC_1_SQRT_2);
                 of_capsules += volume_of(&capsule);

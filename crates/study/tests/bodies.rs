@@ -105,7 +105,7 @@ fn no_arm_touches_itself_in_its_nominal_branch_before_the_robot() {
 fn distance_from_link(found: &RobotDescription, at: Attachment, point: Point3<f64>) -> f64 {
     let own = found.bodies.iter().filter(|body| body.attachment == at);
     let identity = IsometryMatrix3::identity();
-    own.map(|body| body.shape.placed(&identity).distance_of(&point))
+    own.map(|body| body.shape.placed(&identity).distance_of(&point, f64::INFINITY))
         .fold(f64::INFINITY, f64::min)
 }
 

@@ -49,26 +49,35 @@ const LEAN: &str = ", lean = { lead_deg = [-30, 30], tilt_deg = [-30, 30], step_
                     cutter = { diameter_mm = 25, corner_radius_mm = 5 } }";
 const RAIL: &str = ", axes = [{ joint = \"rail\", step_mm = 250 }]";
 
-/// The path of the result in the space of the samples; `None` without samples.
-fn followed(robot: &str, freedoms: &str) -> Option<Value> {
+/// A cell with the space of the samples; `None` without samples.
+fn in_space(study: &str) -> Option<Cell> {
     let Some(samples) = std::env::var_os("ARMILL_SAMPLES") else {
         println!("skipped: ARMILL_SAMPLES is not set");
         return None;
     };
     let space = Path::new(&samples).join("collision/restricted-space/SDG1V7sim350_400E1.STL");
+    let cell = Cell::with_study(study);
+    std::fs::copy(&space, cell.at("space.stl"))
+        .unwrap_or_else(|error| panic!("{}: {error}", space.display()));
+    cell.file("railed.toml", on_rail());
+    Some(cell)
+}
+
+fn study(robot: &str, freedoms: &str) -> String {
     let compliance = if robot == "railed.toml" {
         OF_SEVEN
     } else {
         OF_A_CLASS
     };
-    let study = STUDY
+    STUDY
         .replace("ROBOT", robot)
         .replace("COMPLIANCE", compliance)
-        .replace("FREEDOMS", freedoms);
-    let cell = Cell::with_study(&study);
-    std::fs::copy(&space, cell.at("space.stl"))
-        .unwrap_or_else(|error| panic!("{}: {error}", space.display()));
-    cell.file("railed.toml", on_rail());
+        .replace("FREEDOMS", freedoms)
+}
+
+/// The path of the result in the space; `None` without samples.
+fn followed(robot: &str, freedoms: &str) -> Option<Value> {
+    let cell = in_space(&study(robot, freedoms))?;
     cell.armill(&["run", "study.toml", "--no-pictures", "--out", "out"])
         .fine();
     Some(cell.result("out")["paths"][0].clone())
@@ -122,4 +131,58 @@ fn on_a_rail_lean_leads_along_the_floor_too() {
     };
     assert!(is_feasible(&railed), "{railed}");
     assert!(number(&railed["least_clearance_mm"]) >= 5.0);
+}
+
+/// Of a placement out of reach.
+const PLACED: &str = "[place]\nx_mm = [1900, 2500]\ny_mm = [-300, 300]\nz_mm = [200, 500]\n\n[[analysis]]";
+
+#[test]
+fn place_with_lean_finds_where_all_points_are_reached_with_the_demanded_clearance() {
+    let study = study("fanuc/m710ic-45m", LEAN)
+        .replace("[2200, 0, 325]", "[2900, 500, 325]")
+        .replace("[[analysis]]", PLACED);
+    let Some(cell) = in_space(&study) else { return };
+    let said = cell
+        .armill(&["place", "study.toml", "--no-pictures", "--out", "placed"])
+        .fine();
+    assert!(said.out.contains("plane.centre_mm"), "{}", said.out);
+    let text = std::fs::read_to_string(cell.at("placed/placement.json")).unwrap();
+    let placement: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(number(&placement["nominal"]["unreachable_points"]), 27.0);
+    assert_eq!(number(&placement["recommended"]["unreachable_points"]), 0.0);
+    assert_eq!(number(&placement["searched_along"]), 4.0);
+    // The study there, evaluated by itself.
+    let path = &cell.result("placed")["paths"][0];
+    assert!(is_feasible(path), "{path}");
+    assert!(number(&path["least_clearance_mm"]) >= 5.0);
+}
+
+#[test]
+fn what_a_search_with_lean_cannot_place_is_refused() {
+    let refused = |robot: &str, freedoms: &str, place: &str, words: &str| {
+        let study =
+            study(robot, freedoms).replace("[[analysis]]", &format!("[place]\n{place}\n\n[[analysis]]"));
+        let Some(cell) = in_space(&study) else { return };
+        let said = cell.armill(&["place", "study.toml", "--no-pictures", "--out", "placed"]);
+        assert!(said.err.contains(words), "{}", said.err);
+        assert!(!cell.at("placed/placement.json").exists());
+    };
+    refused(
+        "fanuc/m710ic-45m",
+        LEAN,
+        "spin_deg = [-10, 10]",
+        "each point has its own best spin",
+    );
+    refused(
+        "railed.toml",
+        &format!("{LEAN}{RAIL}"),
+        "rail_mm = [-500, 500]",
+        "moves it along the path",
+    );
+    refused(
+        "fanuc/m710ic-45m",
+        LEAN,
+        "rank_by = \"plus-two-sigma\"",
+        "ranked by nominal values alone",
+    );
 }

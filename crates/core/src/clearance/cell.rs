@@ -15,10 +15,14 @@ use nalgebra::IsometryMatrix3;
 use super::bounds::{Bounds, Capsule};
 use super::field::Field;
 use super::floor::Floor;
+use super::mesh::Mesh;
 use super::nearest::Nearest;
 use super::shape::{Placed, Shape};
 use crate::frame::Isometry;
 use crate::robot::Attachment;
+
+/// Longest edge of the triangles of a mesh of the arm whose distance is bounded, m.
+const PIECE_EDGE: f64 = 0.03;
 
 /// What a body of the arm is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -81,6 +85,10 @@ pub struct Cell {
     pub(super) floor: Option<Floor>,
     /// Obstacles that what carries the arm rides on: index among the obstacles, and the body of the arm. Not checked.
     pub(super) ridden_on: Vec<[usize; 2]>,
+    /// Of each mesh of the arm: the field around it, in its own frame.
+    pub(super) own_fields: Vec<Option<Still>>,
+    /// Of each mesh of the arm: the same surface in small triangles.
+    pub(super) pieces: Vec<Option<Mesh>>,
 }
 
 /// Bodies that stand still relative to each other, in their common frame.
@@ -110,6 +118,26 @@ impl Still {
     /// Number of the bodies.
     pub(super) fn len(&self) -> usize {
         self.bodies.len()
+    }
+
+    /// A body of the arm alone, in its own frame, if it is a mesh: pairs of other shapes are measured in a moment.
+    pub(super) fn of_mesh(body: &ArmBody) -> Option<Still> {
+        let Shape::Mesh(mesh) = &body.shape else {
+            return None;
+        };
+        Some(Still {
+            names: vec![body.name.clone()],
+            bodies: vec![body.shape.placed(&IsometryMatrix3::identity())],
+            field: Field::around(mesh.bounds()),
+        })
+    }
+
+    /// The surface of a body of the arm in small triangles, if it is a mesh.
+    pub(super) fn pieces(body: &ArmBody) -> Option<Mesh> {
+        match &body.shape {
+            Shape::Mesh(mesh) => mesh.in_pieces(PIECE_EDGE),
+            _ => None,
+        }
     }
 
     /// The nearest of the bodies that `is_checked` to a body in the same frame, with its index.

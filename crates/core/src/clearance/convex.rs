@@ -98,7 +98,7 @@ impl Core {
     fn moved(&self, by: &IsometryMatrix3<f64>) -> Core {
         match self {
             Core::Segment(segment) => Core::Segment(segment.moved(by)),
-            Core::Triangle(Triangle(corners)) => Core::Triangle(Triangle(corners.map(|corner| by * corner))),
+            Core::Triangle(triangle) => Core::Triangle(triangle.moved(by)),
             Core::Box { centre, half_edges } => Core::Box {
                 centre: by * centre,
                 half_edges: half_edges.map(|edge| by.rotation * edge),

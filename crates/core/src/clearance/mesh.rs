@@ -15,6 +15,9 @@ use super::nearest::{Nearest, Triangle};
 /// Most triangles of a leaf of the tree.
 const LEAF: usize = 2;
 
+/// Most triangles of a mesh in pieces, in addition to four of each triangle.
+const MOST_PIECES: f64 = 50_000.0;
+
 /// Directions of the rays that decide whether a point is inside: not along edges and faces of usual parts.
 const RAYS: [Vector3<f64>; 3] = [
     Vector3::new(0.577_1, 0.288_3, 0.764_1),
@@ -39,6 +42,14 @@ struct Node {
     first: u32,
     /// Triangles of a leaf; 0 of an inner node.
     count: u32,
+}
+
+/// What is inside of a node of the tree.
+pub(super) enum Inside<'a> {
+    /// Two nodes.
+    Nodes([u32; 2]),
+    /// Triangles.
+    Triangles(&'a [Triangle]),
 }
 
 impl Mesh {
@@ -89,6 +100,29 @@ impl Mesh {
         })
     }
 
+    /// The same surface in triangles with edges of about `edge`, m, or longer ones where these are too many.
+    pub(super) fn in_pieces(&self, mut edge: f64) -> Option<Mesh> {
+        let pieces = |triangle: &Triangle, edge: f64| {
+            let length = triangle.longest_edge() / edge;
+            1.0 + length + triangle.area_vector().norm() / (edge * edge)
+        };
+        let all = |edge: f64| -> f64 { self.triangles.iter().map(|triangle| pieces(triangle, edge)).sum() };
+        while edge < self.bounds().half().norm()
+            && all(edge) > MOST_PIECES + 4.0 * self.triangles.len() as f64
+        {
+            edge *= 2.0;
+        }
+        let mut open = self.triangles.clone();
+        let mut small = Vec::with_capacity(open.len());
+        while let Some(triangle) = open.pop() {
+            match triangle.longest_edge() > edge {
+                true => open.extend(triangle.halves()),
+                false => small.push(triangle.0),
+            }
+        }
+        Mesh::new(small, self.closed)
+    }
+
     /// Its triangles, m, in an order of its own.
     pub fn triangles(&self) -> &[Triangle] {
         &self.triangles
@@ -132,6 +166,21 @@ impl Mesh {
             }
         }
         farthest.1
+    }
+
+    /// The ball around a node of the tree, in the frame of the mesh: centre and radius. Node 0 is around all.
+    pub(super) fn ball(&self, node: u32) -> (Point3<f64>, f64) {
+        let bounds = &self.nodes[node as usize].bounds;
+        (bounds.centre(), bounds.half().norm())
+    }
+
+    /// What is inside of a node.
+    pub(super) fn inside(&self, node: u32) -> Inside<'_> {
+        let node = &self.nodes[node as usize];
+        match node.count {
+            0 => Inside::Nodes([node.first, node.first + 1]),
+            _ => Inside::Triangles(self.leaf(node)),
+        }
     }
 
     fn leaf(&self, node: &Node) -> &[Triangle] {
@@ -244,7 +293,7 @@ impl Mesh {
             }
             if first.count > 0 && second.count > 0 {
                 for theirs in other.leaf(second) {
-                    let theirs = Triangle(theirs.0.map(|corner| from_other * corner));
+                    let theirs = theirs.moved(from_other);
                     for ours in self.leaf(first) {
                         let direction = &best.direction;
                         if best.excludes(theirs.extent(direction)[0] - ours.extent(direction)[1])

@@ -1,7 +1,8 @@
 //! Clearance: how near the arm and its tool come to what is in the way, and to themselves.
 //!
 //! Read in this order: [`nearest`] (segments and triangles, in closed form), [`convex`] (boxes and cylinders), [`bounds`] (lower
-//! bounds), [`enclosing`] (capsules around points), [`mesh`], [`shape`] (two shapes of any kind), [`field`] (many capsules against bodies that stand still), [`floor`] (a plane),
+//! bounds), [`enclosing`] (capsules around points), [`mesh`], [`shape`] (two shapes of any kind), [`field`] (many capsules against bodies that stand still),
+//! `decided` (whether a distance is kept), [`floor`] (a plane),
 //! [`cell`] (all bodies of a cell), [`state`] (with the arm in a posture), [`pairs`] (which are checked), [`demanded`] (the check of a
 //! posture), [`swept`] (a joint move), [`along`] (many postures near each other).
 //!
@@ -12,6 +13,7 @@ pub mod along;
 pub mod bounds;
 pub mod cell;
 pub mod convex;
+mod decided;
 pub mod demanded;
 pub mod enclosing;
 pub mod field;

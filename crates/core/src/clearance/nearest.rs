@@ -12,7 +12,7 @@
 //! within 1e-8 rad of parallel may be found as much as 1e-8 of their length too far apart.
 //! Source: Ericson 2005, *Real-Time Collision Detection*, chapter 5.
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::{IsometryMatrix3, Point3, Vector3};
 
 /// The nearest points of two bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -134,6 +134,39 @@ impl Triangle {
             from: ends.0,
             to: ends.1,
         })
+    }
+
+    /// In another frame.
+    pub fn moved(&self, by: &IsometryMatrix3<f64>) -> Triangle {
+        Triangle(self.0.map(|corner| by * corner))
+    }
+
+    /// A ball around it: centre and radius.
+    pub(super) fn ball(&self) -> (Point3<f64>, f64) {
+        let [a, b, c] = self.0;
+        let centre = Point3::from((a.coords + b.coords + c.coords) / 3.0);
+        let squares = self.0.map(|corner| (corner - centre).norm_squared());
+        (centre, squares.into_iter().fold(0.0, f64::max).sqrt())
+    }
+
+    /// The length of its longest edge, m.
+    pub(super) fn longest_edge(&self) -> f64 {
+        let squares = self.edges().map(|edge| (edge.to - edge.from).norm_squared());
+        squares.into_iter().fold(0.0, f64::max).sqrt()
+    }
+
+    /// Its halves on both sides of the middle of its longest edge.
+    pub(super) fn halves(&self) -> [Triangle; 2] {
+        let [a, b, c] = self.0;
+        let square = |a: &Point3<f64>, b: &Point3<f64>| (b - a).norm_squared();
+        let (ab, bc, ca) = (square(&a, &b), square(&b, &c), square(&c, &a));
+        let [a, b, c] = match (ab >= bc && ab >= ca, bc >= ca) {
+            (true, _) => [a, b, c],
+            (false, true) => [b, c, a],
+            (false, false) => [c, a, b],
+        };
+        let middle = nalgebra::center(&a, &b);
+        [Triangle([a, middle, c]), Triangle([middle, b, c])]
     }
 
     /// Twice its area along its normal.

@@ -44,6 +44,8 @@ impl Cell {
                 .iter()
                 .map(|hull| hull.axis.half_length() + hull.radius)
                 .collect(),
+            pieces: arm.iter().map(Still::pieces).collect(),
+            own_fields: arm.iter().map(Still::of_mesh).collect(),
             hulls,
             arm,
             pairs,

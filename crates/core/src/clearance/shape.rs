@@ -55,6 +55,28 @@ impl Shape {
         }
     }
 
+    /// A capsule inside of it, in the frame of its body; of a mesh none is known.
+    pub(super) fn inner(&self) -> Option<Capsule> {
+        let (axis, radius) = match self {
+            Shape::Capsule(capsule) => return Some(*capsule),
+            Shape::Cylinder(axis, radius) => (*axis, *radius),
+            Shape::Box(bounds) => (around_box(bounds).axis, bounds.half().min()),
+            Shape::Mesh(_) => return None,
+        };
+        // Half balls at the ends, inside of them.
+        let (middle, half) = (axis.middle(), axis.half_length());
+        let radius = radius.min(half);
+        let part = if half > 0.0 { 1.0 - radius / half } else { 0.0 };
+        let end = |end: Point3<f64>| middle + (end - middle) * part;
+        Some(Capsule {
+            axis: Segment {
+                from: end(axis.from),
+                to: end(axis.to),
+            },
+            radius,
+        })
+    }
+
     /// The box around it, in the frame of its body.
     pub fn bounds(&self) -> Bounds {
         match self {
@@ -181,18 +203,33 @@ impl Placed {
         }
     }
 
-    /// Distance of a point from the shape, m; 0 inside.
-    pub fn distance_of(&self, point: &Point3<f64>) -> f64 {
-        let ball = Capsule {
-            axis: Segment {
-                from: *point,
-                to: *point,
-            },
-            radius: 0.0,
+    /// Distance of a point from the shape, m; 0 inside, `limit` where it is above that.
+    pub fn distance_of(&self, point: &Point3<f64>, limit: f64) -> f64 {
+        let ball = Placed::ball(*point, 0.0);
+        ball.nearest(self, limit).map_or(limit, |found| found.distance)
+    }
+
+    /// A ball.
+    fn ball(centre: Point3<f64>, radius: f64) -> Placed {
+        let axis = Segment {
+            from: centre,
+            to: centre,
         };
-        let point = Shape::Capsule(ball).placed(&IsometryMatrix3::identity());
-        let found = point.nearest(self, f64::INFINITY);
-        found.map_or(f64::INFINITY, |found| found.distance)
+        Placed {
+            solid: Solid::Convex(Convex {
+                core: Core::Segment(axis),
+                radius,
+            }),
+            hull: Capsule { axis, radius },
+        }
+    }
+
+    /// A point of the shape; of a mesh a corner.
+    pub(super) fn inner_point(&self) -> Point3<f64> {
+        match &self.solid {
+            Solid::Convex(convex) => convex.core.inner_point(),
+            Solid::Mesh { mesh, from_mesh, .. } => from_mesh * mesh.triangles()[0].0[0],
+        }
     }
 }
 

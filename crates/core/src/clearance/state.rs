@@ -3,9 +3,12 @@
 use nalgebra::{IsometryMatrix3, Point3};
 
 use super::bounds::Capsule;
-use super::cell::{Cell, Clearance, PlacedCell, Role, Still, matrix};
+use super::cell::{ArmBody, Cell, Clearance, PlacedCell, Role, Still, matrix};
+use super::decided::{BodyAmong, Excess};
+use super::field::Thresholds;
+use super::floor::Floor;
 use super::nearest::Nearest;
-use super::shape::Placed;
+use super::shape::{Placed, Shape};
 use crate::frame::Isometry;
 use crate::robot::deflected_arm::attachment_frame;
 use crate::robot::forward::{Frames, forward_into};
@@ -29,25 +32,13 @@ pub struct CellState<'a> {
     queue: Vec<(f64, Check)>,
 }
 
-/// A bound that exceeds the demanded clearance by this is not made exact, m.
-const WORTH: f64 = 0.02;
-
 /// By how much a clearance exceeds the demanded one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Room {
-    /// A lower bound, m; exact where it is not kept.
+    /// A lower bound, m, where it is kept, else an upper bound: no smaller motion changes the decision.
     pub by: f64,
     /// What does not keep it.
     pub conflict: Option<Check>,
-}
-
-/// Limits of lower bounds, m.
-#[derive(Clone, Copy, Debug)]
-struct FillLimits {
-    /// Checks with a larger bound are left out.
-    queued: f64,
-    /// Bounds are refined until they reach this.
-    refined: f64,
 }
 
 /// Two bodies, or a body and those that stand still.
@@ -146,69 +137,159 @@ impl<'a> CellState<'a> {
         self.measured(limit, least)
     }
 
-    /// By how much the clearance exceeds the demanded one, m: a lower bound, at most `enough`. Where it is not kept, that of one of the pairs
-    /// that do not; `likely` is the first of these that is looked at.
-    pub(super) fn room(&mut self, least: f64, enough: f64, likely: Option<Check>) -> Room {
-        if let Some(found) = likely
-            .and_then(|check| self.room_of(check, least, 0.0))
-            .filter(|room| room.conflict.is_some())
-        {
-            return found;
-        }
-        let mut queue = std::mem::take(&mut self.queue);
-        queue.clear();
-        let limits = FillLimits {
-            queued: least + enough,
-            refined: least + WORTH.min(enough),
-        };
-        self.fill(&mut queue, limits, least);
-        queue.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+    /// By how much the clearance exceeds the demanded one, m: at most `enough`. Where it is not kept, that of one of the pairs
+    /// that do not; `likely` is the first that is checked.
+    pub(super) fn room(&self, least: f64, enough: f64, likely: Option<Check>) -> Room {
         let mut room = Room {
             by: enough,
             conflict: None,
         };
-        for (bound, check) in &queue {
-            // What follows is at least as far; a bound that is worth more than the exact distance is used as it is.
-            if *bound >= least + room.by.min(WORTH) {
-                room.by = room.by.min(bound - least);
-                break;
+        let pairs = self.cell.pairs.iter().map(|pair| Check::OfArm(*pair));
+        // The tool first: it is what is in the way most often.
+        let still = (0..self.cell.arm.len())
+            .rev()
+            .flat_map(|body| [Check::Part(body), Check::Obstacles(body), Check::Floor(body)]);
+        for check in likely.into_iter().chain(still).chain(pairs) {
+            let Some(excess) = self.excess(check, least, room.by) else {
+                continue;
+            };
+            if !excess.is_kept {
+                return Room {
+                    by: excess.by,
+                    conflict: Some(check),
+                };
             }
-            if let Some(found) = self.room_of(*check, least, room.by) {
-                room = found;
-            }
-            if room.conflict.is_some() {
-                break;
-            }
+            room.by = room.by.min(excess.by);
         }
-        self.queue = queue;
         room
     }
 
-    /// By how much the clearance of one check exceeds the demanded one, if that is less than `limit`, m, or it is not kept.
-    fn room_of(&self, check: Check, least: f64, limit: f64) -> Option<Room> {
-        let more = self.more_of(check, least);
-        let distance = self.checked(check, least + limit - more)?.nearest.distance;
-        let is_conflict = distance <= 0.0 || distance + more < least;
-        // A pair near by design that touches is apart again after the smallest motion.
-        let by = match distance > 0.0 {
-            true => distance + more - least,
-            false => more - least,
+    /// By how much the clearance of one check exceeds the demanded one; `None` where that is known to be above `enough`, or it is not checked.
+    fn excess(&self, check: Check, least: f64, enough: f64) -> Option<Excess> {
+        let least = if self.is_near_by_design(check) { 0.0 } else { least };
+        let thresholds = Thresholds {
+            least,
+            enough: least + enough,
         };
-        Some(Room {
-            by,
-            conflict: is_conflict.then_some(check),
-        })
+        let (still, body, others_from_body) = match check {
+            Check::OfArm(pair) => return self.excess_of_pair(pair, thresholds),
+            Check::Floor(body) => return self.excess_over_floor(body, thresholds),
+            Check::Obstacles(body) if self.rides(body) => return self.measured_excess(check, thresholds),
+            Check::Obstacles(body) => (self.cell.obstacles.as_ref()?, body, self.base_from_body[body]),
+            Check::Part(body) => (
+                self.cell.part.as_ref()?,
+                body,
+                self.part_from_base * self.base_from_body[body],
+            ),
+        };
+        let ArmBody {
+            attachment,
+            role,
+            shape,
+            ..
+        } = &self.cell.arm[body];
+        if *attachment == Attachment::Base || (*role == Role::Cutter && matches!(check, Check::Part(_))) {
+            return None;
+        }
+        let hull = match check {
+            Check::Part(_) => self.hulls[body].moved(&self.part_from_base),
+            _ => self.hulls[body],
+        };
+        Some(still.excess(
+            &BodyAmong {
+                shape,
+                pieces: self.cell.pieces[body].as_ref(),
+                others_from_body,
+                hull,
+            },
+            thresholds,
+        ))
+    }
+
+    /// Whether a body rides on an obstacle, which the field of distances contains.
+    fn rides(&self, body: usize) -> bool {
+        self.cell.ridden_on.iter().any(|[_, rider]| *rider == body)
+    }
+
+    /// The same of a check, measured.
+    fn measured_excess(&self, check: Check, thresholds: Thresholds) -> Option<Excess> {
+        let found = self.checked(check, thresholds.enough)?;
+        Some(Excess::measured(found.nearest.distance, thresholds.least))
+    }
+
+    /// The same of a body of the arm above the floor.
+    fn excess_over_floor(&self, body: usize, thresholds: Thresholds) -> Option<Excess> {
+        let floor = self.floor_of(body)?;
+        let bound = floor.height_of(&self.hulls[body]);
+        if bound > thresholds.enough {
+            return None;
+        }
+        match Excess::kept(bound, thresholds.least) {
+            Some(kept) => Some(kept),
+            None => self.measured_excess(Check::Floor(body), thresholds),
+        }
+    }
+
+    /// The floor, if this body is checked against it.
+    fn floor_of(&self, body: usize) -> Option<&'a Floor> {
+        let attachment = self.cell.arm[body].attachment;
+        let floor = self.cell.floor.as_ref()?;
+        floor
+            .is_checked(attachment, self.robot.joints().len())
+            .then_some(floor)
+    }
+
+    /// The same of two bodies of the arm.
+    fn excess_of_pair(&self, pair: [usize; 2], thresholds: Thresholds) -> Option<Excess> {
+        let least = thresholds.least;
+        let bound = self.bound_of_pair(pair, thresholds.enough)?;
+        let shapes = pair.map(|body| &self.cell.arm[body].shape);
+        let is_capsule = |shape: &&Shape| matches!(shape, Shape::Capsule(_));
+        if (bound >= least && bound > 0.0) || shapes.iter().all(is_capsule) {
+            return Some(Excess::measured(bound, least));
+        }
+        // The mesh of more triangles has the field.
+        let triangles = |shape: &Shape| match shape {
+            Shape::Mesh(mesh) => mesh.triangles().len(),
+            _ => 0,
+        };
+        let [still, moving] = match shapes.map(triangles) {
+            [first, second] if first >= second => pair,
+            _ => [pair[1], pair[0]],
+        };
+        let Some(field) = &self.cell.own_fields[still] else {
+            return self.measured_excess(Check::OfArm(pair), thresholds);
+        };
+        let still_from_base = self.base_from_body[still].inverse();
+        Some(field.excess(
+            &BodyAmong {
+                shape: &self.cell.arm[moving].shape,
+                pieces: self.cell.pieces[moving].as_ref(),
+                others_from_body: still_from_base * self.base_from_body[moving],
+                hull: self.hulls[moving].moved(&still_from_base),
+            },
+            thresholds,
+        ))
+    }
+
+    /// Distance of the capsules around two bodies of the arm, m, negative where they overlap, if it is not above `limit`.
+    fn bound_of_pair(&self, pair: [usize; 2], limit: f64) -> Option<f64> {
+        // Balls around both first, without a root.
+        let [from, to] = pair.map(|index| &self.middles[index]);
+        let [own, others] = pair.map(|index| self.cell.balls[index]);
+        let reach = limit + own + others;
+        if (to - from).norm_squared() > reach * reach {
+            return None;
+        }
+        let [first, second] = pair.map(|index| &self.hulls[index]);
+        Some(first.distance(second)).filter(|bound| *bound <= limit)
     }
 
     /// The pair with the least kept clearance, and that clearance; pairs that are near by design keep `more` than their distance, m.
     fn measured(&mut self, limit: f64, more: f64) -> Option<(Clearance, f64)> {
         let mut queue = std::mem::take(&mut self.queue);
         queue.clear();
-        let limits = FillLimits {
-            queued: limit,
-            refined: limit,
-        };
-        self.fill(&mut queue, limits, more);
+        self.fill(&mut queue, limit, more);
         queue.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut best: Option<(Clearance, f64)> = None;
         for (bound, check) in &queue {
@@ -236,53 +317,42 @@ impl<'a> CellState<'a> {
 
     /// `more` for a pair that is near by design, else 0.
     fn more_of(&self, check: Check, more: f64) -> f64 {
-        match check {
-            Check::OfArm(pair) if more > 0.0 && self.cell.always_near.contains(&pair) => more,
-            _ => 0.0,
-        }
+        if self.is_near_by_design(check) { more } else { 0.0 }
+    }
+
+    fn is_near_by_design(&self, check: Check) -> bool {
+        matches!(check, Check::OfArm(pair) if self.cell.always_near.contains(&pair))
     }
 
     /// All checks whose lower bound is not above the limit, with their bounds.
-    fn fill(&self, queue: &mut Vec<(f64, Check)>, limits: FillLimits, more: f64) {
-        let limit = limits.queued;
+    fn fill(&self, queue: &mut Vec<(f64, Check)>, limit: f64, more: f64) {
         for pair in &self.cell.pairs {
-            // Balls around both first, without a root.
-            let [from, to] = pair.map(|index| &self.middles[index]);
-            let [own, others] = pair.map(|index| self.cell.balls[index]);
-            let reach = limit + own + others;
-            if (to - from).norm_squared() > reach * reach {
-                continue;
-            }
-            let [first, second] = pair.map(|index| &self.hulls[index]);
-            let bound = first.distance(second);
-            if bound <= limit {
+            if let Some(bound) = self.bound_of_pair(*pair, limit) {
                 // Contact counts as such, whatever a pair may keep.
                 let more = self.more_of(Check::OfArm(*pair), more);
                 let bound = if bound > 0.0 { bound + more } else { bound };
                 queue.push((bound, Check::OfArm(*pair)));
             }
         }
-        let joints = self.robot.joints().len();
         for (index, (body, hull)) in self.cell.arm.iter().zip(&self.hulls).enumerate() {
             if body.attachment == Attachment::Base {
                 continue;
             }
-            let floor = self.cell.floor.as_ref();
-            if let Some(floor) = floor.filter(|floor| floor.is_checked(body.attachment, joints)) {
+            if let Some(floor) = self.floor_of(index) {
                 let bound = floor.height_of(hull);
                 if bound <= limit {
                     queue.push((bound, Check::Floor(index)));
                 }
             }
             if let Some(still) = &self.cell.obstacles {
-                let bound = still.field.bound_of(hull, &still.bodies, limits.refined);
+                let bound = still.field.bound_of(hull, &still.bodies, limit);
                 if bound <= limit {
                     queue.push((bound, Check::Obstacles(index)));
                 }
             }
             if let Some(still) = self.cell.part.as_ref().filter(|_| body.role != Role::Cutter) {
                 let in_part = hull.moved(&self.part_from_base);
-                let bound = still.field.bound_of(&in_part, &still.bodies, limits.refined);
+                let bound = still.field.bound_of(&in_part, &still.bodies, limit);
                 if bound <= limit {
                     queue.push((bound, Check::Part(index)));
                 }

@@ -2,7 +2,7 @@
 //!
 //! - [`posture`]: spin and lean of the tool, external axes and branch along a path.
 //! - [`holes`]: the same at single points (holes).
-//! - [`placement`]: score of a placement of the part; `tool_turn`: how the tool turns with it.
+//! - [`placement`]: score of a placement of the part; `tool_turn`: how the tool turns with it; `free_path`: a quick score where it leans.
 //! - [`compensation`]: the commanded path for which the tool follows the nominal path.
 //! - [`nodes`]: the same with few targets and straight moves between them.
 //! - [`gain`](fn@gain): decrease of an objective by a change, with its uncertainty; [`sensitivity`](fn@sensitivity): the same
@@ -18,6 +18,7 @@
 mod chain;
 mod column_at;
 pub mod compensation;
+mod free_path;
 mod freedoms;
 mod gain;
 mod grid;
@@ -42,6 +43,7 @@ mod winding;
 mod window;
 
 pub use compensation::{Compensated, Compensation, compensated, residual_of};
+pub use free_path::FreePath;
 pub use freedoms::{LeanRange, MOST_MOVING, MovingAxis};
 pub use gain::{FollowedTrack, Gain, LeastGain, gain, gain_along};
 pub use holes::{HolesFound, hole_postures};

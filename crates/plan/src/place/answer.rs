@@ -66,6 +66,8 @@ pub struct PlacementAnswer {
     pub forces_stay: bool,
     /// Rounds that an earlier run, which was stopped, had done.
     pub rounds_taken_up: usize,
+    /// Placements that were compared by a search along the path, where the tool leans or external axes move; else 0.
+    pub searched_along: usize,
 }
 
 /// Result at a placement.
@@ -217,6 +219,13 @@ impl PlacementAnswer {
             ));
         }
         if self.free.is_empty() {
+            return lines;
+        }
+        if self.searched_along > 0 {
+            lines.push(format!(
+                "{} placements were compared by a search along the path, the best of many by a quick score; other placements may be better.",
+                self.searched_along
+            ));
             return lines;
         }
         lines.push(match near.better + wide.better {

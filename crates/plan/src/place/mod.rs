@@ -7,7 +7,7 @@
 //! `chosen`: the path; `objective`: what placements are compared by; `freedom`: free degrees; `rail`: the joint that is one; `search`: from spread placements to the best; `certificate`:
 //! whether grids contain a better one; `followed`: turns of the joints and forces along the path there; `rounds`: all of that for every fixture and margin; [`journal`]: state of an
 //! interrupted search; [`answer`]: the values of the result; `result`: the study at the placement; `pictures`;
-//! [`evaluate`]: scores of given placements. Theory: `docs/theory/placement.md`.
+//! [`evaluate`]: scores of given placements; `leaning`: all of that where the tool leans or external axes move along the path. Theory: `docs/theory/placement.md`.
 //!
 //! If fixtures are given each is searched separately, and the best is used. For the margin to limits and singularities
 //! the search is repeated for several margins, with the previous placement as an additional start.
@@ -20,6 +20,7 @@ mod fixture;
 mod followed;
 mod freedom;
 pub mod journal;
+mod leaning;
 mod objective;
 mod pictures;
 mod rail;
@@ -34,8 +35,7 @@ pub use freedom::{FreeAnswer, PlaceAnswer};
 pub use journal::Journal;
 pub use result::PlacementResult;
 
-use armill_core::clearance::DemandedClearance;
-use armill_core::kernel::{BranchChoice, PartPlacement, Question};
+use armill_core::kernel::{BranchChoice, PartPlacement};
 use armill_core::load::{LoadFrame, PathLoad};
 use armill_core::nalgebra::{Point3, UnitQuaternion, Vector3};
 use armill_core::optimize::{PlacementObjective, PostureSearch, ToolTurn, on_part};
@@ -56,8 +56,9 @@ use armill_study::number::decimals;
 use self::answer::rank_by_name;
 use self::chosen::chosen;
 use self::fixture::plane_of;
-use self::followed::{FollowedPath, Outcome};
+use self::followed::{FollowedPath, Outcome, with_room};
 use self::freedom::Freedom;
+use self::leaning::LeaningRequest;
 use self::objective::objective;
 use self::rail::{check_rail, home_at, rail_of};
 use self::rounds::{Best, FoundPlacements, MARGINS_DEG, Prepared, Site, SiteSearch};
@@ -67,8 +68,6 @@ use self::search::Effort;
 const USUAL_MM: f64 = 300.0;
 /// Points of a long path.
 const LONG: usize = 50_000;
-/// Places that are rounded as in a result are nearer to bodies by less than this, m: 0.05 µm, and 0.00005 deg at 5 m.
-const ROUNDED: f64 = 5e-6;
 /// A part that is turned by less is not turned, rad.
 const TURNED: f64 = 1e-6;
 
@@ -130,6 +129,7 @@ impl<'a> PlacementSearch<'a> {
                 "posture.search.turns_deg bounds the spin of holes",
             ));
         }
+        leaning::check(&table, free_search(analysis, holes.is_some()), &study.robot.robot)?;
         let faults = table.faults();
         if let Some((_, _, hint)) = faults.first() {
             let messages: Vec<&str> = faults.iter().map(|(_, message, _)| message.as_str()).collect();
@@ -196,7 +196,15 @@ impl<'a> PlacementSearch<'a> {
             SearchDepth::Brief => 0,
         };
         let sites = self.table.fixture.len().max(1);
+        if self.free_search().is_some() {
+            return sites * leaning::PLACEMENTS;
+        }
         sites * (effort.most() + margins * effort.cheaper().most() + effort.grid)
+    }
+
+    /// What is free along the path, if the tool leans or external axes move.
+    fn free_search(&self) -> Option<&'a PostureSearch> {
+        free_search(self.analysis, self.is_of_holes())
     }
 
     fn effort(&self) -> Effort {
@@ -226,6 +234,22 @@ impl<'a> PlacementSearch<'a> {
         watch: Watch<'_>,
         given: &dyn Fn(&str),
     ) -> Result<PlacementResult, StudyError> {
+        if let Some(search) = self.free_search() {
+            let turn = ToolTurn::of(&self.analysis.track);
+            let request = LeaningRequest {
+                robot: &self.study.robot.robot,
+                named: (self.index, self.name, self.analysis),
+                table: &self.table,
+                search,
+                sites: &self.sites(turn),
+                nominal: &self.nominal(),
+                seed: self.seed,
+            };
+            let (mut found, placement) = request.result(journal, (watch, given))?;
+            found.answer.home_deg = (found.answer.place.rail_mm).and_then(|rail| self.home_with_rail(rail));
+            found.answer.forces_stay = self.forces_stay(&placement);
+            return Ok(found);
+        }
         let quiet = Watch {
             finished: &|_| (),
             ..watch
@@ -240,15 +264,7 @@ impl<'a> PlacementSearch<'a> {
         let some: Vec<usize> = all.iter().copied().step_by(stride).collect();
         let on_part =
             |indices: &[usize]| on_part(LoadedTrack { track, load: &load }, objective.component, indices);
-        let question = runner.question(&self.analysis.setting);
-        // The placement of the result is rounded.
-        let question = Question {
-            clearance: question.clearance.map(|demanded| DemandedClearance {
-                least: demanded.least + ROUNDED,
-                ..demanded
-            }),
-            ..question
-        };
+        let question = with_room(runner.question(&self.analysis.setting));
         let (all, some) = (on_part(&all), on_part(&some));
         let followed = FollowedPath {
             question: &question,
@@ -395,6 +411,7 @@ impl<'a> PlacementSearch<'a> {
             points: track.len(),
             demanded_clearance_mm: setting.cell.as_ref().map(|cell| decimals(to_mm(cell.least), 4)),
             rounds_taken_up,
+            searched_along: 0,
             tool_turns_with_part: turn == ToolTurn::WithPart
                 && !matches!(track.placing.spin, Spin::AlongFeed(_)),
         })
@@ -468,4 +485,10 @@ impl<'a> PlacementSearch<'a> {
         });
         sites.collect()
     }
+}
+
+/// What is free along a path, if the tool leans or external axes move.
+fn free_search(analysis: &PathAnalysis, is_of_holes: bool) -> Option<&PostureSearch> {
+    let search = analysis.setting.search.as_ref().filter(|_| !is_of_holes)?;
+    (search.lean.is_some() || !search.axes.is_empty()).then_some(search)
 }

@@ -127,18 +127,7 @@ impl Searched<'_> {
             0 => 1,
             _ => self.effort.spread.min(MOST_SPREAD),
         };
-        let spread: Vec<Vec<f64>> = (0..count)
-            .map(|index| {
-                let part = |dimension: usize| {
-                    f64::from(sobol_burley::sample(
-                        index as u32,
-                        dimension as u32,
-                        self.seed as u32,
-                    ))
-                };
-                (0..self.freedom.count()).map(part).collect()
-            })
-            .collect();
+        let spread = sobol(count, self.freedom.count(), self.seed);
         let mut spots = self.spots(&self.some, spread, watch)?;
         // A stable sort, so that of equal ones the first stays first.
         spots.sort_by(|a, b| {
@@ -283,7 +272,16 @@ fn cost_um(score: &Score) -> f64 {
     score.unreachable as f64 * LOST_UM + to_um(score.cost)
 }
 
+/// The first points of Sobol in a cube of this many dimensions, of edge 1.
+pub(super) fn sobol(count: usize, dimensions: usize, seed: u64) -> Vec<Vec<f64>> {
+    let part = |index: usize, dimension: usize| {
+        f64::from(sobol_burley::sample(index as u32, dimension as u32, seed as u32))
+    };
+    let point = |index: usize| (0..dimensions).map(|dimension| part(index, dimension)).collect();
+    (0..count).map(point).collect()
+}
+
 /// Largest difference of two places in any degree.
-fn apart(a: &[f64], b: &[f64]) -> f64 {
+pub(super) fn apart(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }

@@ -131,3 +131,21 @@ fn a_gap_is_never_above_the_distance_and_that_of_parallel_planes() {
     let degenerate = Triangle([corners[0], corners[0], corners[1]]);
     assert_eq!(degenerate.gap(&above), 0.0);
 }
+
+#[test]
+fn halves_of_a_triangle_are_inside_of_it_and_have_half_its_area_each() {
+    let mut stream = Stream(23);
+    for _ in 0..1000 {
+        let triangle = triangle(&mut stream);
+        let area = triangle.area_vector();
+        let (centre, radius) = triangle.ball();
+        for half in triangle.halves() {
+            assert!((half.area_vector() * 2.0 - area).norm() < 1e-14);
+            assert!(half.longest_edge() <= triangle.longest_edge());
+            for corner in half.0 {
+                assert!((triangle.nearest_to_point(&corner) - corner).norm() < 1e-14);
+                assert!((corner - centre).norm() <= radius * (1.0 + 1e-15));
+            }
+        }
+    }
+}

@@ -145,7 +145,7 @@ impl<'q> Columns<'q> {
 
     /// Fixes the first prismatic joint at `at` (m) from here on; `None`: where the question specifies it. The arms of the
     /// drives-only lanes have none.
-    pub(super) fn set_rail(&mut self, at: Option<f64>) {
+    pub(crate) fn set_rail(&mut self, at: Option<f64>) {
         let robot = self.margins.arm.robot;
         let rail = (0..robot.joints().len()).find(|joint| robot.slides(*joint));
         self.set_home(at.zip(rail).map(|(at, rail)| {

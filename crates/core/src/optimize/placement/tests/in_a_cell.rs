@@ -7,6 +7,7 @@ use crate::clearance::{
     self, ArmBody, Bounds, Capsule, CellState, DemandedClearance, FixedBody, PlacedCell, Role, Segment, Shape,
 };
 use crate::kernel::{Column, ColumnLoad, Columns, PostureStatus};
+use crate::optimize::{FreePath, PostureSearch, Steps};
 use crate::robot::Attachment;
 
 /// Upper arm, forearm, a spindle and its cutter, a post in front of the arm, and the plate under the path.
@@ -208,4 +209,85 @@ fn lost_points(of: (&Cell, &clearance::Cell), track: &Track, place: &PartPlaceme
         state.clearance(f64::INFINITY).unwrap().nearest.distance < LEAST
     };
     (0..track.len()).filter(|index| is_lost(*index)).count()
+}
+
+#[test]
+fn the_quick_score_of_spins_is_that_of_the_best_clear_posture_of_each_point() {
+    let cell = Cell::new();
+    let bodies = bodies(&cell.robot, &cell.tool);
+    let nowhere = Isometry::identity();
+    let question = Question {
+        clearance: Some(DemandedClearance {
+            placed: PlacedCell {
+                cell: &bodies,
+                base_from_part: &nowhere,
+            },
+            least: LEAST,
+        }),
+        ..cell.question()
+    };
+    let (track, load) = (track(nowhere, Spin::Fixed(0.2), 0.1), load(LoadFrame::Part));
+    let path = LoadedTrack {
+        track: &track,
+        load: &load,
+    };
+    let spins = Steps {
+        first: -1.0,
+        step: 0.7,
+        count: 4,
+    };
+    let search = PostureSearch {
+        spins,
+        lean: None,
+        axes: Vec::new(),
+        component: Component::InPlane,
+        objective: Objective::Mean,
+        branches: BranchPattern::FRONT_ELBOW_UP,
+        turn_rate: 1.0,
+        turn_price: 0.0,
+        back_price: 0.0,
+        wrist: WRIST,
+        margin: 0.0,
+    };
+    let places: Vec<PartPlacement> = (0..16)
+        .map(|i| PartPlacement {
+            base_from_part: Isometry::translation(
+                0.6 + 0.15 * f64::from(i % 4),
+                -0.3 + 0.2 * f64::from(i / 4),
+                0.5,
+            ),
+            spin: 0.3,
+            rail: None,
+        })
+        .collect();
+    let all: Vec<usize> = (0..track.len()).collect();
+    let free = FreePath {
+        question: &question,
+        path,
+        search: &search,
+    };
+    let quick = free.quick_scores(&places, &all, Watch::NONE).unwrap();
+    let on_part = on_part(path, Component::InPlane, &all);
+    let each = Placeable {
+        question: &question,
+        path: &on_part,
+        objective: PlacementObjective {
+            component: Component::InPlane,
+            objective: Objective::Mean,
+            branches: BranchPattern::FRONT_ELBOW_UP,
+            margin: 0.0,
+            wrist: WRIST,
+            rank_by: RankBy::Nominal,
+            selection: PostureSelection::PerPoint(spins),
+        },
+    };
+    let each = each.scores(&places, None, Watch::NONE).unwrap();
+    let mut lost = 0;
+    for (quick, each) in quick.iter().zip(each) {
+        let each = each.unwrap();
+        assert_eq!(quick.unreachable, each.unreachable);
+        assert!((quick.cost - each.cost).abs() < 1e-9 * (each.cost + 1e-4));
+        lost += quick.unreachable;
+    }
+    assert!(lost > 0 && lost < 16 * all.len(), "{lost}");
 }
