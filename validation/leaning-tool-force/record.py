@@ -110,9 +110,15 @@ class Body:
 
 
 def widest(heights, y, ap):
-    """Right and left end of the part of the body below the upper surface."""
-    below = y[(heights < ap).any(axis=0)]
-    return below.min(), below.max()
+    """Right and left end of the part of the body below the upper surface, on straight lines between positions."""
+    profile = heights.min(axis=0)
+    below = np.flatnonzero(profile < ap)
+    ends = []
+    for last, step in ((below[0], -1), (below[-1], 1)):
+        beyond = profile[last + step]
+        part = (ap - profile[last]) / (beyond - profile[last]) if np.isfinite(beyond) else 0.5
+        ends.append(y[last] + step * part * ACROSS)
+    return ends
 
 
 def mean_force(diameter, corner, teeth, ap, kind, ae, lead, tilt):
@@ -136,9 +142,11 @@ def mean_force(diameter, corner, teeth, ap, kind, ae, lead, tilt):
         out = np.cos(angle) * body.u + np.sin(angle) * body.v
         at = body.centre + np.outer(radius, out) + np.outer(height - corner, axis)
         i = np.clip(np.searchsorted(x, at[:, 0]) - 1, 0, len(x) - 2)
-        j = np.clip(np.rint((at[:, 1] - y[0]) / ACROSS).astype(int), 0, len(y) - 1)
-        part = (at[:, 0] - x[i]) / STEP
-        here = remaining[i, j] * (1 - part) + remaining[i + 1, j] * part
+        j = np.clip(np.searchsorted(y, at[:, 1]) - 1, 0, len(y) - 2)
+        u, v = (at[:, 0] - x[i]) / STEP, (at[:, 1] - y[j]) / ACROSS
+        near = remaining[i, j] * (1 - u) + remaining[i + 1, j] * u
+        far = remaining[i, j + 1] * (1 - u) + remaining[i + 1, j + 1] * u
+        here = near * (1 - v) + far * v
         cuts = (at[:, 2] < here) & (at[:, 2] < ap) & (at[:, 1] > sides[0]) & (at[:, 1] < sides[1])
         normal = np.outer(sin_kappa, out) - np.outer(cos_kappa, axis)
         chip = np.maximum(FEED * normal[:, 0], 0.0)

@@ -13,11 +13,13 @@ use super::along::{CutHere, CutsAlong, GreatestForce, PathLoad};
 use super::lean::Lean;
 use super::milling::{Cut, Milling};
 
+/// Leans that differ by less, rad, are the same: roundings of an axis.
+const SAME: f64 = 1e-12;
 /// Steps of a period at which the peak of a leaning tool is sought: its force has no jumps.
 const PEAK_STEPS: u32 = 120;
 
 impl CutsAlong {
-    /// The cuts with the tool leaning by `leans`, point after point.
+    /// The cuts with the tool leaning by `leans`, point after point; cuts that lean so already are kept.
     ///
     /// # Panics
     /// If there are fewer leans than points.
@@ -41,11 +43,12 @@ impl CutsAlong {
     }
 
     fn leaning_here(&self, here: &CutHere, lean: Lean) -> CutHere {
-        let upright = here.cut.is_none_or(|cut| cut.lean.lean == Lean::NONE);
-        let Some(milling) = self
-            .leaning_milling(here, lean)
-            .filter(|_| !upright || lean != Lean::NONE)
-        else {
+        let leans_so = |cut: Cut| {
+            let had = cut.lean.lean;
+            (had.lead - lean.lead).abs().max((had.tilt - lean.tilt).abs()) <= SAME
+        };
+        let milling = (!here.cut.is_some_and(leans_so)).then(|| self.leaning_milling(here, lean));
+        let Some(milling) = milling.flatten() else {
             return *here;
         };
         CutHere {

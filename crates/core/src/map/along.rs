@@ -4,7 +4,7 @@
 //! not change within a part. For a constant load and a tool of constant direction, shares and uncertainties are
 //! computed at every point; for any other load they are not. Where a tool cuts, the force-deflection equilibrium is
 //! computed at every point ([`crate::load::force_equilibrium`]); the branch is selected under the forces of the nominal
-//! path.
+//! path. Where the tool leans, the cut is that of the leaning tool ([`Track::leaning_load`]).
 //!
 //! Backlash and geometry are added to the effect of the load (`backlash_geometry`); they do not change force and depth
 //! of a cut.
@@ -99,6 +99,7 @@ pub fn along_postures(
         choices.first().is_some_and(|(first, _)| *first == 0),
         "the first choice must begin at point 0"
     );
+    let load = track.leaning_load(load);
     let mut cases = vec![Wrench::ZERO; load.case_count()];
     let unloaded = question.arm.model.has_unloaded_deviation();
     let steady = track.steady_normal().filter(|_| load.is_steady() && !unloaded);

@@ -209,6 +209,17 @@ impl Track {
         track
     }
 
+    /// The load on this track: that of a cut with the tool leaning as it does here.
+    pub fn leaning_load(&self, load: PathLoad) -> PathLoad {
+        let leans = || self.path.points.iter().map(|point| self.placing.lean(point));
+        match load {
+            PathLoad::Cuts(cuts) if leans().any(|lean| lean != Lean::NONE) => {
+                PathLoad::Cuts(cuts.leaning(&leans().collect::<Vec<Lean>>()))
+            }
+            load => load,
+        }
+    }
+
     /// [`Track::loaded_stop`] of [`Track::leaning`] under [`PathLoad::leaning`].
     pub fn leaning_stop(
         &self,

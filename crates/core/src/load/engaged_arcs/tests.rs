@@ -94,8 +94,8 @@ fn without_lean_the_mean_force_is_that_of_the_upright_tool() {
                         let upright = Milling::new(cutter, law, cut).unwrap();
                         let [expected, found] = [upright, as_leaning(upright)].map(|of| of.mean_force());
                         let apart = (found - expected).norm();
-                        // A thin cut that rises out of the part has no force.
-                        let within = apart <= tolerance * expected.norm();
+                        // A thin cut that rises out of the part has little force or none.
+                        let within = apart <= tolerance * expected.norm().max(0.1);
                         assert!(within, "{immersion:?} {depth} {rise}: {apart:e}");
                     }
                 }
