@@ -12,9 +12,9 @@
 use nalgebra::{Rotation3, Vector3};
 
 use super::cases::{LoadCases, LoadFrame, turned};
+use super::cut::Cut;
 use super::cutter::Cutter;
 use super::law::CuttingLaw;
-use super::milling::Cut;
 use crate::frame::Isometry;
 use crate::spatial::Wrench;
 

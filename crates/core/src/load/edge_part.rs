@@ -20,9 +20,9 @@
 //! Over a part the arcs have kinks where other conditions bound them. They are found by bisection, and each piece is integrated
 //! separately.
 
+use super::cut::Cut;
 use super::cutter::{Cutter, EdgePoint};
 use super::engaged_arcs::{EngagedArcs, LeaningCut};
-use super::milling::Cut;
 
 /// A part of the edge.
 #[derive(Clone, Copy, Debug, PartialEq)]

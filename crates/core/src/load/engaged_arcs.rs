@@ -27,8 +27,8 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use nalgebra::Vector3;
 
 use super::arc::EngagedArc;
+use super::cut::Cut;
 use super::cutter::{Cutter, EdgePoint};
-use super::milling::Cut;
 
 /// Most arcs of a point: four conditions.
 const MOST: usize = 6;

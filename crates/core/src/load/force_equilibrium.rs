@@ -26,9 +26,10 @@
 
 use nalgebra::{Matrix2, Matrix3, Rotation3, Vector2, Vector3};
 
+use super::cut::Cut;
 use super::cutter::Cutter;
 use super::law::CuttingLaw;
-use super::milling::{Cut, Milling};
+use super::milling::Milling;
 
 /// Compliance of the tip, in any axes: `d = A F + g`.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -16,10 +16,9 @@
 //!
 //! The body is convex and has no upper end. Source: support functions and duality of a linear bound \[derived\].
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
 use super::end_mill_body::EndMillBody;
-use super::milling::Cut;
 
 /// Lean of the tool from the programmed axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -40,8 +39,6 @@ pub struct LeanInCut {
     pub moved: [f64; 2],
 }
 
-/// Below this length, m, the feed across the tool axis has no direction.
-const NO_FEED: f64 = 1e-12;
 /// Halvings of the interval of the multiplier.
 const HALVINGS: usize = 100;
 
@@ -102,64 +99,6 @@ impl EndMillBody {
             }
         }
         bound(0.5 * (low + high))
-    }
-}
-
-impl Cut {
-    /// The same cut with the tool leaning by `lean` from the normal of the surface; its strip keeps its width and its side,
-    /// and a strip inside the tool keeps its distance from the middle of the tool.
-    #[must_use]
-    pub fn leaning(&self, lean: Lean, body: &EndMillBody) -> Cut {
-        if lean == Lean::NONE {
-            return Cut {
-                lean: LeanInCut::default(),
-                ..*self
-            };
-        }
-        let [upright, leaning] = [Lean::NONE, lean].map(|lean| body.extent(lean, self.depth));
-        let moved = [0, 1].map(|side| leaning[side] - upright[side]);
-        let [right, left] = self.engagement.edges();
-        let moved = if left >= body.radius() {
-            [moved[1]; 2]
-        } else if right <= -body.radius() {
-            [moved[0]; 2]
-        } else {
-            [0.5 * (moved[0] + moved[1]); 2]
-        };
-        Cut {
-            lean: LeanInCut { lean, moved },
-            ..*self
-        }
-    }
-
-    /// Axes of the feed frame of the leaning tool, along the feed, to its left and along the normal of the surface.
-    pub(super) fn tool_axes(&self) -> Matrix3<f64> {
-        let axis = self.lean.lean.axis();
-        let feed = Vector3::new(self.feed, 0.0, self.rise);
-        let across = feed - axis * feed.dot(&axis);
-        // A tool that is fed along its axis has no direction across it: any will do, its edges cut alike all round.
-        let x = across
-            .try_normalize(NO_FEED)
-            .unwrap_or_else(|| axis.cross(&Vector3::y()).normalize());
-        Matrix3::from_columns(&[x, axis.cross(&x), axis])
-    }
-
-    /// Part of a deviation (m, feed frame of the tool) across the normal of the surface, m.
-    pub(crate) fn in_plane(&self, deviation: &Vector3<f64>) -> f64 {
-        if self.lean.lean == Lean::NONE {
-            return deviation.xy().norm();
-        }
-        let [_, normal] = self.left_and_normal();
-        (deviation - normal * normal.dot(deviation)).norm()
-    }
-
-    /// The directions to the left of the feed and along the normal of the surface, in the feed frame of the tool.
-    pub(super) fn left_and_normal(&self) -> [Vector3<f64>; 2] {
-        if self.lean.lean == Lean::NONE {
-            return [Vector3::y(), Vector3::z()];
-        }
-        let axes = self.tool_axes();
-        [1, 2].map(|row| axes.row(row).transpose())
     }
 }
 

@@ -1,18 +1,24 @@
 //! Forces of the cuts along a path with a tool that leans.
 //!
 //! The cut at a point is that of the programmed axis, or that found in a stock, made with the leaning tool
-//! ([`Cut::leaning`](super::Cut::leaning)). Its forces are in the feed frame of the leaning tool. In a search the greatest force is the
-//! nominal one times the ratio of the mean forces; along a path it is that of the leaning tool.
+//! ([`Cut::leaning`](super::Cut::leaning)). Its forces are in the feed frame of the leaning tool. In a search over many different
+//! cuts, as in a stock, those that are equal to a fiftieth of the diameter share the ratio of the greatest force to the mean.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::{Mutex, PoisonError};
 
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
 use super::along::{CutHere, CutsAlong, GreatestForce, PathLoad};
+use super::cut::Cut;
 use super::lean::Lean;
-use super::milling::{Cut, Milling};
+use super::milling::Milling;
 
+/// Number of different cuts up to which each has its own greatest force in a search.
+const FEW_CUTS: usize = 16;
+/// Beyond it, cuts whose depth and edges differ by less than this part of the diameter share one ratio.
+const ALIKE: f64 = 0.02;
 /// Leans that differ by less, rad, are the same: roundings of an axis.
 const SAME: f64 = 1e-12;
 /// Steps of a period at which the peak of a leaning tool is sought: its force has no jumps.
@@ -77,35 +83,86 @@ impl PathLoad {
     }
 }
 
-/// Forces of one cut in many leans, kept until the cut changes.
-#[derive(Clone, Debug, Default)]
+/// Forces of upright cuts in the leans of a search, each computed once.
+#[derive(Debug, Default)]
 pub struct LeaningForces {
-    cut: Option<(usize, Cut)>,
-    means: BTreeMap<[u64; 2], Vector3<f64>>,
+    /// Whether there are so many cuts that those alike share the ratio of the greatest force to the mean.
+    many: bool,
+    known: Mutex<BTreeMap<CutKey, [Vector3<f64>; 2]>>,
 }
 
+/// A cut with its lean: tool, depth, edges, feed, rise, lead, tilt.
+type CutKey = [u64; 8];
+
 impl LeaningForces {
+    /// For the cuts of this load, if it has any.
+    pub fn of(load: &PathLoad) -> LeaningForces {
+        let mut different = BTreeSet::new();
+        if let PathLoad::Cuts(cuts) = load {
+            for here in &cuts.points {
+                different.extend(here.cut.map(|cut| key(here, &cut, Lean::NONE)));
+                if different.len() > FEW_CUTS {
+                    break;
+                }
+            }
+        }
+        LeaningForces {
+            many: different.len() > FEW_CUTS,
+            known: Mutex::default(),
+        }
+    }
+
     /// Mean and greatest force at point `index` of upright cuts with the tool leaning by `lean`; N, feed frame of the
     /// leaning tool.
     ///
     /// # Panics
     /// If there is no such point.
-    pub fn at(&mut self, cuts: &CutsAlong, index: usize, lean: Lean) -> [Vector3<f64>; 2] {
+    pub fn at(&self, cuts: &CutsAlong, index: usize, lean: Lean) -> [Vector3<f64>; 2] {
         let here = &cuts.points[index];
         let Some(cut) = here.cut.filter(|_| lean != Lean::NONE) else {
             return [here.mean, here.greatest];
         };
-        if self.cut != Some((here.cutter, cut)) {
-            self.means.clear();
-            self.cut = Some((here.cutter, cut));
+        if !self.many {
+            return self.known(cuts, here, lean);
         }
-        let key = [lean.lead, lean.tilt].map(f64::to_bits);
-        let mean = self.means.entry(key).or_insert_with(|| {
-            let milling = cuts.leaning_milling(here, lean);
-            milling.map_or(here.mean, |milling| milling.mean_force())
-        });
-        here.under(*mean)
+        let milling = cuts.leaning_milling(here, lean);
+        let mean = milling.map_or(here.mean, |milling| milling.mean_force());
+        if cuts.greatest == GreatestForce::LeftOut {
+            return [mean, here.greatest];
+        }
+        let alike = CutHere {
+            cut: Some(cut.rounded(ALIKE, cuts.cutters[here.cutter].diameter())),
+            ..*here
+        };
+        let [of_alike, greatest] = self.known(cuts, &alike, lean);
+        [
+            mean,
+            greatest * (mean.norm() / of_alike.norm().max(f64::MIN_POSITIVE)),
+        ]
     }
+
+    /// The forces of this cut, computed once.
+    fn known(&self, cuts: &CutsAlong, here: &CutHere, lean: Lean) -> [Vector3<f64>; 2] {
+        let Some(cut) = here.cut else {
+            return [here.mean, here.greatest];
+        };
+        let key = key(here, &cut, lean);
+        let lock = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(known) = lock().get(&key) {
+            return *known;
+        }
+        let leaning = cuts.leaning_here(here, lean);
+        let forces = [leaning.mean, leaning.greatest];
+        lock().insert(key, forces);
+        forces
+    }
+}
+
+fn key(here: &CutHere, cut: &Cut, lean: Lean) -> CutKey {
+    let [right, left] = cut.engagement.edges();
+    let [depth, right, left, feed, rise, lead, tilt] =
+        [cut.depth, right, left, cut.feed, cut.rise, lean.lead, lean.tilt].map(f64::to_bits);
+    [here.cutter as u64, depth, right, left, feed, rise, lead, tilt]
 }
 
 #[cfg(test)]
@@ -152,7 +209,7 @@ mod tests {
     fn the_forces_of_a_search_are_those_of_the_path_that_it_finds() {
         let cuts = cuts(GreatestForce::LeftOut);
         let leaning = cuts.leaning(&[LEAN, Lean::NONE, LEAN, LEAN]);
-        let mut forces = LeaningForces::default();
+        let forces = LeaningForces::of(&PathLoad::Cuts(cuts.clone()));
         for (index, lean) in [
             (0, LEAN),
             (1, Lean::NONE),
@@ -185,6 +242,33 @@ mod tests {
             "{leaned} {upright}"
         );
         assert_eq!(leaning.points[2], CutHere::NOTHING);
+        let forces = LeaningForces::of(&PathLoad::Cuts(cuts.clone()));
+        assert_eq!(forces.at(&cuts, 0, LEAN)[1], leaning.points[0].greatest);
+    }
+
+    #[test]
+    fn of_many_cuts_those_alike_share_the_ratio_of_the_greatest_force() {
+        let few = cuts(GreatestForce::SecondCase);
+        let deeper = |k: usize| {
+            let cut = few.points[0].cut.map(|cut| Cut {
+                depth: cut.depth + 1e-6 * k as f64,
+                ..cut
+            });
+            CutHere { cut, ..few.points[0] }
+        };
+        let many = CutsAlong {
+            points: (0..40).map(deeper).collect(),
+            ..few.clone()
+        };
+        let forces = LeaningForces::of(&PathLoad::Cuts(many.clone()));
+        let exact = many.leaning(&[LEAN; 40]);
+        for (index, here) in exact.points.iter().enumerate() {
+            let [mean, greatest] = forces.at(&many, index, LEAN);
+            assert_eq!(mean, here.mean);
+            // Depths rounded to 0.24 mm in 1 mm.
+            assert!((greatest - here.greatest).norm() < 0.1 * here.greatest.norm());
+        }
+        assert_eq!(forces.known.lock().unwrap().len(), 1);
     }
 
     #[test]

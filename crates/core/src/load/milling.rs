@@ -47,29 +47,14 @@ use std::f64::consts::TAU;
 use nalgebra::Vector3;
 
 use super::arc::{Chip, EngagedArc, Moments};
+use super::cut::Cut;
 use super::cutter::{Cutter, EdgePoint};
 use super::edge_part::{EdgePart, parts};
 use super::engaged_arcs::{EngagedArcs, LeaningCut};
-use super::engagement::Engagement;
 use super::error::{CuttingError, checked};
 use super::law::CuttingLaw;
-use super::lean::{Lean, LeanInCut};
+use super::lean::Lean;
 use super::mechanistic::Mechanistic;
-
-/// What is cut.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cut {
-    /// Depth along the programmed axis, m.
-    pub depth: f64,
-    /// Where round the tool.
-    pub engagement: Engagement,
-    /// Feed per tooth across the programmed axis, m.
-    pub feed: f64,
-    /// Feed per tooth along the programmed axis to the spindle, m; negative on a ramp down.
-    pub rise: f64,
-    /// Lean of the tool from the programmed axis.
-    pub lean: LeanInCut,
-}
 
 /// A cutter in a cut, under a cutting law.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -17,7 +17,8 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::arc::EngagedArc;
-use super::milling::{Cut, Milling, even_steps};
+use super::cut::Cut;
+use super::milling::{Milling, even_steps};
 
 /// Steps over the arc of an edge.
 const STEPS: u32 = 128;

@@ -18,10 +18,10 @@ const ANY_END: RoundedEnd = RoundedEnd {
     corner: 0.0,
 };
 
-/// Fills `column` with the postures of point `index` of `path`, at every setting of `window`; `forces` are those of the
-/// points before.
+/// Fills `column` with the postures of point `index` of `path`, at every setting of `window`; `forces` are those
+/// of its load with the tool leaning.
 pub(super) fn fill(
-    (maker, forces): (&mut Columns<'_>, &mut LeaningForces),
+    (maker, forces): (&mut Columns<'_>, &LeaningForces),
     path: LoadedTrack<'_>,
     index: usize,
     (search, window): (&PostureSearch, &Window),

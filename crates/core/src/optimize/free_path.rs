@@ -79,12 +79,12 @@ impl FreePath<'_> {
         columns.set_rail(placement.rail);
         let mut clearance = question.clearance_check().map(ClearanceAlong::new);
         let joint_count = question.arm.robot.joints().len();
-        let mut forces = LeaningForces::default();
+        let forces = LeaningForces::of(load);
         let mut column = Column::default();
         let mut order: Vec<usize> = Vec::new();
         let (mut unreachable, mut worst, mut sum, mut above) = (0, 0.0_f64, 0.0, 0.0);
         for index in points {
-            let maker = (&mut columns, &mut forces);
+            let maker = (&mut columns, &forces);
             fill(maker, path, *index, (self.search, &window), &mut column);
             let deviations = &column.deviations;
             order.clear();

@@ -83,8 +83,8 @@ pub fn hole_postures(
         if watch.is_cancelled() {
             return Err(Cancelled);
         }
-        let mut forces = LeaningForces::default();
-        fill((columns, &mut forces), path, index, (search, &window), column);
+        let forces = LeaningForces::default();
+        fill((columns, &forces), path, index, (search, &window), column);
         let best = best(question.arm.robot, search, column);
         let status = best.map_or_else(|| blocked_by(column), |_| PostureStatus::Usable);
         let home = best.map(|slot| column.joints_of(slot, question.arm.robot.joints().len()));

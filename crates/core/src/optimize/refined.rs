@@ -42,6 +42,7 @@ pub(super) fn refined(
 ) -> Result<PostureFound, Cancelled> {
     let all: Vec<usize> = (0..path.track.len()).collect();
     let keys = key_points(path.track);
+    let forces = LeaningForces::of(path.load);
     let mut window = Window::all(search);
     if !window.is_of_spins() && window.grid().len() * SLOTS * all.len() > MOST_STATES {
         window = coarse(search, keys.len());
@@ -52,7 +53,7 @@ pub(super) fn refined(
     };
     let mut near = Vec::new();
     while !window.is_finest() {
-        let walk = Walk::new(question, path, search, (&window, &keys));
+        let walk = Walk::new(question, (path, &forces), search, (&window, &keys));
         let (chain, seen, _) = best_chain(&walk, search, quiet)?;
         let settings = walk.settings(&chain);
         if settings.iter().all(Option::is_none) {
@@ -63,7 +64,7 @@ pub(super) fn refined(
     }
     let last = |window: &Window, watch: Watch<'_>| {
         let last = Last {
-            walk: Walk::new(question, path, search, (window, &all)),
+            walk: Walk::new(question, (path, &forces), search, (window, &all)),
             window,
             question,
             path,
@@ -220,13 +221,12 @@ impl Last<'_> {
         let mut states = vec![None; settings.len()];
         let mut kept = Vec::new();
         let mut maker = self.walk.maker();
-        let mut forces = LeaningForces::default();
         let mut column = Column::default();
         for index in (0..settings.len()).step_by(stride) {
             let Some(setting) = settings[index] else { continue };
             let window = Window::of_spins_at(self.search, &setting);
             fill(
-                (&mut maker, &mut forces),
+                (&mut maker, self.walk.forces),
                 self.path,
                 index,
                 (self.search, &window),

@@ -57,6 +57,8 @@ impl Cost {
 pub(super) struct Walk<'a> {
     question: &'a Question<'a>,
     path: LoadedTrack<'a>,
+    /// Of its load with the tool leaning.
+    pub(super) forces: &'a LeaningForces,
     search: &'a PostureSearch,
     window: &'a Window,
     /// The points of the path that have a column, in ascending order; the first of each cut is one of them.
@@ -80,7 +82,7 @@ impl<'a> Walk<'a> {
     /// Along these points of the path, with the settings of this window.
     pub fn new(
         question: &'a Question<'a>,
-        path: LoadedTrack<'a>,
+        (path, forces): (LoadedTrack<'a>, &'a LeaningForces),
         search: &'a PostureSearch,
         (window, points): (&'a Window, &'a [usize]),
     ) -> Walk<'a> {
@@ -88,6 +90,7 @@ impl<'a> Walk<'a> {
         Walk {
             question,
             path,
+            forces,
             search,
             window,
             points,
@@ -109,7 +112,7 @@ impl<'a> Walk<'a> {
         back_price: f64,
         watch: Watch<'_>,
     ) -> Result<(Cheapest, Seen), Cancelled> {
-        let maker = || (self.maker(), LeaningForces::default());
+        let maker = || self.maker();
         let worst_alone = matches!(cost, Cost::Worst);
         let grid = self.window.grid();
         let turns = Turns {
@@ -140,12 +143,18 @@ impl<'a> Walk<'a> {
                 chunk
                     .par_iter_mut()
                     .enumerate()
-                    .try_for_each_init(maker, |(maker, forces), (i, column)| {
+                    .try_for_each_init(maker, |maker, (i, column)| {
                         if watch.is_cancelled() {
                             return Err(Cancelled);
                         }
                         let tried = (self.search, self.window);
-                        fill((maker, forces), self.path, self.points[first + i], tried, column);
+                        fill(
+                            (maker, self.forces),
+                            self.path,
+                            self.points[first + i],
+                            tried,
+                            column,
+                        );
                         Ok(())
                     });
             filled?;

@@ -225,7 +225,7 @@ impl Track {
         &self,
         index: usize,
         (lean, end): (Lean, RoundedEnd),
-        (load, forces): (&PathLoad, &mut LeaningForces),
+        (load, forces): (&PathLoad, &LeaningForces),
     ) -> LoadedStop {
         let point = self.placing.leaned(&self.path.points[index], lean, end);
         let placing = Placing {

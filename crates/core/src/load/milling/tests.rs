@@ -1,6 +1,6 @@
 use super::*;
 use crate::load::kienzle::Estimate;
-use crate::load::{Hand, Immersion, Kienzle, KienzleValues, LeanInCut, Runout};
+use crate::load::{Engagement, Hand, Immersion, Kienzle, KienzleValues, LeanInCut, Runout};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 const MM: f64 = 1e-3;

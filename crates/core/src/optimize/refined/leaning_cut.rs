@@ -107,7 +107,7 @@ fn the_lean_of_a_cut_is_the_best_under_the_forces_of_the_leaning_tool() {
         "{} {least}",
         found.reached
     );
-    // The path that is found is evaluated with the forces of its leaning tool, whoever calculates them.
+    // The path that is found is evaluated with the forces of its leaning tool, given or calculated there.
     let turned = found.turned(&track);
     let both = [load.clone(), found.load(&load)].map(|load| {
         along_postures(&question, &turned, load, found.choices(), Watch::NONE)
