@@ -308,8 +308,6 @@ fn nothing(track: &Track, seen: &Seen) -> PostureFound {
 }
 
 #[cfg(test)]
-mod leaning_cut;
-#[cfg(test)]
 mod ring;
 #[cfg(test)]
 mod tests;

@@ -15,7 +15,7 @@ use crate::source::{Arm, StiffnessModel};
 use crate::spatial::Wrench;
 
 /// An arm on a rail of 6 m along base y, all joints with a speed limit.
-pub(super) fn on_rail() -> Robot {
+fn on_rail() -> Robot {
     let railed = arms::other::on_rail(&arms::mh12());
     let mut joints = railed.joints().to_vec();
     for (joint, most) in joints.iter_mut().zip([1.0, 3.8, 3.5, 3.8, 7.9, 7.9, 10.5]) {
@@ -34,7 +34,7 @@ pub(super) fn load() -> PathLoad {
 }
 
 /// A line along base y on a horizontal plate, of this length (m): x of the part is there y of base.
-pub(super) fn line(centre: Point3<f64>, length: f64, step: f64) -> Track {
+fn line(centre: Point3<f64>, length: f64, step: f64) -> Track {
     let half = Point2::new(0.5 * length, 0.0);
     track(Shape::Polyline(vec![-half, half]).sampled(step), centre)
 }
@@ -52,7 +52,7 @@ fn rail(step: f64) -> MovingAxis {
     }
 }
 
-pub(super) fn lean(step: f64, count: usize) -> LeanRange {
+fn lean(step: f64, count: usize) -> LeanRange {
     let steps = Steps {
         first: -step * (count - 1) as f64 / 2.0,
         step,
