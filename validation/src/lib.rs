@@ -40,6 +40,8 @@ mod inverse_vs_opw;
 mod jacobian_differences;
 #[path = "../joint-backlash-closed-forms/case.rs"]
 mod joint_backlash_closed_forms;
+#[path = "../leaning-tool-force/case.rs"]
+mod leaning_tool_force;
 #[path = "../mh12-fractions/case.rs"]
 mod mh12_fractions;
 #[path = "../mh12-readings/case.rs"]
@@ -89,6 +91,10 @@ pub const CASES: &[Case] = &[
     Case {
         folder: "milling-mean-force",
         checks: milling_mean_force::checks,
+    },
+    Case {
+        folder: "leaning-tool-force",
+        checks: leaning_tool_force::checks,
     },
     Case {
         folder: "nist-circles",

@@ -12,9 +12,9 @@
 use nalgebra::{Rotation3, Vector3};
 
 use super::cases::{LoadCases, LoadFrame, turned};
+use super::cut::Cut;
 use super::cutter::Cutter;
 use super::law::CuttingLaw;
-use super::milling::Cut;
 use crate::frame::Isometry;
 use crate::spatial::Wrench;
 
@@ -239,7 +239,7 @@ impl PathLoad {
 mod tests {
     use super::*;
     use crate::frame::from_xyz_and_fixed_angles;
-    use crate::load::{Engagement, Mechanistic};
+    use crate::load::{Engagement, LeanInCut, Mechanistic};
 
     fn wrench(k: f64) -> Wrench {
         Wrench {
@@ -378,6 +378,7 @@ mod tests {
                 engagement: Engagement::strip([4.9e-3, 5e-3], 0.01).unwrap(),
                 feed: 1e-4,
                 rise: 0.0,
+                lean: LeanInCut::default(),
             }),
             ..CutHere::NOTHING
         };

@@ -6,7 +6,7 @@
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
-//! | `d` | deviation of the tip, feed frame: along the feed, to its left, to the spindle | m |
+//! | `d` | deviation of the tip, feed frame: along the feed, to its left, to the spindle; of a leaning tool in the axes of the surface | m |
 //! | `s` | offset of the tool from its path by the deflection: to the left, away from the part | m |
 //! | `A` | compliance of the tip, feed frame | m/N |
 //! | `g` | deviation without the cut, for example by weight | m |
@@ -26,9 +26,10 @@
 
 use nalgebra::{Matrix2, Matrix3, Rotation3, Vector2, Vector3};
 
+use super::cut::Cut;
 use super::cutter::Cutter;
 use super::law::CuttingLaw;
-use super::milling::{Cut, Milling};
+use super::milling::Milling;
 
 /// Compliance of the tip, in any axes: `d = A F + g`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -117,7 +118,8 @@ impl ForceEquilibrium {
     /// The equilibrium of `cut` and a tip of this compliance (feed frame); `nominal` is the force on the undeflected
     /// tool.
     pub fn rest(&mut self, cut: &Cut, nominal: Vector3<f64>, tip: &TipCompliance) -> Rest {
-        let stiff = offset_under(tip, nominal);
+        let sides = cut.left_and_normal();
+        let stiff = offset_under(tip, nominal, &sides);
         for restart in [false, true] {
             if restart {
                 (self.offset, self.slope) = (Vector2::zeros(), Matrix2::identity());
@@ -140,7 +142,8 @@ impl ForceEquilibrium {
     /// The force at equilibrium, by steps from the last equilibrium.
     fn search(&mut self, cut: &Cut, tip: &TipCompliance) -> Option<Vector3<f64>> {
         let mut force = self.force(cut, self.offset)?;
-        let mut residual = self.offset - offset_under(tip, force);
+        let sides = cut.left_and_normal();
+        let mut residual = self.offset - offset_under(tip, force, &sides);
         for _ in 1..MOST_ROUNDS {
             if residual.norm() <= CLOSE * tip.under(force).norm() + FLOOR {
                 return Some(force);
@@ -151,7 +154,7 @@ impl ForceEquilibrium {
             self.offset += step;
             force = self.force(cut, self.offset)?;
             let before = residual;
-            residual = self.offset - offset_under(tip, force);
+            residual = self.offset - offset_under(tip, force, &sides);
             let deviation_from_slope = residual - before - self.slope * step;
             self.slope += deviation_from_slope * step.transpose() / step.norm_squared();
         }
@@ -170,10 +173,10 @@ impl ForceEquilibrium {
     }
 }
 
-/// Offset of the tip under `force`, m: to the left, away from the part.
-fn offset_under(tip: &TipCompliance, force: Vector3<f64>) -> Vector2<f64> {
+/// Offset of the tip under `force`, m: to the left, away from the part; these are the directions `sides` in the feed frame.
+fn offset_under(tip: &TipCompliance, force: Vector3<f64>, sides: &[Vector3<f64>; 2]) -> Vector2<f64> {
     let deviation = tip.under(force);
-    Vector2::new(deviation.y, deviation.z)
+    Vector2::new(deviation.dot(&sides[0]), deviation.dot(&sides[1]))
 }
 
 #[cfg(test)]

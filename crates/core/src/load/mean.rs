@@ -14,6 +14,8 @@
 //! cov F = M S M^T            S: covariance of the coefficients (Kienzle: M by differentiation)
 //! ```
 //!
+//! Of a leaning tool every part of its edge is integrated in pieces between the kinks of its arcs ([`super::edge_part`]).
+//!
 //! What a revolution cuts does not depend on runout: teeth share the same `N c` otherwise. So the shear part of the
 //! mean never changes; the edge part does where a tooth cuts nothing, since it no longer rubs.
 //!
@@ -23,8 +25,9 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
-use super::arc::Moments;
+use super::arc::{Chip, EngagedArc, Moments};
 use super::cutter::EdgePoint;
+use super::edge_part::parts;
 use super::law::CuttingLaw;
 use super::milling::Milling;
 use super::quadrature::{nodes_between_powers, nodes_from_root};
@@ -68,7 +71,10 @@ impl Milling {
             force: Vector3::zeros(),
             by_parameters: SMatrix::zeros(),
         };
-        if self.is_independent_of_runout() {
+        if self.is_independent_of_runout() && self.leaning.is_some() {
+            self.add_leaning(&mut sum);
+            sum.scaled(f64::from(self.cutter.flutes()) / TAU)
+        } else if self.is_independent_of_runout() {
             self.add_corner(&mut sum);
             self.add_cylinder(&mut sum);
             sum.scaled(f64::from(self.cutter.flutes()) / TAU)
@@ -86,7 +92,7 @@ impl Milling {
             CuttingLaw::Kienzle(_) => true,
         };
         // Lifted off by a ramp, an edge stops cutting: the remaining material is then shared differently.
-        self.cutter.runout().offset == 0.0 || (!ploughs && self.cut.rise <= 0.0)
+        self.cutter.runout().offset == 0.0 || (!ploughs && self.cut.rise <= 0.0 && self.leaning.is_none())
     }
 
     fn add_cylinder<const D: bool>(&self, sum: &mut Sum<D>) {
@@ -128,9 +134,34 @@ impl Milling {
     fn add_slice<const D: bool>(&self, point: &EdgePoint, width: f64, sum: &mut Sum<D>) {
         let chip = self.chip(point);
         let arc = self.cut.engagement.arc_at(point.radius);
-        let Some(arc) = arc.and_then(|arc| chip.cut_part(arc)) else {
-            return;
-        };
+        if let Some(arc) = arc.and_then(|arc| chip.cut_part(arc)) {
+            self.add_arc((point, width), chip, arc, sum);
+        }
+    }
+
+    /// Adds what the edge of a leaning tool gives, piece after piece.
+    fn add_leaning<const D: bool>(&self, sum: &mut Sum<D>) {
+        for part in parts(&self.cutter, &self.cut, self.leaning.as_ref()) {
+            for [from, to] in part.pieces(|along| self.arcs_at(&part.point(&self.cutter, along))) {
+                for (along, weight) in nodes_between_powers(from, to) {
+                    let point = part.point(&self.cutter, along);
+                    let width = part.width(&self.cutter) * weight;
+                    for arc in self.arcs_at(&point).iter() {
+                        self.add_arc((&point, width), self.chip(&point), arc, sum);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Adds what a slice, a point with its chip width, gives over an arc.
+    fn add_arc<const D: bool>(
+        &self,
+        (point, width): (&EdgePoint, f64),
+        chip: Chip,
+        arc: EngagedArc,
+        sum: &mut Sum<D>,
+    ) {
         match &self.law {
             CuttingLaw::Mechanistic(law) => {
                 let hand = self.cutter.hand();
@@ -161,16 +192,15 @@ impl Milling {
     /// Adds every tooth separately, over the arc in even steps.
     fn add_each_tooth<const D: bool>(&self, sum: &mut Sum<D>) {
         for (point, width) in self.slices() {
-            let Some(arc) = self.cut.engagement.arc_at(point.radius) else {
-                continue;
-            };
-            let step = (arc.exit - arc.entry) / f64::from(STEPS_WITH_RUNOUT);
-            for tooth in 0..self.cutter.flutes() {
-                for index in 0..STEPS_WITH_RUNOUT {
-                    let phi = arc.entry + (f64::from(index) + 0.5) * step;
-                    let h = self.chip_of_tooth(tooth, &point, phi);
-                    if h >= 0.0 {
-                        sum.add(self.directions(&point, phi) * (width * step), &self.law, h);
+            for arc in self.arcs_at(&point).iter() {
+                let step = (arc.exit - arc.entry) / f64::from(STEPS_WITH_RUNOUT);
+                for tooth in 0..self.cutter.flutes() {
+                    for index in 0..STEPS_WITH_RUNOUT {
+                        let phi = arc.entry + (f64::from(index) + 0.5) * step;
+                        let h = self.chip_of_tooth(tooth, &point, phi);
+                        if h >= 0.0 {
+                            sum.add(self.directions(&point, phi) * (width * step), &self.law, h);
+                        }
                     }
                 }
             }

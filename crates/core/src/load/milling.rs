@@ -34,6 +34,9 @@
 //! the next: `h = min over m of (m c sin(phi) sin(kappa) + (rho_j - rho_(j-m)) sin(kappa) - m c_z cos(kappa))`, `m`
 //! from 1 to `N`.
 //!
+//! The tool may lean from the programmed axis: the feed frame is then that of the leaning tool, and a point of an edge may cut over
+//! several arcs ([`super::engaged_arcs`]).
+//!
 //! Where the engagement of a ramp differs from that of the level cut and the edges on the bottom are neglected.
 //!
 //! Source: Altintas, Manufacturing Automation; Engin and Altintas 2001 for general end mills [both recalled]; the
@@ -44,24 +47,14 @@ use std::f64::consts::TAU;
 use nalgebra::Vector3;
 
 use super::arc::{Chip, EngagedArc, Moments};
+use super::cut::Cut;
 use super::cutter::{Cutter, EdgePoint};
-use super::engagement::Engagement;
+use super::edge_part::{EdgePart, parts};
+use super::engaged_arcs::{EngagedArcs, LeaningCut};
 use super::error::{CuttingError, checked};
 use super::law::CuttingLaw;
+use super::lean::Lean;
 use super::mechanistic::Mechanistic;
-
-/// What is cut.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cut {
-    /// Axial depth, m.
-    pub depth: f64,
-    /// Where round the tool.
-    pub engagement: Engagement,
-    /// Feed per tooth across the tool axis, m.
-    pub feed: f64,
-    /// Feed per tooth along the tool axis to the spindle, m; negative on a ramp down.
-    pub rise: f64,
-}
 
 /// A cutter in a cut, under a cutting law.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,6 +62,17 @@ pub struct Milling {
     pub(super) cutter: Cutter,
     pub(super) law: CuttingLaw,
     pub(super) cut: Cut,
+    /// `None` if the tool is upright.
+    pub(super) leaning: Option<LeaningCut>,
+}
+
+/// A slice of the edge that cuts.
+#[derive(Clone, Copy, Debug)]
+struct EngagedSlice {
+    point: EdgePoint,
+    /// m
+    width: f64,
+    arcs: EngagedArcs,
 }
 
 /// Deepest cut in diameters: it bounds how often a helix winds round.
@@ -98,8 +102,10 @@ impl Milling {
         let most_feed = MOST_FEED_IN_DIAMETERS * cutter.diameter();
         checked("feed per tooth", cut.feed, [0.0, most_feed], "m")?;
         checked("rise per tooth", cut.rise, [-most_feed, most_feed], "m")?;
+        let leans = cut.lean.lean != Lean::NONE;
         Ok(Milling {
             law: law.with_rake(cutter.rake()),
+            leaning: leans.then(|| LeaningCut::of(&cutter, &cut)),
             cutter,
             cut,
         })
@@ -123,7 +129,7 @@ impl Milling {
                 self.closed_force(law, arc, angle)
             }
             (CuttingLaw::Mechanistic(_), None) if self.is_plain() => Vector3::zeros(),
-            _ => self.summed_force(angle),
+            _ => self.sum_of(&self.engaged_slices(), angle),
         }
     }
 
@@ -138,14 +144,36 @@ impl Milling {
 
     /// Forces (N, feed frame) at `steps` even steps of one revolution, from the angle zero; from 1 to 100 000 steps.
     pub fn revolution(&self, steps: u32) -> Vec<Vector3<f64>> {
-        even_steps(TAU, steps).map(|angle| self.force_at(angle)).collect()
+        self.forces_at(even_steps(TAU, steps))
+    }
+
+    /// Forces (N, feed frame) at these angles.
+    pub(super) fn forces_at(&self, angles: impl Iterator<Item = f64>) -> Vec<Vector3<f64>> {
+        match self.leaning {
+            Some(_) => {
+                let slices = self.engaged_slices();
+                angles.map(|angle| self.sum_of(&slices, angle)).collect()
+            }
+            None => angles.map(|angle| self.force_at(angle)).collect(),
+        }
     }
 
     /// Chip thickness of an evenly cutting tooth at `point`.
     pub(super) fn chip(&self, point: &EdgePoint) -> Chip {
+        let [across, along] = self
+            .leaning
+            .map_or([self.cut.feed, self.cut.rise], |leaning| leaning.feed);
         Chip {
-            across: self.cut.feed * point.sin_kappa,
-            along: -self.cut.rise * point.cos_kappa,
+            across: across * point.sin_kappa,
+            along: -along * point.cos_kappa,
+        }
+    }
+
+    /// The arcs over which `point` cuts; of an upright tool in a rising feed with those where it does not reach the part.
+    pub(super) fn arcs_at(&self, point: &EdgePoint) -> EngagedArcs {
+        match &self.leaning {
+            Some(leaning) => leaning.arcs_at(point, self.cutter.corner_radius()),
+            None => EngagedArcs::one(self.cut.engagement.arc_at(point.radius)),
         }
     }
 
@@ -167,28 +195,26 @@ impl Milling {
 
     /// Points of the edge with their chip width (m): middles of even slices of the profile.
     pub(super) fn slices(&self) -> impl Iterator<Item = (EdgePoint, f64)> + '_ {
-        let r = self.cutter.corner_radius();
-        let corner_end = self.cutter.corner_end(self.cut.depth);
-        let straight = (self.cut.depth - r).max(0.0);
-        let middle = |slice: u32, of: u32| (f64::from(slice) + 0.5) / f64::from(of);
         // All slices of a straight edge cut alike.
-        let cylinder_slices = match straight > 0.0 {
-            false => 0,
-            true if self.cutter.helix() == 0.0 => 1,
-            true => SLICES,
-        };
-        let corner = (0..if r > 0.0 { SLICES } else { 0 }).map(move |slice| {
-            let point = self.cutter.in_corner(middle(slice, SLICES) * corner_end);
-            (point, r * corner_end / f64::from(SLICES))
+        let alike = self.leaning.is_none() && self.cutter.helix() == 0.0;
+        parts(&self.cutter, &self.cut, self.leaning.as_ref()).flat_map(move |part| {
+            let slices = if alike && matches!(part, EdgePart::Cylinder(_)) {
+                1
+            } else {
+                SLICES
+            };
+            part.middles(&self.cutter, slices)
+        })
+    }
+
+    /// The slices that cut, with their arcs.
+    fn engaged_slices(&self) -> Vec<EngagedSlice> {
+        let slices = self.slices().map(|(point, width)| EngagedSlice {
+            point,
+            width,
+            arcs: self.arcs_at(&point),
         });
-        let cylinder = (0..cylinder_slices).map(move |slice| {
-            let height = r + middle(slice, cylinder_slices) * straight;
-            (
-                self.cutter.at_height(height),
-                straight / f64::from(cylinder_slices),
-            )
-        });
-        corner.chain(cylinder)
+        slices.filter(|slice| !slice.arcs.is_empty()).collect()
     }
 
     /// Where the cylinder cuts; `None` if the strip is outside it.
@@ -197,12 +223,14 @@ impl Milling {
     }
 
     fn is_plain(&self) -> bool {
-        self.cutter.corner_radius() == 0.0 && self.cutter.runout().offset == 0.0
+        self.leaning.is_none() && self.cutter.corner_radius() == 0.0 && self.cutter.runout().offset == 0.0
     }
 
     /// Whether all of an edge is at one immersion angle.
     pub(super) fn is_straight(&self) -> bool {
-        self.cutter.corner_radius() == 0.0 && self.cutter.lag(self.cut.depth).abs() < STRAIGHT
+        self.leaning.is_none()
+            && self.cutter.corner_radius() == 0.0
+            && self.cutter.lag(self.cut.depth).abs() < STRAIGHT
     }
 
     /// Whether forces are summed over slices: such sums step where a slice enters or leaves.
@@ -215,22 +243,19 @@ impl Milling {
         angle - f64::from(tooth) * self.cutter.pitch()
     }
 
-    fn summed_force(&self, angle: f64) -> Vector3<f64> {
+    fn sum_of(&self, slices: &[EngagedSlice], angle: f64) -> Vector3<f64> {
         let mut sum = Vector3::zeros();
-        for (point, width) in self.slices() {
-            let Some(arc) = self.cut.engagement.arc_at(point.radius) else {
-                continue;
-            };
+        for EngagedSlice { point, width, arcs } in slices {
             let lag = self.cutter.lag(point.height);
             for tooth in 0..self.cutter.flutes() {
                 let phi = (self.tip_angle(tooth, angle) - lag).rem_euclid(TAU);
-                if !arc.contains(phi) {
+                if !arcs.contains(phi) {
                     continue;
                 }
-                let h = self.chip_of_tooth(tooth, &point, phi);
+                let h = self.chip_of_tooth(tooth, point, phi);
                 if h >= 0.0 {
-                    let directions = Moments::at(phi).directions(&point, self.cutter.hand());
-                    sum += directions * self.law.force(h) * width;
+                    let directions = Moments::at(phi).directions(point, self.cutter.hand());
+                    sum += directions * self.law.force(h) * *width;
                 }
             }
         }

@@ -1,10 +1,10 @@
 //! Loads on the tool.
 //!
 //! [`cases`]: a set of given wrenches, the same at every point. [`along`]: wrenches that turn with the feed, or change
-//! from point to point. `input_uncertainty`: their uncertainty.
+//! from point to point; `leaning_forces`: cuts whose tool leans. `input_uncertainty`: their uncertainty.
 //!
 //! Cutting forces: [`end_mill_body`] and [`cutter`] (the edge on it), [`engagement`] and [`arc`] (where it cuts and the
-//! chip thickness), [`mechanistic`] and [`kienzle`] (force of a chip; [`law`] is either, [`sets`] several of one
+//! chip thickness), [`lean`], [`cut`], `engaged_arcs` and `edge_part` (the same of a leaning tool), [`mechanistic`] and [`kienzle`] (force of a chip; [`law`] is either, [`sets`] several of one
 //! material), [`milling`] (force at a spindle angle and over a revolution), [`mean`] (its mean, with uncertainty),
 //! `peak` (its greatest over a revolution), `spindle` (torque, chip thickness, removal rate),
 //! [`drilling`], [`process`] (a tool with its cutting data and feed), [`force_equilibrium`] (the force on a tool that
@@ -17,15 +17,20 @@
 pub mod along;
 pub mod arc;
 pub mod cases;
+pub mod cut;
 pub mod cutter;
 pub mod drilling;
+mod edge_part;
 pub mod end_mill_body;
+mod engaged_arcs;
 pub mod engagement;
 pub mod error;
 pub mod force_equilibrium;
 mod input_uncertainty;
 pub mod kienzle;
 pub mod law;
+pub mod lean;
+mod leaning_forces;
 pub mod mean;
 pub mod mechanistic;
 pub mod milling;
@@ -39,6 +44,7 @@ mod quadrature;
 
 pub use along::{CutHere, CutsAlong, GreatestForce, PathLoad};
 pub use cases::{LoadCases, LoadFrame};
+pub use cut::Cut;
 pub use cutter::{Cutter, Hand, Runout};
 pub use end_mill_body::EndMillBody;
 pub use engagement::{Engagement, Immersion};
@@ -47,9 +53,11 @@ pub use force_equilibrium::{ForceEquilibrium, Rest, TipCompliance};
 pub use input_uncertainty::InputUncertainty;
 pub use kienzle::{Estimate, Kienzle, KienzleValues};
 pub use law::CuttingLaw;
+pub use lean::{Lean, LeanInCut};
+pub use leaning_forces::LeaningForces;
 pub use mean::MeanForce;
 pub use mechanistic::Mechanistic;
-pub use milling::{Cut, Milling};
+pub use milling::Milling;
 pub use process::{Advance, CuttingForce, Process};
 pub use record::{ActsOn, Record, RecordError};
 pub use sets::SetStatistics;

@@ -41,7 +41,7 @@ impl Milling {
             angles.extend(sides.map(|angle| angle.rem_euclid(period)));
             angles.sort_by(f64::total_cmp);
         }
-        let forces: Vec<Vector3<f64>> = angles.iter().map(|angle| self.force_at(*angle)).collect();
+        let forces = self.forces_at(angles.iter().copied());
         let mut greatest = forces.iter().copied().fold(Vector3::zeros(), longer);
         if self.is_summed() {
             return greatest;
@@ -128,7 +128,7 @@ fn longer(first: Vector3<f64>, second: Vector3<f64>) -> Vector3<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::load::{Cut, Cutter, CuttingLaw, Engagement, Hand, Immersion, Mechanistic, Runout};
+    use crate::load::{Cut, Cutter, CuttingLaw, Engagement, Hand, Immersion, LeanInCut, Mechanistic, Runout};
 
     const MM: f64 = 1e-3;
 
@@ -144,6 +144,7 @@ mod tests {
             engagement: Engagement::of(immersion, 8.0 * MM).unwrap(),
             feed: 25e-6,
             rise: 0.0,
+            lean: LeanInCut::default(),
         };
         Milling::new(cutter, CuttingLaw::Mechanistic(law), cut).unwrap()
     }

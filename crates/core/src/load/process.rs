@@ -16,12 +16,14 @@
 
 use nalgebra::{Unit, Vector3};
 
+use super::cut::Cut;
 use super::cutter::Cutter;
 use super::engagement::{Engagement, feed_per_tooth};
 use super::error::CuttingError;
 use super::law::CuttingLaw;
+use super::lean::LeanInCut;
 use super::mean::MeanForce;
-use super::milling::{Cut, Milling};
+use super::milling::Milling;
 
 /// The tool and its cutting data. Not checked until a force is computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -91,6 +93,7 @@ impl Process {
             engagement: self.engagement,
             feed: per_tooth * rise.cos(),
             rise: per_tooth * rise.sin(),
+            lean: LeanInCut::default(),
         };
         Milling::new(self.cutter, self.law, cut)
     }

@@ -14,10 +14,11 @@
 //!
 //! Sums over slices of the edge and even steps of the arc; see [`super::milling`] for the other symbols.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::arc::EngagedArc;
-use super::milling::{Cut, Milling, even_steps};
+use super::cut::Cut;
+use super::milling::{Milling, even_steps};
 
 /// Steps over the arc of an edge.
 const STEPS: u32 = 128;
@@ -35,14 +36,12 @@ impl Milling {
     pub fn torque_at(&self, angle: f64) -> f64 {
         let mut sum = 0.0;
         for (point, width) in self.slices() {
-            let Some(arc) = self.cut.engagement.arc_at(point.radius) else {
-                continue;
-            };
+            let arcs = self.arcs_at(&point);
             let lag = self.cutter.lag(point.height);
             for tooth in 0..self.cutter.flutes() {
                 let phi = (angle - f64::from(tooth) * self.cutter.pitch() - lag).rem_euclid(TAU);
                 let h = self.chip_of_tooth(tooth, &point, phi);
-                if arc.contains(phi) && h >= 0.0 {
+                if arcs.contains(phi) && h >= 0.0 {
                     sum += self.law.force(h)[0] * point.radius * width;
                 }
             }
@@ -60,16 +59,15 @@ impl Milling {
     pub fn mean_torque(&self) -> f64 {
         let mut sum = 0.0;
         for (point, width) in self.slices() {
-            let Some(arc) = self.cut.engagement.arc_at(point.radius) else {
-                continue;
-            };
-            let step = (arc.exit - arc.entry) / f64::from(STEPS);
-            for tooth in 0..self.cutter.flutes() {
-                let tangential = angles_of(arc)
-                    .map(|phi| self.chip_of_tooth(tooth, &point, phi))
-                    .filter(|h| *h >= 0.0)
-                    .map(|h| self.law.force(h)[0]);
-                sum += tangential.sum::<f64>() * step * point.radius * width;
+            for arc in self.arcs_at(&point).iter() {
+                let step = (arc.exit - arc.entry) / f64::from(STEPS);
+                for tooth in 0..self.cutter.flutes() {
+                    let tangential = angles_of(arc)
+                        .map(|phi| self.chip_of_tooth(tooth, &point, phi))
+                        .filter(|h| *h >= 0.0)
+                        .map(|h| self.law.force(h)[0]);
+                    sum += tangential.sum::<f64>() * step * point.radius * width;
+                }
             }
         }
         sum / TAU
@@ -79,13 +77,15 @@ impl Milling {
     pub fn largest_chip(&self) -> f64 {
         let mut largest = 0.0f64;
         for (point, _) in self.slices() {
-            let Some(arc) = self.cut.engagement.arc_at(point.radius) else {
-                continue;
-            };
-            for tooth in 0..self.cutter.flutes() {
-                // The chip is largest straight ahead, or at the end of the arc that is nearest to it.
-                let ahead = std::f64::consts::FRAC_PI_2.clamp(arc.entry, arc.exit);
-                largest = largest.max(self.chip_of_tooth(tooth, &point, ahead));
+            for arc in self.arcs_at(&point).iter() {
+                for tooth in 0..self.cutter.flutes() {
+                    // The chip is largest straight ahead, or at an end of the arc.
+                    let turn = TAU * ((arc.entry - FRAC_PI_2) / TAU).ceil();
+                    let ahead = (FRAC_PI_2 + turn).min(arc.exit);
+                    for phi in [arc.entry, ahead] {
+                        largest = largest.max(self.chip_of_tooth(tooth, &point, phi));
+                    }
+                }
             }
         }
         largest
@@ -102,7 +102,7 @@ mod tests {
     use nalgebra::Vector3;
 
     use super::*;
-    use crate::load::{Cutter, CuttingLaw, Engagement, Hand, Immersion, Mechanistic};
+    use crate::load::{Cutter, CuttingLaw, Engagement, Hand, Immersion, LeanInCut, Mechanistic};
 
     const MM: f64 = 1e-3;
 
@@ -115,6 +115,7 @@ mod tests {
             engagement: Engagement::of(immersion, 10.0 * MM).unwrap(),
             feed: 0.05 * MM,
             rise: 0.0,
+            lean: LeanInCut::default(),
         };
         Milling::new(cutter, CuttingLaw::Mechanistic(law), cut).unwrap()
     }

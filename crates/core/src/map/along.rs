@@ -4,7 +4,7 @@
 //! not change within a part. For a constant load and a tool of constant direction, shares and uncertainties are
 //! computed at every point; for any other load they are not. Where a tool cuts, the force-deflection equilibrium is
 //! computed at every point ([`crate::load::force_equilibrium`]); the branch is selected under the forces of the nominal
-//! path.
+//! path. Where the tool leans, the cut is that of the leaning tool ([`Track::leaning_load`]).
 //!
 //! Backlash and geometry are added to the effect of the load (`backlash_geometry`); they do not change force and depth
 //! of a cut.
@@ -99,6 +99,7 @@ pub fn along_postures(
         choices.first().is_some_and(|(first, _)| *first == 0),
         "the first choice must begin at point 0"
     );
+    let load = track.leaning_load(load);
     let mut cases = vec![Wrench::ZERO; load.case_count()];
     let unloaded = question.arm.model.has_unloaded_deviation();
     let steady = track.steady_normal().filter(|_| load.is_steady() && !unloaded);
@@ -224,8 +225,11 @@ impl EquilibriumForces<'_> {
             let tip = tip.rotated(&base_from_feed.inverse());
             let nominal = [here.mean, here.greatest];
             for force in &nominal[..out.len().min(nominal.len())] {
-                // In plane is across the tool.
-                let in_plane = tip.under(*force).xy().norm();
+                // In plane is across the normal of the surface: across the tool, unless it leans.
+                let deviation = tip.under(*force);
+                let in_plane = here
+                    .cut
+                    .map_or_else(|| deviation.xy().norm(), |cut| cut.in_plane(&deviation));
                 self.summary.largest_nominal = self.summary.largest_nominal.max(in_plane);
             }
             if let Some(cut) = here.cut {

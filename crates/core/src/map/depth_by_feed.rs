@@ -94,8 +94,8 @@ impl DepthByFeed {
 mod tests {
     use super::*;
     use crate::load::{
-        CutHere, CutsAlong, Cutter, CuttingLaw, Engagement, GreatestForce, Immersion, Mechanistic, Milling,
-        TipCompliance,
+        CutHere, CutsAlong, Cutter, CuttingLaw, Engagement, GreatestForce, Immersion, LeanInCut, Mechanistic,
+        Milling, TipCompliance,
     };
     use crate::map::PermittedForces;
     use nalgebra::{Matrix3, Vector3};
@@ -123,6 +123,7 @@ mod tests {
             engagement: Engagement::of(Immersion::Slot, cutters()[cutter].diameter()).unwrap(),
             feed: 0.05 * MM,
             rise: 0.0,
+            lean: LeanInCut::default(),
         }
     }
 

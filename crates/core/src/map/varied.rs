@@ -138,7 +138,7 @@ impl Varied {
             return f64::INFINITY;
         };
         let [mean, greatest] = self.here.under(force);
-        let in_plane = |force| self.tip.under(force).xy().norm();
+        let in_plane = |force| cut.in_plane(&self.tip.under(force));
         match self.greatest {
             GreatestForce::LeftOut => in_plane(mean),
             GreatestForce::SecondCase => in_plane(mean).max(in_plane(greatest)),

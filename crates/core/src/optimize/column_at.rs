@@ -8,6 +8,7 @@ use super::posture_search::PostureSearch;
 use super::window::Window;
 use crate::frame::Isometry;
 use crate::kernel::{Column, ColumnLoad, Columns, PostureStatus};
+use crate::load::LeaningForces;
 use crate::path::{Lean, LoadedStop, LoadedTrack, RoundedEnd};
 use crate::robot::{Branch, BranchPattern};
 
@@ -17,9 +18,10 @@ const ANY_END: RoundedEnd = RoundedEnd {
     corner: 0.0,
 };
 
-/// Fills `column` with the postures of point `index` of `path`, at every setting of `window`.
+/// Fills `column` with the postures of point `index` of `path`, at every setting of `window`; `forces` are those
+/// of its load with the tool leaning.
 pub(super) fn fill(
-    maker: &mut Columns<'_>,
+    (maker, forces): (&mut Columns<'_>, &LeaningForces),
     path: LoadedTrack<'_>,
     index: usize,
     (search, window): (&PostureSearch, &Window),
@@ -48,7 +50,7 @@ pub(super) fn fill(
             tilt: setting[2],
         };
         let LoadedStop { stop, cases } = match search.lean {
-            Some(_) => path.track.leaning_stop(index, (lean, end), path.load),
+            Some(_) => path.track.leaning_stop(index, (lean, end), (path.load, forces)),
             None => path.track.loaded_stop(index, path.load),
         };
         let ahead = ground_spin.at(&home, &(stop.base_from_tool * Vector3::z()));

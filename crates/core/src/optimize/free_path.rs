@@ -14,6 +14,7 @@ use super::walk::WITHIN;
 use super::window::Window;
 use crate::clearance::ClearanceAlong;
 use crate::kernel::{Column, Columns, PartPlacement, Question};
+use crate::load::LeaningForces;
 use crate::path::LoadedTrack;
 use crate::watch::{Cancelled, Watch};
 
@@ -66,11 +67,13 @@ impl FreePath<'_> {
         columns.set_rail(placement.rail);
         let mut clearance = question.clearance_check().map(ClearanceAlong::new);
         let joint_count = question.arm.robot.joints().len();
+        let forces = LeaningForces::of(load);
         let mut column = Column::default();
         let mut order: Vec<usize> = Vec::new();
         let (mut unreachable, mut worst, mut sum, mut above) = (0, 0.0_f64, 0.0, 0.0);
         for index in points {
-            fill(&mut columns, path, *index, (self.search, &window), &mut column);
+            let maker = (&mut columns, &forces);
+            fill(maker, path, *index, (self.search, &window), &mut column);
             let deviations = &column.deviations;
             order.clear();
             order.extend((0..deviations.len()).filter(|slot| deviations[*slot].is_finite()));

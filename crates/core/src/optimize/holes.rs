@@ -22,6 +22,7 @@ use super::window::Window;
 use crate::kernel::{
     AT_LIMIT, Answers, BranchChoice, Column, Columns, PostureStatus, Question, SLOTS, evaluate,
 };
+use crate::load::LeaningForces;
 use crate::map::one_branch;
 use crate::path::LoadedTrack;
 use crate::robot::{Branch, BranchPattern, Robot};
@@ -82,7 +83,8 @@ pub fn hole_postures(
         if watch.is_cancelled() {
             return Err(Cancelled);
         }
-        fill(columns, path, index, (search, &window), column);
+        let forces = LeaningForces::default();
+        fill((columns, &forces), path, index, (search, &window), column);
         let best = best(question.arm.robot, search, column);
         let status = best.map_or_else(|| blocked_by(column), |_| PostureStatus::Usable);
         let home = best.map(|slot| column.joints_of(slot, question.arm.robot.joints().len()));

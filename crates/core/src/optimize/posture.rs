@@ -22,7 +22,7 @@
 //! lattice cost and price is used. Reversals are counted after the steps of the lattice have been smoothed.
 //!
 //! The branch changes only between cuts. The chain is the best of the lattice, not of all turns between its steps;
-//! forces are those of the nominal path. Both are recomputed when the path is evaluated with the result
+//! forces are those of the nominal path, of a cut with the tool leaning as in the setting. Both are recomputed when the path is evaluated with the result
 //! ([`crate::map::along_postures`]).
 
 use super::freedoms::MOST_MOVING;
@@ -71,7 +71,7 @@ pub fn postures_along(
     for _ in 0..rounds {
         let found = refined(&of_lattice, path, &search, watch)?;
         let turned = found.turned(track);
-        let along = along_postures(question, &turned, load.clone(), found.choices(), watch)?;
+        let along = along_postures(question, &turned, found.load(load), found.choices(), watch)?;
         let rooms = along
             .answers
             .evaluations()

@@ -7,6 +7,7 @@ use super::lattice::Lattice;
 use super::steps::Steps;
 use crate::frame::both_across;
 use crate::kernel::{BranchChoice, PostureStatus};
+use crate::load::PathLoad;
 use crate::path::{Lean, RoundedEnd, Track};
 use crate::robot::{Branch, BranchPattern};
 
@@ -139,6 +140,14 @@ impl PostureFound {
             spins: Some(spins.map(|(index, spin)| had(index) + spin).collect()),
             homes: self.homes.clone().or(leaning.homes),
             ..leaning
+        }
+    }
+
+    /// `load` with the tool leaning as found.
+    pub fn load(&self, load: &PathLoad) -> PathLoad {
+        match &self.leans {
+            Some((leans, _)) => load.leaning(leans),
+            None => load.clone(),
         }
     }
 

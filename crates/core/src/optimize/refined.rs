@@ -16,6 +16,7 @@ use super::smooth::without_steps;
 use super::walk::{Cost, Seen, Walk};
 use super::window::{Setting, Window};
 use crate::kernel::{Column, PostureStatus, Question, SLOTS};
+use crate::load::LeaningForces;
 use crate::map::along_postures;
 use crate::path::{Lean, LoadedTrack, Track};
 use crate::robot::Branch;
@@ -41,6 +42,7 @@ pub(super) fn refined(
 ) -> Result<PostureFound, Cancelled> {
     let all: Vec<usize> = (0..path.track.len()).collect();
     let keys = key_points(path.track);
+    let forces = LeaningForces::of(path.load);
     let mut window = Window::all(search);
     if !window.is_of_spins() && window.grid().len() * SLOTS * all.len() > MOST_STATES {
         window = coarse(search, keys.len());
@@ -51,7 +53,7 @@ pub(super) fn refined(
     };
     let mut near = Vec::new();
     while !window.is_finest() {
-        let walk = Walk::new(question, path, search, (&window, &keys));
+        let walk = Walk::new(question, (path, &forces), search, (&window, &keys));
         let (chain, seen, _) = best_chain(&walk, search, quiet)?;
         let settings = walk.settings(&chain);
         if settings.iter().all(Option::is_none) {
@@ -62,7 +64,7 @@ pub(super) fn refined(
     }
     let last = |window: &Window, watch: Watch<'_>| {
         let last = Last {
-            walk: Walk::new(question, path, search, (window, &all)),
+            walk: Walk::new(question, (path, &forces), search, (window, &all)),
             window,
             question,
             path,
@@ -138,7 +140,8 @@ impl Last<'_> {
             let other = self.reported(chain, seen);
             let total = |found: &PostureFound| -> Result<f64, Cancelled> {
                 let turned = found.turned(track);
-                let along = along_postures(self.question, &turned, load.clone(), found.choices(), watch)?;
+                let load = found.load(load);
+                let along = along_postures(self.question, &turned, load, found.choices(), watch)?;
                 let backs: usize = reversals(&track.path, &along.answers).iter().sum();
                 Ok(found.reached + price * backs as f64)
             };
@@ -222,7 +225,13 @@ impl Last<'_> {
         for index in (0..settings.len()).step_by(stride) {
             let Some(setting) = settings[index] else { continue };
             let window = Window::of_spins_at(self.search, &setting);
-            fill(&mut maker, self.path, index, (self.search, &window), &mut column);
+            fill(
+                (&mut maker, self.walk.forces),
+                self.path,
+                index,
+                (self.search, &window),
+                &mut column,
+            );
             let turn = (setting[0] - spins.first) / spins.step;
             let turns = spins.count as isize;
             let turn = (turn.round() as isize).rem_euclid(turns) as usize;

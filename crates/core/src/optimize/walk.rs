@@ -10,6 +10,7 @@ use super::posture_search::PostureSearch;
 use super::winding::WindingJoints;
 use super::window::{Setting, Window};
 use crate::kernel::{Column, Columns, PostureStatus, Question, SLOTS};
+use crate::load::LeaningForces;
 use crate::path::{LoadedTrack, Pace};
 use crate::watch::{Cancelled, Watch};
 
@@ -56,6 +57,8 @@ impl Cost {
 pub(super) struct Walk<'a> {
     question: &'a Question<'a>,
     path: LoadedTrack<'a>,
+    /// Of its load with the tool leaning.
+    pub(super) forces: &'a LeaningForces,
     search: &'a PostureSearch,
     window: &'a Window,
     /// The points of the path that have a column, in ascending order; the first of each cut is one of them.
@@ -79,7 +82,7 @@ impl<'a> Walk<'a> {
     /// Along these points of the path, with the settings of this window.
     pub fn new(
         question: &'a Question<'a>,
-        path: LoadedTrack<'a>,
+        (path, forces): (LoadedTrack<'a>, &'a LeaningForces),
         search: &'a PostureSearch,
         (window, points): (&'a Window, &'a [usize]),
     ) -> Walk<'a> {
@@ -87,6 +90,7 @@ impl<'a> Walk<'a> {
         Walk {
             question,
             path,
+            forces,
             search,
             window,
             points,
@@ -113,7 +117,7 @@ impl<'a> Walk<'a> {
         let grid = self.window.grid();
         let turns = Turns {
             grid,
-            kept_slots: maker().slots_are_branches(),
+            kept_slots: self.maker().slots_are_branches(),
             price: if worst_alone { 0.0 } else { self.search.turn_price },
             back_price,
             winds: !self.winding.is_empty(),
@@ -144,7 +148,13 @@ impl<'a> Walk<'a> {
                             return Err(Cancelled);
                         }
                         let tried = (self.search, self.window);
-                        fill(maker, self.path, self.points[first + i], tried, column);
+                        fill(
+                            (maker, self.forces),
+                            self.path,
+                            self.points[first + i],
+                            tried,
+                            column,
+                        );
                         Ok(())
                     });
             filled?;

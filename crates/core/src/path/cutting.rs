@@ -22,7 +22,7 @@ use super::sampler::PathPoint;
 use super::stock::{Stock, StockError};
 use crate::load::{
     Advance, CutHere, CutsAlong, Cutter, CuttingError, CuttingLaw, EndMillBody, Engagement, GreatestForce,
-    Immersion, Process,
+    Immersion, Milling, Process,
 };
 use crate::watch::{Cancelled, Watch};
 
@@ -68,6 +68,35 @@ pub struct ForceSummary {
     pub without_force: usize,
     /// Engagement in the stock; `None` where the engagement is constant.
     pub stock_engagement: Option<StockEngagement>,
+}
+
+impl ForceSummary {
+    /// The summary where the tool leans: with the forces of these cuts.
+    #[must_use]
+    pub fn of_leaning(self, cuts: &CutsAlong) -> ForceSummary {
+        let mut of_leaning = ForceSummary {
+            largest_mean: 0.0,
+            greatest: 0.0,
+            ..self
+        };
+        let mut largest = None;
+        for here in &cuts.points {
+            of_leaning.greatest = of_leaning.greatest.max(here.greatest.norm());
+            if here.mean.norm() > of_leaning.largest_mean {
+                (of_leaning.largest_mean, largest) = (here.mean.norm(), Some(here));
+            }
+        }
+        let milling =
+            largest.and_then(|here| Milling::new(cuts.cutters[here.cutter], cuts.law, here.cut?).ok());
+        if let Some(milling) = milling {
+            let mean = milling.mean();
+            of_leaning.relative_uncertainty = along(&mean.covariance, &mean.force) / of_leaning.largest_mean;
+            if cuts.greatest == GreatestForce::LeftOut {
+                of_leaning.greatest = milling.peak(PEAK_STEPS).norm();
+            }
+        }
+        of_leaning
+    }
 }
 
 /// Engagement of a tool in a stock.
@@ -133,6 +162,8 @@ impl From<Cancelled> for NoForces {
 /// greatest force to the mean: the peak of a slice that thin differs by as much.
 pub const ALIKE: f64 = 0.02;
 
+/// Steps of a period at which the greatest force of a leaning tool is sought.
+const PEAK_STEPS: u32 = 360;
 /// Points between two checks of the watch.
 const POINTS_A_LOOK: usize = 1024;
 

@@ -23,15 +23,7 @@ use nalgebra::{Unit, UnitQuaternion, Vector3};
 use super::placing::{Placing, across};
 use super::program::GivenSpin;
 use super::sampler::PathPoint;
-
-/// Lean of the tool from the programmed axis.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Lean {
-    /// Towards the feed, rad.
-    pub lead: f64,
-    /// To the left of the feed, rad.
-    pub tilt: f64,
-}
+pub use crate::load::Lean;
 
 /// The lower end of a tool with a rounded corner.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,6 +42,21 @@ impl RoundedEnd {
 }
 
 impl Placing {
+    /// The lean of the tool at a point that [leans](Placing::leaned); none at any other.
+    pub fn lean(&self, point: &PathPoint) -> Lean {
+        let (Some(normal), Some(axis)) = (point.normal, point.axis.filter(|_| !self.keeps_axis)) else {
+            return Lean::NONE;
+        };
+        let Some(feed) = across(&point.direction, &normal).filter(|_| axis != normal) else {
+            return Lean::NONE;
+        };
+        let (axis, normal) = (axis.into_inner(), normal.into_inner());
+        Lean {
+            lead: axis.dot(&feed).clamp(-1.0, 1.0).asin(),
+            tilt: axis.dot(&normal.cross(&feed)).atan2(axis.dot(&normal)),
+        }
+    }
+
     /// `point` with the tool leaning from its programmed axis, for a tool with this end, in a placing that does not
     /// [keep](Placing::keeps_axis) the axis. In a plunge the tool does not lean. The spin that the program gives is kept;
     /// a whole orientation is turned by the shortest rotation.
@@ -169,6 +176,16 @@ mod tests {
         let axis = |lead, tilt| lean(lead, tilt).axis.unwrap().into_inner();
         assert!((axis(0.3, 0.0) - Vector3::new(0.3f64.sin(), 0.0, 0.3f64.cos())).norm() < 1e-15);
         assert!((axis(0.0, 0.3) - Vector3::new(0.0, 0.3f64.sin(), 0.3f64.cos())).norm() < 1e-15);
+    }
+
+    #[test]
+    fn the_lean_of_a_point_is_that_by_which_it_leans() {
+        let slanted = Vector3::new(0.3, -1.0, 0.2);
+        assert_eq!(placing().lean(&point(slanted)), Lean::NONE);
+        for (lead, tilt) in [(0.3, -0.2), (-0.5, 0.0), (0.0, 1.2), (0.0, 0.0)] {
+            let found = placing().lean(&placing().leaned(&point(slanted), Lean { lead, tilt }, BULL));
+            assert!((found.lead - lead).abs() < 1e-14 && (found.tilt - tilt).abs() < 1e-14);
+        }
     }
 
     #[test]

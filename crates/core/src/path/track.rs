@@ -7,7 +7,7 @@ use super::placing::Placing;
 use super::sampled::SampledPath;
 use super::sampler::PathPoint;
 use crate::frame::Isometry;
-use crate::load::PathLoad;
+use crate::load::{LeaningForces, PathLoad};
 use crate::spatial::Wrench;
 
 /// A sampled path and its placing.
@@ -209,8 +209,24 @@ impl Track {
         track
     }
 
-    /// [`Track::loaded_stop`] of [`Track::leaning`].
-    pub fn leaning_stop(&self, index: usize, (lean, end): (Lean, RoundedEnd), load: &PathLoad) -> LoadedStop {
+    /// The load on this track: that of a cut with the tool leaning as it does here.
+    pub fn leaning_load(&self, load: PathLoad) -> PathLoad {
+        let leans = || self.path.points.iter().map(|point| self.placing.lean(point));
+        match load {
+            PathLoad::Cuts(cuts) if leans().any(|lean| lean != Lean::NONE) => {
+                PathLoad::Cuts(cuts.leaning(&leans().collect::<Vec<Lean>>()))
+            }
+            load => load,
+        }
+    }
+
+    /// [`Track::loaded_stop`] of [`Track::leaning`] under [`PathLoad::leaning`].
+    pub fn leaning_stop(
+        &self,
+        index: usize,
+        (lean, end): (Lean, RoundedEnd),
+        (load, forces): (&PathLoad, &LeaningForces),
+    ) -> LoadedStop {
         let point = self.placing.leaned(&self.path.points[index], lean, end);
         let placing = Placing {
             keeps_axis: false,
@@ -219,7 +235,14 @@ impl Track {
         let spin = self.spins.as_ref().map(|spins| spins[index]);
         let axes = placing.base_from_feed(&point);
         let mut cases = vec![Wrench::ZERO; load.case_count()];
-        load.in_base(index, &self.base_from_part, &axes, &mut cases);
+        match load {
+            PathLoad::Cuts(cuts) => {
+                for (case, force) in cases.iter_mut().zip(forces.at(cuts, index, lean)) {
+                    *case = Wrench::from_force(axes * force);
+                }
+            }
+            given => given.in_base(index, &self.base_from_part, &axes, &mut cases),
+        }
         LoadedStop {
             stop: stop_at(&placing, &point, spin),
             cases,

@@ -115,6 +115,7 @@ fn of_path(
     let (load, _) = runner.pushed(analysis)?;
     let applied = found.searched.as_ref().filter(|searched| searched.applied);
     let turned = applied.map(|searched| searched.posture.turned(&analysis.track));
+    let load = applied.map_or_else(|| load.clone(), |searched| searched.posture.load(&load));
     let followed = FollowedTrack {
         path: LoadedTrack {
             track: turned.as_ref().unwrap_or(&analysis.track),

@@ -111,20 +111,18 @@ fn of_path<'a>(
         _ => path,
     };
     let (load, _) = runner.pushed(analysis)?;
-    let followed = runner.follow(analysis, load.clone())?;
+    let followed = runner.follow(analysis, load)?;
+    let load = &followed.load;
     let drawn = followed.turned.as_ref().unwrap_or(&analysis.track);
     let question = runner.question(&analysis.setting);
     let found = compensated(
         &question,
-        LoadedTrack {
-            track: drawn,
-            load: &load,
-        },
+        LoadedTrack { track: drawn, load },
         &followed.along.choices,
         compensation,
         runner.watch,
     )?;
-    let rewritten = in_place(runner, analysis, &followed, &load, &found.track)?;
+    let rewritten = in_place(runner, analysis, &followed, load, &found.track)?;
     let (in_place, mut notes) = match rewritten {
         None => (None, Vec::new()),
         Some(Ok(written)) => (Some(written), Vec::new()),

@@ -3,6 +3,9 @@
 use super::*;
 use std::fmt::Write;
 
+use armill_core::load::{Advance, Engagement, Lean, Milling, Process};
+use armill_study::analysis::AnalysisData;
+
 /// An MH12 on a rail along y, described by the Denavit-Hartenberg file of the library with a joint in front.
 pub(super) fn on_rail() -> tempfile::TempDir {
     let repository = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
@@ -83,6 +86,53 @@ fn lean_within_its_range_is_chosen_where_it_is_a_gain() {
     assert!(search.with.max_in_plane_um.unwrap() < search.without.max_in_plane_um.unwrap());
     let upright = answered(&study(&circle(""))).paths.remove(0).search.unwrap();
     assert_eq!((upright.lead_range_deg, upright.tilt_range_deg), (None, None));
+}
+
+#[test]
+fn a_cut_with_lean_has_the_forces_of_the_leaning_tool() {
+    let plate = PLATE.lines().filter(|line| !line.starts_with("load"));
+    let text = plate.collect::<Vec<_>>().join("\n")
+        + r#"
+posture = { branch = "best", search = { step_deg = 30, lean = { lead_deg = [15, 15] } } }
+[cut]
+material = "aluminium-6082-t6"
+cutter = { diameter_mm = 12, corner_radius_mm = 6, flutes = 2 }
+axial_depth_mm = 1
+side = "slot"
+feed_mm_per_min = 1200
+spindle_rpm = 6000
+[[analysis]]
+kind = "path"
+name = "ring"
+circle = { radius_mm = 60 }
+"#;
+    let study = study(&text);
+    let results = found(&study);
+    let AnalysisData::Path(analysis, path) = &results[0].found else {
+        panic!("no path")
+    };
+    assert!(path.searched.as_ref().unwrap().applied);
+    let cutting = &analysis.cut.as_ref().unwrap().cutting;
+    let upright = Process {
+        cutter: cutting.cutter,
+        law: cutting.law,
+        depth: cutting.depth,
+        engagement: Engagement::at_depth(cutting.immersion, &cutting.cutter, cutting.depth).unwrap(),
+        feed: cutting.feed.unwrap(),
+        spindle: cutting.spindle.unwrap(),
+    };
+    let upright = upright.milling(Advance::Level).unwrap();
+    let lean = Lean {
+        lead: 15_f64.to_radians(),
+        tilt: 0.0,
+    };
+    let leaning = upright.cut().leaning(lean, cutting.cutter.body());
+    let leaning = Milling::new(cutting.cutter, cutting.law, leaning).unwrap();
+    let [upright, expected] = [upright, leaning].map(|of| of.mean_force().norm());
+    let largest = path.forces.as_ref().unwrap().largest_mean;
+    // Leads of a chain are smoothed: roundings of 15 deg.
+    assert!((largest / expected - 1.0).abs() < 1e-9, "{largest} {expected}");
+    assert!((expected / upright - 1.0).abs() > 0.05, "{expected} {upright}");
 }
 
 /// The problems of a study in this folder.

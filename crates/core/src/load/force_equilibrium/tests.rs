@@ -1,5 +1,8 @@
 use super::*;
-use crate::load::{Engagement, Hand, Immersion, Mechanistic};
+use crate::load::{Engagement, Hand, Immersion, LeanInCut, Mechanistic};
+
+/// To the left and along the normal, where the tool is upright.
+const UPRIGHT: [Vector3<f64>; 2] = [Vector3::new(0.0, 1.0, 0.0), Vector3::new(0.0, 0.0, 1.0)];
 
 fn law() -> CuttingLaw {
     let shear = Vector3::new(796e6, 168e6, 222e6);
@@ -13,6 +16,7 @@ fn cut(cutter: &Cutter, immersion: Immersion) -> Cut {
         engagement: Engagement::of(immersion, cutter.diameter()).unwrap(),
         feed: 0.1e-3,
         rise: 0.0,
+        lean: LeanInCut::default(),
     }
 }
 
@@ -43,7 +47,7 @@ fn relaxed(cutter: Cutter, cut: &Cut, tip: &TipCompliance) -> Vector2<f64> {
         let force = cut
             .deflected(s, cutter.radius())
             .map_or_else(Vector3::zeros, |cut| nominal_force(cutter, cut));
-        s += (offset_under(tip, force) - s) * 0.02;
+        s += (offset_under(tip, force, &UPRIGHT) - s) * 0.02;
     }
     s
 }
@@ -62,11 +66,11 @@ fn at_equilibrium_deviation_and_force_are_consistent() {
             for um_n in [0.01, 0.3, 1.0, 3.0] {
                 let tip = tip(um_n);
                 let mut equilibrium = ForceEquilibrium::new(cutter, law());
-                let s = offset_under(&tip, settled(equilibrium.rest(&cut, force, &tip)));
+                let s = offset_under(&tip, settled(equilibrium.rest(&cut, force, &tip)), &UPRIGHT);
                 let met = cut
                     .deflected(s, cutter.radius())
                     .map(|cut| nominal_force(cutter, cut));
-                let again = offset_under(&tip, met.unwrap());
+                let again = offset_under(&tip, met.unwrap(), &UPRIGHT);
                 let size = (tip.by_force * force).norm();
                 assert!(
                     (again - s).norm() < 1e-4 * size,
@@ -85,7 +89,7 @@ fn relaxation_finds_the_same_equilibrium() {
         let tip = tip(1.0);
         let rest = ForceEquilibrium::new(cutter, law()).rest(&cut, nominal_force(cutter, cut), &tip);
         let relaxed = relaxed(cutter, &cut, &tip);
-        let found = offset_under(&tip, settled(rest));
+        let found = offset_under(&tip, settled(rest), &UPRIGHT);
         assert!(
             (found - relaxed).norm() < 1e-4 * relaxed.norm(),
             "{found} {relaxed}"

@@ -1,6 +1,7 @@
 use super::*;
 use crate::load::{
-    Cut, Cutter, Engagement, Estimate, Hand, Immersion, Kienzle, KienzleValues, Mechanistic, Runout,
+    Cut, Cutter, Engagement, Estimate, Hand, Immersion, Kienzle, KienzleValues, LeanInCut, Mechanistic,
+    Runout,
 };
 use std::f64::consts::PI;
 
@@ -35,6 +36,7 @@ fn cut(immersion: Immersion) -> Cut {
         // 40 mm/s, 3333 rpm, 4 teeth.
         feed: 40.0 * MM * 60.0 / (3333.0 * 4.0),
         rise: 0.0,
+        lean: LeanInCut::default(),
     }
 }
 

@@ -1,6 +1,6 @@
 use super::*;
 use crate::load::kienzle::Estimate;
-use crate::load::{Hand, Immersion, Kienzle, KienzleValues, Runout};
+use crate::load::{Engagement, Hand, Immersion, Kienzle, KienzleValues, LeanInCut, Runout};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 const MM: f64 = 1e-3;
@@ -22,6 +22,7 @@ fn cut(immersion: Immersion, depth: f64) -> Cut {
         engagement: Engagement::of(immersion, 16.0 * MM).unwrap(),
         feed: 0.18 * MM,
         rise: 0.0,
+        lean: LeanInCut::default(),
     }
 }
 
@@ -280,6 +281,7 @@ fn refuses_invalid_cuts() {
         },
         Cut {
             rise: f64::INFINITY,
+            lean: LeanInCut::default(),
             ..good
         },
     ] {

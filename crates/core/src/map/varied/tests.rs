@@ -1,5 +1,5 @@
 use super::*;
-use crate::load::{Cutter, CuttingLaw, Engagement, Immersion, Mechanistic, Milling};
+use crate::load::{Cutter, CuttingLaw, Engagement, Immersion, LeanInCut, Mechanistic, Milling};
 use nalgebra::{Matrix3, Vector3};
 
 const MM: f64 = 1e-3;
@@ -17,6 +17,7 @@ fn cut(immersion: Immersion) -> Cut {
         engagement: Engagement::of(immersion, DIAMETER).unwrap(),
         feed: 0.08 * MM,
         rise: 0.0,
+        lean: LeanInCut::default(),
     }
 }
 

@@ -107,6 +107,8 @@ fn nothing_cut(analysis: &PathAnalysis, stock: &Stock) -> StudyError {
 pub struct Followed {
     /// The path with the spins that a search found; `None` without a search.
     pub turned: Option<Track>,
+    /// The nominal load along it: of a cut with the lean that a search found.
+    pub load: PathLoad,
     /// The answers along it.
     pub along: AlongPath,
     /// The result of the search.
@@ -119,6 +121,8 @@ pub struct FoundSpins {
     pub posture: PostureFound,
     /// The path with the spins found.
     pub turned: Track,
+    /// The nominal load along it: of a cut with the lean found.
+    pub load: PathLoad,
     /// The answers along it.
     pub along: AlongPath,
 }
@@ -130,9 +134,18 @@ impl Runner<'_> {
         let question = self.question(&analysis.setting);
         let Followed {
             turned,
+            load,
             mut along,
             searched,
         } = self.follow(analysis, load)?;
+        let forces = match (&load, &searched) {
+            (PathLoad::Cuts(cuts), Some(searched))
+                if searched.applied && searched.posture.leans.is_some() =>
+            {
+                forces.map(|forces| forces.of_leaning(cuts))
+            }
+            _ => forces,
+        };
         along.answers.measure_clearances(&question);
         let track = turned.as_ref().unwrap_or(&analysis.track);
         let limits = match analysis.reports_limits() {
@@ -169,6 +182,7 @@ impl Runner<'_> {
         let Some(search) = &analysis.setting.search else {
             return Ok(Followed {
                 turned: None,
+                load,
                 along: nominal,
                 searched: None,
             });
@@ -176,11 +190,12 @@ impl Runner<'_> {
         let FoundSpins {
             posture,
             turned,
+            load: leaning,
             along: found,
         } = self.search(analysis, &load, search)?;
-        let ways = [(track, &nominal), (&turned, &found)];
-        let followed = ways.map(|(track, along)| FollowedTrack {
-            path: LoadedTrack { track, load: &load },
+        let ways = [(track, &load, &nominal), (&turned, &leaning, &found)];
+        let followed = ways.map(|(track, load, along)| FollowedTrack {
+            path: LoadedTrack { track, load },
             choices: &along.choices,
             home: None,
         });
@@ -200,6 +215,7 @@ impl Runner<'_> {
         };
         Ok(Followed {
             turned: applied.then_some(turned),
+            load: if applied { leaning } else { load },
             along,
             searched: Some(SearchResult {
                 posture,
@@ -222,10 +238,12 @@ impl Runner<'_> {
         let track = &analysis.track;
         let posture = postures_along(&question, LoadedTrack { track, load }, search, self.watch)?;
         let turned = posture.turned(track);
+        let load = posture.load(load);
         let along = along_postures(&question, &turned, load.clone(), posture.choices(), self.watch)?;
         Ok(FoundSpins {
             posture,
             turned,
+            load,
             along,
         })
     }
