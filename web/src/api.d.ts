@@ -4975,6 +4975,8 @@ export interface components {
                 number,
                 number
             ][];
+            /** @description The ground on which robot and obstacles stand: the base, unless a positioner moves the table. */
+            ground: components["schemas"]["BodyPose"];
             /** @description The meshes of its links, if the robot file names them and all exist. */
             meshes: components["schemas"]["DrawnMesh"][];
             /** @description The bodies of the cell; `null` without any. */

@@ -29,7 +29,7 @@ pub enum Item {
     Point {
         /// Relative to its frame.
         pose: Pose,
-        frame: Reference,
+        frame: Box<Reference>,
         /// Shoulder, elbow, wrist.
         posture: [String; 3],
     },
@@ -133,7 +133,10 @@ impl Data {
                 let word = |key: &str| values.get(key).cloned().unwrap_or_else(|| "ssame".to_owned());
                 Ok(Item::Point {
                     pose: pose()?,
-                    frame: Reference::new(father(), Some(self.ancestor(father(), "world", 0)?)),
+                    frame: Box::new(Reference::new(
+                        father(),
+                        Some(self.ancestor(father(), "world", 0)?),
+                    )),
                     posture: [word("shoulder"), word("elbow"), word("wrist")],
                 })
             }

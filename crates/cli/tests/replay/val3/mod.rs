@@ -221,7 +221,7 @@ impl Val3 {
                 let how = self.how(cursor)?;
                 let action = match (name, target) {
                     ("movej", target) => Action::Joint(joint(target, how)),
-                    (_, Item::Point { pose, frame, .. }) => Action::Linear(linear(pose, frame, how)),
+                    (_, Item::Point { pose, frame, .. }) => Action::Linear(linear(pose, *frame, how)),
                     _ => return Err(cursor.error("movel needs a point")),
                 };
                 self.log.push_asynchronous(&place, action);
@@ -236,7 +236,7 @@ impl Val3 {
                 };
                 cursor.expect(",")?;
                 let how = self.how(cursor)?;
-                let end = linear(pose, frame, how);
+                let end = linear(pose, *frame, how);
                 self.log.push_asynchronous(&place, Action::Circular { via, end });
             }
             // The blending of the last move is cancelled.
@@ -340,7 +340,7 @@ fn joint(target: Item, how: How) -> JointMove {
         Item::Joint(axes) => (JointTarget::Axes(axes), Reference::default()),
         Item::Point { pose, frame, posture } => {
             let posture = Posture::Named(posture);
-            (JointTarget::Pose { pose, posture }, frame)
+            (JointTarget::Pose { pose, posture }, *frame)
         }
         Item::Tool { .. } | Item::Motion { .. } => (JointTarget::Current, Reference::default()),
     };

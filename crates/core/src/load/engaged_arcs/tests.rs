@@ -316,7 +316,7 @@ fn the_force_over_a_revolution_has_the_mean_force_for_mean() {
         // Slices of the corner enter one after the other.
         assert!((mean - milling.mean_force()).norm() < 2e-3 * mean.norm());
         let peak = milling.peak(720 / cutter.flutes()).norm();
-        let largest = forces.iter().map(|force| force.norm()).fold(0.0, f64::max);
+        let largest = forces.iter().map(Vector3::norm).fold(0.0, f64::max);
         assert!((peak / largest - 1.0).abs() < 1e-9, "{peak} {largest}");
     }
 }
