@@ -195,7 +195,8 @@ test("the ground stands still in the picture while a turntable turns the part", 
   writeFileSync(join(own.folder, "table.toml"), TABLE);
   const page = await open(browser, own.url, { answers: false });
   const table = () => page.locator(".bars.joints").innerText();
-  const ticks = () => page.locator(".label.tick").evaluateAll((all) => all.map((label) => [label.textContent, ...label.style.transform.match(/-?[\d.]+/g).map(Number)]));
+  const ticks = () =>
+    page.locator(".label.tick").evaluateAll((all) => all.map((label) => (label.style.visibility === "hidden" ? null : [label.textContent, ...(label.style.transform.match(/-?[\d.]+/g) ?? []).map(Number)])));
   try {
     await settled(page);
     await page.locator(".charts").focus();
@@ -206,11 +207,13 @@ test("the ground stands still in the picture while a turntable turns the part", 
     await settled(page);
     assert.notEqual(await table(), turned_first);
     const last = await ticks();
-    assert.ok(first.length > 6);
-    first.forEach((tick, i) => {
-      assert.equal(last[i][0], tick[0]);
-      for (const k of [1, 2]) assert.ok(Math.abs(last[i][k] - tick[k]) < 1, `${tick} ${last[i]}`);
-    });
+    // Other labels may cover one.
+    const both = first.map((tick, i) => [tick, last[i]]).filter(([tick, there]) => tick && there);
+    assert.ok(both.length > 4, `${both.length} of ${first.length}`);
+    for (const [[text, x, y], there] of both) {
+      assert.equal(there[0], text);
+      assert.ok(Math.abs(there[1] - x) < 1 && Math.abs(there[2] - y) < 1, `${text} at ${x}, ${y}: ${there}`);
+    }
     assert.deepEqual(page.complaints, []);
   } finally {
     await page.context().close();
