@@ -14,7 +14,7 @@
 //! cov F = M S M^T            S: covariance of the coefficients (Kienzle: M by differentiation)
 //! ```
 //!
-//! Of a leaning tool every part of its edge is integrated in pieces between the kinks of its arcs ([`super::edge_part`]).
+//! Of a leaning tool every part of its edge is integrated in pieces between the kinks of its arcs (`edge_part`).
 //!
 //! What a revolution cuts does not depend on runout: teeth share the same `N c` otherwise. So the shear part of the
 //! mean never changes; the edge part does where a tooth cuts nothing, since it no longer rubs.

@@ -35,7 +35,7 @@
 //! from 1 to `N`.
 //!
 //! The tool may lean from the programmed axis: the feed frame is then that of the leaning tool, and a point of an edge may cut over
-//! several arcs ([`super::engaged_arcs`]).
+//! several arcs (`engaged_arcs`).
 //!
 //! Where the engagement of a ramp differs from that of the level cut and the edges on the bottom are neglected.
 //!
