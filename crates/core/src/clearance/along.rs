@@ -106,4 +106,4 @@ fn way(from: &[f64], to: &[f64], reach: &[f64]) -> f64 {
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

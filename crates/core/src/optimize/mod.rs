@@ -12,7 +12,7 @@
 //! Of the search along a path, in reading order: `steps`, `freedoms` and `posture_search`: what may be chosen, and what was; `window`: the settings that are
 //! tried at a point; `grid`: which are neighbours; `ground_spin`: spins where a positioner turns the part; `column_at`: their postures; `links`: transitions between neighbouring
 //! points; `heading`: directions of the joints; `winding`: their whole turns; `chain`: the chain of postures with the
-//! lowest cost; `walk`: one pass along the path; `refined`: one after the other; `smooth`: settings without steps;
+//! lowest cost; `walk`: one pass along the path; `refined`: one after the other; `smooth`: settings without steps; `lost`: what that loses;
 //! `lattice`: data for pictures. `rank_by`: uncertainty of the cost of a placement.
 
 mod chain;
@@ -27,6 +27,7 @@ mod heading;
 pub mod holes;
 mod lattice;
 mod links;
+mod lost;
 pub mod nodes;
 pub mod placement;
 pub mod posture;

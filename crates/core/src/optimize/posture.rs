@@ -26,12 +26,12 @@
 //! ([`crate::map::along_postures`]).
 
 use super::freedoms::MOST_MOVING;
+use super::lost::Lost;
 use super::posture_search::{PostureFound, PostureSearch};
 use super::refined::refined;
-use crate::kernel::{AT_LIMIT, Answers, Question};
-use crate::map::{ObstacleKind, along_postures, obstacles};
-use crate::path::{LoadedTrack, SampledPath};
-use crate::robot::Robot;
+use crate::kernel::{AT_LIMIT, Question};
+use crate::map::{along_postures, obstacles};
+use crate::path::LoadedTrack;
 use crate::watch::{Cancelled, Watch};
 
 /// Least increase of a clearance that was not kept after smoothing, m.
@@ -87,20 +87,20 @@ pub fn postures_along(
             .map(|(_, room)| room)
             .fold(f64::INFINITY, f64::min);
         let missing = along.answers.missing_clearance(usable);
-        let lost = match search.is_of_spins() {
-            true => 0,
-            false => lost_by_smoothing(question.arm.robot, &track.path, &along.answers, &found),
-        };
+        let obstacles = obstacles(question.arm.robot, &track.path, &along.answers, margin - AT_LIMIT);
+        let lost = Lost::of(obstacles.filter(|at| usable(at.index) && !found.breaks.contains(&at.index)));
         let keeps = least >= margin - AT_LIMIT && missing.is_none();
-        let stops = !found.breaks.is_empty() && !search.is_of_spins();
-        if keeps && lost == 0 && !stops {
+        let is_refined = !search.is_of_spins();
+        let is_lost = is_refined && lost.by_smoothing > 0;
+        let stops = is_refined && !found.breaks.is_empty();
+        if keeps && !is_lost && !stops {
             return Ok(found);
         }
-        let all_lost = lost + found.breaks.len() + found.unreachable.len();
+        let all_lost = lost.all + found.breaks.len() + found.unreachable.len();
         if best.as_ref().is_none_or(|(least, _)| all_lost <= *least) {
             best = Some((all_lost, found));
         }
-        if lost > 0 {
+        if is_lost {
             search = search.finer();
         }
         // A chain of large steps with sudden motions is not followed by one of small steps.
@@ -114,25 +114,6 @@ pub fn postures_along(
         }
     }
     Ok(best.expect("at least one round").1)
-}
-
-/// Points that the chain of the lattice reaches, but the smoothed one does not, and joints that jump there or are too slow.
-fn lost_by_smoothing(robot: &Robot, path: &SampledPath, answers: &Answers, found: &PostureFound) -> usize {
-    let is_known = |index: &usize| {
-        let unreachable = &found.unreachable;
-        found.breaks.contains(index) || unreachable.binary_search_by_key(index, |(lost, _)| *lost).is_ok()
-    };
-    let all = obstacles(robot, path, answers, 0.0);
-    let by_smoothing = all.filter(|obstacle| {
-        let kind = &obstacle.kind;
-        // Limits and clearance have their own margins.
-        let has_margin = matches!(
-            kind,
-            ObstacleKind::OutsideLimits { .. } | ObstacleKind::InCollision { .. }
-        );
-        !has_margin && !is_known(&obstacle.index)
-    });
-    by_smoothing.count()
 }
 
 #[cfg(test)]

@@ -316,4 +316,4 @@ fn covariance_behind(known: &DMatrix<f64>, positioner: &Positioner<'_>) -> DMatr
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

@@ -490,5 +490,5 @@ impl<'a> PlacementSearch<'a> {
 /// What is free along a path, if the tool leans or external axes move.
 fn free_search(analysis: &PathAnalysis, is_of_holes: bool) -> Option<&PostureSearch> {
     let search = analysis.setting.search.as_ref().filter(|_| !is_of_holes)?;
-    (search.lean.is_some() || !search.axes.is_empty()).then_some(search)
+    (!search.is_of_spins()).then_some(search)
 }

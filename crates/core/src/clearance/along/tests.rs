@@ -145,7 +145,7 @@ fn above_a_floor_and_on_a_rail_they_are_too() {
 }
 
 /// The box around a shape, as twelve long triangles.
-fn tessellated(shape: &Shape) -> Shape {
+pub(in crate::clearance) fn tessellated(shape: &Shape) -> Shape {
     let corners = shape.bounds().corners();
     // Corner `k` has the greatest x, y, z where bit 0, 1, 2 of `k` is set.
     let faces = [

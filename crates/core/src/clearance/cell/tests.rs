@@ -1,11 +1,9 @@
-use std::sync::Arc;
-
 use nalgebra::Point3;
 
 use super::*;
 use crate::arms::{self, Stream};
+use crate::clearance::along::tests::tessellated;
 use crate::clearance::demanded::{ClearanceCheck, DemandedClearance};
-use crate::clearance::mesh::Mesh;
 use crate::clearance::nearest::Segment;
 use crate::clearance::state::CellState;
 use crate::robot::Robot;
@@ -269,21 +267,6 @@ fn links_next_to_each_other_are_not_checked() {
 fn a_box_and_its_mesh_give_the_same_clearance() {
     let robot = arms::mh12();
     let bounds = Bounds::of([Point3::new(0.5, 0.2, 0.0), Point3::new(0.9, 0.5, 1.4)]);
-    let corners = bounds.corners();
-    // Two triangles of each face, by the bits of the corners.
-    let faces = [
-        [0, 1, 3, 2],
-        [4, 6, 7, 5],
-        [0, 4, 5, 1],
-        [2, 3, 7, 6],
-        [0, 2, 6, 4],
-        [1, 5, 7, 3],
-    ];
-    let triangles = faces.iter().flat_map(|face| {
-        let [a, b, c, d] = face.map(|index| corners[index]);
-        [[a, b, c], [a, c, d]]
-    });
-    let mesh = Mesh::new(triangles.collect(), true).unwrap();
     let of = |shape: Shape| {
         let post = FixedBody {
             name: "post".to_owned(),
@@ -293,7 +276,8 @@ fn a_box_and_its_mesh_give_the_same_clearance() {
         };
         Cell::new(&robot, &flange_from_tool(), bodies(), &[], &[post])
     };
-    let cells = [of(Shape::Box(bounds)), of(Shape::Mesh(Arc::new(mesh)))];
+    let shape = Shape::Box(bounds);
+    let cells = [of(shape.clone()), of(tessellated(&shape))];
     let mut states = cells
         .each_ref()
         .map(|cell| CellState::new(PlacedCell::at_base(cell), &robot, &flange_from_tool()));

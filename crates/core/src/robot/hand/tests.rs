@@ -7,8 +7,9 @@ use crate::kernel::postures_at;
 use crate::robot::forward::forward;
 use crate::robot::inverse::{ToolAt, postures, tool_on};
 use crate::robot::jacobian::wrist_bend;
+use crate::robot::positioner::tests::{model, state};
 use crate::robot::{Attachment, Backlash, BacklashSide, JointCompliance};
-use crate::source::{Arm, ArmState, Gravity, StiffnessModel, ThermalGrowth};
+use crate::source::{ArmState, StiffnessModel};
 use crate::spatial::Wrench;
 use crate::watch::Watch;
 
@@ -65,27 +66,6 @@ fn arm() -> Robot {
         model_error: 0.05,
     };
     arms::r2000ic().with_structure(structure).unwrap()
-}
-
-fn model(robot: &Robot, reference: &[f64]) -> StiffnessModel {
-    StiffnessModel {
-        structure: robot.structure().clone(),
-        gravity: Some(Gravity {
-            acceleration: Vector3::new(0.5, -0.3, -9.7),
-            reference: reference.to_vec(),
-        }),
-        thermal: Some(ThermalGrowth::new(12e-6, 8.0, 1.0)),
-        ..StiffnessModel::DRIVES.clone()
-    }
-}
-
-fn state<'a>(robot: &'a Robot, model: &'a StiffnessModel, tool: &'a Isometry) -> ArmState<'a> {
-    ArmState::new(Arm {
-        robot,
-        compliance: robot.compliance().unwrap(),
-        model,
-        flange_from_tool: tool,
-    })
 }
 
 fn flange(robot: &Robot, q: &[f64]) -> Isometry {

@@ -198,7 +198,7 @@ fn postures_are_those_of_the_arm_at_the_pose_on_the_turned_table() {
 }
 
 /// A model with the structure of this robot, gravity and thermal growth.
-fn model(robot: &Robot, reference: &[f64]) -> StiffnessModel {
+pub(in crate::robot) fn model(robot: &Robot, reference: &[f64]) -> StiffnessModel {
     StiffnessModel {
         structure: robot.structure().clone(),
         gravity: Some(Gravity {
@@ -210,7 +210,11 @@ fn model(robot: &Robot, reference: &[f64]) -> StiffnessModel {
     }
 }
 
-fn state<'a>(robot: &'a Robot, model: &'a StiffnessModel, tool: &'a Isometry) -> ArmState<'a> {
+pub(in crate::robot) fn state<'a>(
+    robot: &'a Robot,
+    model: &'a StiffnessModel,
+    tool: &'a Isometry,
+) -> ArmState<'a> {
     ArmState::new(Arm {
         robot,
         compliance: robot.compliance().unwrap(),
