@@ -7,7 +7,7 @@
 //! robot), [`marching_squares`] (level lines and areas on a grid), [`robot`] (chain, postures), [`compliance`],
 //! [`load`], [`source`] (sources of the deviation), [`workpiece`] and [`path`] (points), [`kernel`] (many
 //! points at once), [`map`] (planes, sections, volumes, the region within a tolerance),
-//! [`optimize`] (the posture along a path), [`identify`] (joint compliances from load tests), [`calibrate`] (geometry
+//! [`optimize`] (the posture along a path), [`motion`] (speed, time, rounded corners), [`identify`] (joint compliances from load tests), [`calibrate`] (geometry
 //! from measured poses), [`measure`] (circular tests and repeated poses), [`budget`] (the error budget of
 //! a milled circle).
 //!
@@ -24,6 +24,7 @@ pub mod load;
 pub mod map;
 pub mod marching_squares;
 pub mod measure;
+pub mod motion;
 pub(crate) mod numbers;
 pub mod optimize;
 pub mod path;

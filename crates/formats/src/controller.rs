@@ -1,5 +1,6 @@
 //! `controller`: how a cell writes its robot programs, in a robot file or a study.
 
+use armill_core::units::from_mm;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -84,7 +85,15 @@ const OF_TOOL: [&str; 4] = ["tool", "diameter_mm", "operation", "rpm"];
 /// Placeholders of the statements that start the spindle.
 const OF_SPINDLE: [&str; 1] = ["rpm"];
 
+/// Speed of linear moves that do not cut, mm/s.
+const RAPID_MM_S: f64 = 100.0;
+
 impl ControllerTable {
+    /// Speed of linear moves that do not cut, m/s.
+    pub fn rapid(&self) -> f64 {
+        from_mm(self.rapid_mm_per_s.unwrap_or(RAPID_MM_S))
+    }
+
     /// These values, with those of `other` where this table has none.
     pub fn or(&self, other: &ControllerTable) -> ControllerTable {
         let statements =

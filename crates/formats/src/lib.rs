@@ -4,6 +4,7 @@
 //!   each with its place, its limit and a hint.
 //! - [`robot`]: robot descriptions in, of six formats; readings of pendants.
 //! - [`controller`]: how a cell writes its robot programs.
+//! - [`motion`]: how a controller moves an arm.
 //! - [`convention`]: poses as six makers write them.
 //! - [`material`]: what materials take to cut: our material file.
 //! - [`sources`]: where the numbers of these files come from.
@@ -30,6 +31,7 @@ pub mod language;
 pub mod material;
 pub mod measurement;
 pub mod mesh;
+pub mod motion;
 pub mod robot;
 pub mod sources;
 pub mod table;

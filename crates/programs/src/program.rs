@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use armill_core::frame::Isometry;
+use armill_core::path::Passage;
 use armill_core::robot::BranchPattern;
 use armill_formats::language::Language;
 
@@ -36,6 +37,8 @@ pub struct RobotMove {
     pub tool: Frame,
     /// Speed.
     pub speed: Speed,
+    /// How its end is passed.
+    pub passage: Passage,
     /// Line number, from 1, in the main file or in the called file that contains it.
     pub line: u32,
 }
@@ -102,6 +105,7 @@ impl FramedTarget {
             target: self.target,
             frame: self.frame,
             tool: self.tool,
+            passage: Passage::Unknown,
             line,
         }
     }

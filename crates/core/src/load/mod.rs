@@ -1,7 +1,7 @@
 //! Loads on the tool.
 //!
 //! [`cases`]: a set of given wrenches, the same at every point. [`along`]: wrenches that turn with the feed, or change
-//! from point to point; `leaning_forces`: cuts whose tool leans. `input_uncertainty`: their uncertainty.
+//! from point to point; `leaning_forces`: cuts whose tool leans; `actual_feed`: cuts at another feed. `input_uncertainty`: their uncertainty.
 //!
 //! Cutting forces: [`end_mill_body`] and [`cutter`] (the edge on it), [`engagement`] and [`arc`] (where it cuts and the
 //! chip thickness), [`lean`], [`cut`], `engaged_arcs` and `edge_part` (the same of a leaning tool), [`mechanistic`] and [`kienzle`] (force of a chip; [`law`] is either, [`sets`] several of one
@@ -14,6 +14,7 @@
 //!
 //! `quadrature`: integrals along an edge; `error`: errors of cutting force inputs.
 
+mod actual_feed;
 pub mod along;
 pub mod arc;
 pub mod cases;

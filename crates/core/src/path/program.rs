@@ -117,4 +117,12 @@ impl Pace {
     pub fn cuts(self) -> bool {
         self != Pace::Rapid
     }
+
+    /// Its speed, m/s, if it is given and not zero.
+    pub fn feed(self) -> Option<f64> {
+        match self {
+            Pace::Feed(speed) if speed > 0.0 => Some(speed),
+            _ => None,
+        }
+    }
 }

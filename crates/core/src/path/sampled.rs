@@ -7,6 +7,7 @@ use std::ops::Range;
 
 use nalgebra::Point3;
 
+use super::passage::{MoveEnd, Passage};
 use super::program::{Command, Move, Operation, Pace, Step};
 use super::sampler::{PathPoint, Sampler, Sampling};
 
@@ -19,6 +20,8 @@ pub struct SampledPath {
     pub operations: Vec<(usize, Operation)>,
     /// Its commands.
     pub commands: Vec<PlacedCommand>,
+    /// The ends of its cutting moves, in order.
+    pub ends: Vec<MoveEnd>,
     /// The rapids that lead to each stretch of cuts.
     pub rapids: Vec<Rapids>,
     /// The rapids after the last cut.
@@ -166,6 +169,10 @@ impl PathBuilder {
             self.since.length += self.position.map_or(0.0, |from| (next.end - from).norm());
             self.since.moves.push(next);
         } else if first < path.points.len() {
+            path.ends.push(MoveEnd {
+                point: path.points.len() - 1,
+                passage: Passage::Unknown,
+            });
             let since = std::mem::take(&mut self.since);
             if path.begins(first) {
                 path.rapids.push(since);

@@ -7,6 +7,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Point2, Point3, Unit, Vector2, Vector3};
 
+use super::passage::{MoveEnd, Passage};
 use super::program::Pace;
 use super::sampled::{Rapids, SampledPath};
 use super::sampler::PathPoint;
@@ -47,6 +48,11 @@ impl Shape {
         }
     }
 
+    /// Whether it ends where it begins without repeating its first point: a circle.
+    pub fn is_closed(&self) -> bool {
+        matches!(self, Shape::Circle { .. })
+    }
+
     /// Points no farther apart than `step` (m) along the shape, evenly spaced on each piece, corners included; path
     /// axes are those of the part, each piece has its own line, and no feed is given. A circle is not closed by a
     /// second copy of its first point.
@@ -56,12 +62,24 @@ impl Shape {
             Shape::Polyline(corners) => straight(corners, step),
         };
         SampledPath {
+            ends: corners(&points),
             moves: points.last().map_or(0, |point| point.line as usize),
             rapids: vec![Rapids::default(); usize::from(!points.is_empty())],
             points,
             ..SampledPath::default()
         }
     }
+}
+
+/// The ends of the pieces: where the next one begins, and the last point.
+fn corners(points: &[PathPoint]) -> Vec<MoveEnd> {
+    let begins = (1..points.len()).filter(|index| points[*index].line != points[*index - 1].line);
+    let ends = begins.chain(points.len().checked_sub(1));
+    ends.map(|point| MoveEnd {
+        point,
+        passage: Passage::Unknown,
+    })
+    .collect()
 }
 
 fn round(centre: &Point2<f64>, radius: f64, step: f64) -> Vec<PathPoint> {

@@ -144,6 +144,7 @@ impl Track {
             path: SampledPath {
                 points,
                 operations: Vec::new(),
+                ends: Vec::new(),
                 ..self.path.clone()
             },
             spins: spins.map(|spins| spins.iter().copied().step_by(stride).collect()),

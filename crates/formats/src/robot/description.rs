@@ -7,6 +7,7 @@ use armill_core::clearance::ArmBody;
 use armill_core::robot::Robot;
 
 use crate::controller::ControllerTable;
+use crate::motion::MotionTable;
 use crate::sources::Source;
 
 /// A robot and the origin of its numbers.
@@ -24,6 +25,8 @@ pub struct RobotDescription {
     pub payload_kg: Option<f64>,
     /// How robot programs are written for its cell.
     pub controller: Option<ControllerTable>,
+    /// How its controller moves it.
+    pub motion: Option<MotionTable>,
     /// Symbol of each elementary motion in its source, by index in the chain; empty where it has none.
     pub symbols: Vec<Symbol>,
     /// What else is known of each joint, in the order of the robot's.
@@ -89,6 +92,7 @@ impl RobotDescription {
             remarks: Vec::new(),
             payload_kg: None,
             controller: None,
+            motion: None,
             symbols: vec![None; robot.chain().motions().len()],
             joint_notes: vec![note; robot.joints().len()],
             bodies: Vec::new(),

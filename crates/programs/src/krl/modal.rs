@@ -1,6 +1,7 @@
 //! Modal settings: frame, tool, tip speed, and whether the tool or the workpiece is on the flange.
 
 use armill_core::frame::Isometry;
+use armill_core::units::from_mm;
 use armill_formats::convention::Convention;
 
 use super::aggregate::{Aggregate, POSE, Value};
@@ -49,6 +50,11 @@ impl<'a> Reader<'a> {
                     }
                 };
                 self.speed(at, given);
+            }
+            ("$APO", Some("CDIS")) => self.modal.blend = value.number().map(from_mm),
+            ("$APO", None) => {
+                let set = self.set(at, value);
+                self.modal.blend = set.and_then(|set| set.number("CDIS")).map(from_mm);
             }
             ("FDAT_ACT", None) => {
                 if let Some(set) = self.set(at, value) {

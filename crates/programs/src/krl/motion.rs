@@ -1,6 +1,7 @@
 //! Moves: their targets by components, by name, relative to the previous move, or composed of frames.
 
 use armill_core::frame::Isometry;
+use armill_core::path::Passage;
 use armill_core::units::from_deg;
 use armill_formats::convention::Convention;
 
@@ -37,15 +38,16 @@ impl<'a> Reader<'a> {
             _ if word.ends_with("_REL") => self.relative(at, word, &mut target),
             _ => self.straight(at, word, &mut target),
         };
+        let passage = passage(target.clone(), self.modal.blend);
         if let Some((motion, goal)) = made
             && self.ends_here(target)
         {
-            self.push(at, motion, goal);
+            self.push(at, motion, goal, passage);
         }
         self.modal = before;
     }
 
-    fn push(&mut self, at: Token, motion: Motion, goal: KrlTarget) {
+    fn push(&mut self, at: Token, motion: Motion, goal: KrlTarget, passage: Passage) {
         let (target, former) = match goal {
             KrlTarget::Pose(numbers, target) => {
                 (target, Former::Pose(numbers, self.modal.base, self.modal.tool))
@@ -76,6 +78,7 @@ impl<'a> Reader<'a> {
             frame: self.modal.base,
             tool: self.modal.tool,
             speed,
+            passage,
             line: at.line,
         });
     }
@@ -298,6 +301,25 @@ impl<'a> Reader<'a> {
             self.messages.problem(place.start..cursor.end, message, hint);
         }
         ends
+    }
+}
+
+/// How a move with these words after its target ends: an exact stop without any; with `C_DIS` at the distance of `$APO.CDIS` (m) from it.
+fn passage(mut cursor: Cursor<'_>, distance: Option<f64>) -> Passage {
+    let mut words = Vec::new();
+    while let Some(word) = cursor.peek_word().filter(|word| word.starts_with("C_")) {
+        words.push(word);
+        cursor.next();
+        cursor.pass(',');
+    }
+    match (
+        words.is_empty(),
+        words.iter().any(|word| word == "C_DIS"),
+        distance,
+    ) {
+        (true, ..) => Passage::Stop,
+        (_, true, Some(distance)) if distance > 0.0 => Passage::Zone(distance),
+        _ => Passage::Unknown,
     }
 }
 

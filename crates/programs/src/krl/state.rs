@@ -13,6 +13,8 @@ pub(super) struct Modal {
     pub base: Frame,
     pub tool: Frame,
     pub speed: Speed,
+    /// `$APO.CDIS`, m; none if it is not known.
+    pub blend: Option<f64>,
     /// The workpiece is on the flange and the tool is stationary (`#TCP`).
     pub tool_is_stationary: bool,
 }
@@ -23,6 +25,7 @@ impl Default for Modal {
             base: Frame::Unknown,
             tool: Frame::Unknown,
             speed: Speed::Unknown,
+            blend: None,
             tool_is_stationary: false,
         }
     }

@@ -1,6 +1,7 @@
 //! Moves and their arguments.
 
 use armill_core::frame::Isometry;
+use armill_core::path::Passage;
 use armill_core::units::from_mm;
 
 use super::frames::MoveFrames;
@@ -96,6 +97,12 @@ impl<'a> Reader<'a> {
             let Some(MoveFrames { frame, tool }) = kept else {
                 return true;
             };
+            let zone = if is_move(word) {
+                rest.get(2).copied()
+            } else {
+                rest.len().checked_sub(2).map(|at| rest[at])
+            };
+            let passage = self.passage(zone, &arguments);
             let speed = match is_joint {
                 true => Speed::Joints,
                 false => self.speed(at, speed, &arguments),
@@ -106,6 +113,7 @@ impl<'a> Reader<'a> {
                 frame,
                 tool,
                 speed,
+                passage,
                 line: at.line,
             });
         }
@@ -162,6 +170,50 @@ impl<'a> Reader<'a> {
                 self.messages.note(at.line, sentence);
                 Speed::Unknown
             }),
+        }
+    }
+
+    /// `\Z`, or a zonedata: its first value tells whether the arm stops, its second is the distance of the zone, mm; `fine` and `z10` are predefined.
+    fn passage(&self, zone: Option<&Node>, arguments: &[Argument]) -> Passage {
+        let Some(node) = named(arguments, "z").or(zone) else {
+            return Passage::Unknown;
+        };
+        let of_mm = |mm: f64| {
+            if mm > 0.0 {
+                Passage::Zone(from_mm(mm))
+            } else {
+                Passage::Stop
+            }
+        };
+        if let Some(found) = self.names.look(node, self.messages.index()) {
+            match &found.node.value {
+                Value::Number(mm) => return of_mm(*mm),
+                Value::List(all) => {
+                    let stops = all.first().is_some_and(|node| match &node.value {
+                        Value::Name(reference) => reference.name.eq_ignore_ascii_case("true"),
+                        _ => false,
+                    });
+                    let distance = all.get(1).and_then(|node| self.number(node, found.text));
+                    return match (stops, distance) {
+                        (true, _) => Passage::Stop,
+                        (false, Some(mm)) => of_mm(mm),
+                        (false, None) => Passage::Unknown,
+                    };
+                }
+                _ => {}
+            }
+        }
+        let Value::Name(reference) = &node.value else {
+            return Passage::Unknown;
+        };
+        match reference.name.as_str() {
+            "fine" => Passage::Stop,
+            // The smallest predefined zone.
+            "z0" => of_mm(0.3),
+            name => (name
+                .strip_prefix('z')
+                .and_then(|digits| digits.parse::<u32>().ok()))
+            .map_or(Passage::Unknown, |mm| of_mm(f64::from(mm))),
         }
     }
 

@@ -5,8 +5,9 @@ use super::position::Taught;
 use super::read::{Program, Reader, SHIFTS};
 use super::statement::{Statement, index};
 use crate::arc_row::{ArcEnd, Next};
-use crate::program::{FrameKind, FramedTarget, Motion, Speed, Target};
+use crate::program::{FrameKind, FramedTarget, Motion, RobotMove, Speed, Target};
 use crate::spelling::{Part, number};
+use armill_core::path::Passage;
 
 /// Units of speed: a length in m and a time in s; `None` if the unit does not give the tip speed.
 const UNITS: [(&str, Option<[f64; 2]>); 10] = [
@@ -68,7 +69,12 @@ impl Reader<'_> {
             }
             _ => Motion::Linear,
         };
-        self.moves.push(end.reached(motion, speed, statement.line));
+        let stops = rest.iter().any(|word| word.text.eq_ignore_ascii_case("FINE"));
+        self.moves.push(RobotMove {
+            // How far CNT rounds a corner depends on the controller.
+            passage: if stops { Passage::Stop } else { Passage::Unknown },
+            ..end.reached(motion, speed, statement.line)
+        });
     }
 
     /// The target in a word of a move.

@@ -1,6 +1,7 @@
 //! Moves: their targets and speeds.
 
 use armill_core::frame::Isometry;
+use armill_core::path::Passage;
 use armill_core::robot::BranchPattern;
 
 use super::expression::is_name;
@@ -61,6 +62,7 @@ impl Reader<'_> {
             frame,
             tool: self.tool,
             speed,
+            passage: passage(rest),
             line: at.line,
         });
     }
@@ -109,6 +111,18 @@ impl Reader<'_> {
                 )
             }
         }
+    }
+}
+
+/// The blend radius `r`, the fourth number after the target, m; without one the arm stops there.
+fn passage(rest: &[Argument]) -> Passage {
+    let named = rest.iter().find(|argument| argument.name.as_deref() == Some("r"));
+    let placed = || rest.get(3).filter(|argument| argument.name.is_none());
+    match named.or_else(placed).map(|argument| &argument.value) {
+        None => Passage::Stop,
+        Some(Value::Number(radius)) if *radius > 0.0 => Passage::Zone(*radius),
+        Some(Value::Number(_)) => Passage::Stop,
+        Some(_) => Passage::Unknown,
     }
 }
 

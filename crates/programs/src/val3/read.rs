@@ -1,5 +1,6 @@
 //! A project as moves: its code with its data.
 
+use armill_core::path::Passage;
 use std::collections::BTreeMap;
 
 use armill_formats::document::Problems;
@@ -238,6 +239,7 @@ impl<'a> Reader<'a> {
             frame: end.frame,
             tool,
             speed,
+            passage: Passage::Unknown,
             line,
         });
     }

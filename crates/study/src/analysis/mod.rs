@@ -21,6 +21,7 @@ pub mod clearance;
 pub mod columns;
 pub mod holes;
 pub mod map;
+pub mod motion_quantity;
 pub mod numbers;
 pub mod panels;
 pub mod path;

@@ -6,6 +6,8 @@
 //!
 //! Capitals in a key stand for a name or number: `share_NAME_um` is one column for each contributor.
 
+use crate::analysis::motion_quantity;
+
 /// A quantity of a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Quantity {
@@ -398,7 +400,7 @@ pub const HOLE_Y: Quantity = deviation(
 pub const DEPTH: Quantity = deviation("depth_um", "deviation out of the part: too shallow", IN_HOLE);
 
 /// All quantities, in the order of the tables: of a path, of holes, of every analysis.
-pub const ALL: [&Quantity; 34] = [
+pub const ALL: [&Quantity; 40] = [
     &LINE,
     &DISTANCE,
     &FEED,
@@ -416,6 +418,12 @@ pub const ALL: [&Quantity; 34] = [
     &UNLOADED_ALONG,
     &UNLOADED_CROSS,
     &UNLOADED_AXIAL,
+    &motion_quantity::TIME,
+    &motion_quantity::SPEED,
+    &motion_quantity::FEED_PART,
+    &motion_quantity::BLENDING,
+    &motion_quantity::SERVO,
+    &motion_quantity::WITH_MOTION,
     &HOLE,
     &WRIST_BEND,
     &HOLE_X,

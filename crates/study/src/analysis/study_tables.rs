@@ -1,5 +1,7 @@
 //! What a study gives to every analysis.
 
+use armill_formats::motion::MotionTable;
+
 use crate::analysis::path::cut::CutTable;
 use crate::input::improvement::ImprovementTable;
 use crate::input::stiffness::StiffnessTables;
@@ -24,6 +26,10 @@ pub struct StudyTables<'a> {
     pub tolerance_um: f64,
     /// The least improvement that counts.
     pub improvement: Option<ImprovementTable>,
+    /// How the controller moves the arm, with the values of the robot file; none if motions are not requested.
+    pub motion: Option<&'a MotionTable>,
+    /// Speed of rapids, m/s.
+    pub rapid: f64,
     /// Parts of the stiffness model.
     pub stiffness: StiffnessTables<'a>,
 }

@@ -1,6 +1,7 @@
 //! The study file, format 1: TOML, every number with its unit in its name.
 
 use armill_formats::controller::ControllerTable;
+use armill_formats::motion::MotionTable;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -85,6 +86,9 @@ pub struct StudyFile {
     pub analysis: Vec<AnalysisTable>,
     /// How robot programs are written; replaces values of the robot file.
     pub controller: Option<ControllerTable>,
+    /// What the controller makes of paths: speeds, times, rounded corners; replaces values of the robot file. Without this table the
+    /// programmed feed is assumed.
+    pub motion: Option<MotionTable>,
     /// Permitted placements of the part, for `armill place`.
     pub place: Option<PlaceTable>,
     /// Measurements of one circle, to compare with the prediction.
@@ -128,6 +132,8 @@ impl StudyFile {
             posture: self.posture.as_ref(),
             tolerance_um: self.tolerance_um,
             improvement: self.improvement,
+            motion: None,
+            rapid: ControllerTable::default().rapid(),
             stiffness: StiffnessTables {
                 gravity: self.gravity.as_ref(),
                 thermal: self.thermal.as_ref(),

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! [`format`](mod@format) is the file as written; [`resolve`] checks it and resolves each analysis (`names`, `memory`),
-//! its [`compliance`], the [`positioner`] and the [`part_in_hand`]. `calibrated` is the calibrated arm; [`placement`] the permitted placements
+//! its [`compliance`], its [`motion`], the [`positioner`] and the [`part_in_hand`]. `calibrated` is the calibrated arm; [`placement`] the permitted placements
 //! of a part, [`experiment`] the measurements of a circle, [`circles`] circular tests for the backlash of joints;
 //! [`slips`] finds values that are probably slips. [`search_postures`] searches spins and branches of a study without such a search.
 
@@ -13,6 +13,7 @@ pub mod circles;
 pub mod compliance;
 pub mod experiment;
 pub mod format;
+pub mod motion;
 pub mod part_in_hand;
 pub mod placement;
 pub mod positioner;

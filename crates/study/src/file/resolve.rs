@@ -16,6 +16,7 @@ use super::memory;
 use crate::analysis::holes::HolesAnalysis;
 use crate::analysis::path::PathAnalysis;
 use crate::analysis::resolve::Resolver;
+use crate::analysis::study_tables::StudyTables;
 use crate::analysis::table::AnalysisTable;
 use crate::analysis::{Analysis, Subject};
 use crate::error::StudyError;
@@ -26,7 +27,7 @@ use crate::file::experiment::Experiment;
 use crate::file::format::{StatementTable, StudyFile};
 use crate::file::names::{check_statements, name_of, unfit_names};
 use crate::file::placement::PlaceTable;
-use crate::file::{ResolvedAnalyses, compliance, part_in_hand, positioner};
+use crate::file::{ResolvedAnalyses, compliance, motion, part_in_hand, positioner};
 use crate::input::cell::CellBodies;
 use crate::input::problem_log::ProblemLog;
 use crate::input::setting::Setting;
@@ -213,7 +214,18 @@ impl Parsed {
             Some(robot) => CellBodies::read(&mut log, &file.cell_tables(&tables), robot, folder)?,
             None => None,
         };
-        let common = file.common();
+        let of_robot = robot
+            .as_ref()
+            .and_then(|robot| robot.controller.clone())
+            .unwrap_or_default();
+        let controller =
+            (file.controller.as_ref()).map_or_else(|| of_robot.clone(), |table| table.or(&of_robot));
+        let motion = motion::merged(&mut log, document, file, robot.as_ref());
+        let common = StudyTables {
+            motion: motion.as_ref(),
+            rapid: controller.rapid(),
+            ..file.common()
+        };
         let mut problems = std::mem::take(&mut log.problems);
         let mut analyses = Vec::new();
         let chosen = tables.iter().enumerate();
@@ -268,10 +280,8 @@ impl Parsed {
         robot
             .sources
             .extend(actual.into_iter().flat_map(|actual| actual.sources));
-        let of_robot = robot.controller.clone().unwrap_or_default();
-        let controller = file.controller.as_ref();
         Ok(Study {
-            controller: controller.map_or_else(|| of_robot.clone(), |table| table.or(&of_robot)),
+            controller,
             title: file
                 .title
                 .clone()

@@ -17,7 +17,7 @@ use armill_programs::{DraftStep, Written};
 
 use super::arm::{Arm, ArmAt};
 use super::order::shortest;
-use super::settings::{ProgramSettings, rapid_speed};
+use super::settings::ProgramSettings;
 use super::tooling::Tooling;
 use super::way::{CutStart, Space, Ways};
 use super::{standing, written};
@@ -80,7 +80,7 @@ pub fn hole_program(
         peck: drilling.peck,
         clearance: drilling.clearance,
         dwell: drilling.dwell,
-        rapid: rapid_speed(&study.controller),
+        rapid: study.controller.rapid(),
     };
     let (mut drilled, mut lost) = (Vec::new(), Vec::new());
     for index in 0..track.len() {

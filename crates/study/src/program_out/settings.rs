@@ -51,14 +51,6 @@ impl ProgramSettings {
     }
 }
 
-/// Speed of linear moves that do not cut, mm/s.
-const RAPID_MM_S: f64 = 100.0;
-
-/// Speed of linear moves that do not cut, m/s.
-pub(super) fn rapid_speed(table: &ControllerTable) -> f64 {
-    from_mm(table.rapid_mm_per_s.unwrap_or(RAPID_MM_S))
-}
-
 /// The controller of the cell; numbers of the command replace those of the table.
 pub(super) fn controller(table: &ControllerTable, requested: &ProgramSettings) -> Controller {
     let default = Controller::default();

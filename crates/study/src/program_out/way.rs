@@ -17,7 +17,7 @@ use armill_programs::DraftStep;
 
 use super::arm::{Arm, ArmAt};
 use super::rapids::RapidPoses;
-use super::settings::{ProgramSettings, rapid_speed};
+use super::settings::ProgramSettings;
 use super::tooling::Change;
 use crate::error::StudyError;
 use crate::joint_unit::joint_positions_from_base;
@@ -104,7 +104,7 @@ impl<'a> Ways<'a> {
             up,
             space,
             retract: requested.retract,
-            rapid: rapid_speed(controller),
+            rapid: controller.rapid(),
             home,
             left_out: Cell::new(0),
         }

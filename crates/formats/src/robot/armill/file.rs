@@ -5,6 +5,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::controller::ControllerTable;
+use crate::motion::MotionTable;
 use crate::robot::shape_tables::{BoxTable, RoundTable};
 use crate::robot::spring_tables::{AxisName, MassTable, SpringTable};
 use crate::sources::SourceTable;
@@ -58,6 +59,8 @@ pub(super) struct RobotFile {
     pub payload: Option<PayloadTable>,
     /// How robot programs are written for this cell.
     pub controller: Option<ControllerTable>,
+    /// How its controller moves it.
+    pub motion: Option<MotionTable>,
     /// Sources of the numbers, by key.
     pub sources: SourceTable,
 }

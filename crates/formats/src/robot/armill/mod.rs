@@ -14,7 +14,7 @@
 //! [chain]       source, motions = [{ about = "z", joint = "S" }, { along = "z", length_mm = 450 }, ...]
 //! [[joint]]     name, sign, zero_offset_deg, limits_deg, max_speed_deg_per_s, compliance_rad_per_n_m, ...
 //! [[body]]      at, name, capsule_mm, accuracy_mm, source: the outline of a link; [clearance] apart
-//! [[frame]] [[spring]] [[mass]] [compensator] [covariance] [repeatability] [model_error] [payload] [controller]    each may be left out
+//! [[frame]] [[spring]] [[mass]] [compensator] [covariance] [repeatability] [model_error] [payload] [controller] [motion]    each may be left out
 //! [sources.KEY] what, where, licence: every KEY that a `source` names, and no other
 //! ```
 //!
@@ -70,6 +70,10 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
     let of_controller = file.controller.iter();
     let of_controller = of_controller.flat_map(|table| table.problems(&document, file.joint.len(), 0));
     checks.problems.extend(of_controller);
+    let of_motion = file.motion.iter();
+    checks
+        .problems
+        .extend(of_motion.flat_map(|table| table.problems(&document, file.joint.len())));
     Problems::from(std::mem::take(&mut checks.problems)).into_result()?;
 
     let refused = |error: armill_core::robot::RobotError| {
@@ -102,6 +106,7 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
         remarks: Vec::new(),
         payload_kg: file.payload.map(|payload| payload.mass_kg),
         controller: file.controller,
+        motion: file.motion,
         symbols: file
             .chain
             .motions

@@ -6,6 +6,7 @@ use armill_core::units::{to_deg, to_mm, to_um};
 
 use crate::analysis::numbers::Numbers;
 use crate::analysis::path::PathAnalysis;
+use crate::analysis::path::motion_columns;
 use crate::analysis::path::process_loads::ProcessPoint;
 use crate::analysis::path::run::PathResult;
 use crate::analysis::quantity::{self, Quantity};
@@ -57,6 +58,7 @@ pub fn columns<'a>(analysis: &'a PathAnalysis, found: &'a PathResult) -> Vec<Num
     }
     columns.extend(process(found));
     columns.extend(unloaded(track, found));
+    columns.extend(motion_columns::columns(analysis, found));
     columns
 }
 

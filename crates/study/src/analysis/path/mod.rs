@@ -7,8 +7,8 @@
 //!
 //! `shape` and [`program`] (its keys [`program_table`], its file `program_file`, then `machine_program` or
 //! [`robot_program`]) give its points, [`feature`] marks stretches of them; `load` puts on the load: given cases, a [`cut`], a [`drill`], or [`measured`] forces; `shape_tables`: the tables of
-//! shapes; `spin_curve`: a spin that changes along the path. [`resolve`](mod@resolve) joins these, [`run`] evaluates the path. [`answer`], [`sentence`], [`warnings`] are
-//! its answer; [`columns`], [`pictures`] (with `track_views`, [`point_groups`], `turns`, [`process_limits`]) and [`report`] its files. [`process_loads`]:
+//! shapes; `spin_curve`: a spin that changes along the path. [`resolve`](mod@resolve) joins these, [`run`] evaluates the path, [`motion`] what the controller makes of it. [`answer`], [`sentence`], [`warnings`] are
+//! its answer; [`columns`], [`pictures`] (with `track_views`, [`point_groups`], `turns`, [`process_limits`], `motion_columns`) and [`report`] its files. [`process_loads`]:
 //! what the cut asks of tool and spindle.
 
 pub mod answer;
@@ -19,6 +19,8 @@ pub mod feature;
 pub mod load;
 mod machine_program;
 pub mod measured;
+pub mod motion;
+mod motion_columns;
 pub mod pictures;
 pub mod point_groups;
 pub mod process_limits;
@@ -51,6 +53,7 @@ use armill_formats::robot::RobotDescription;
 use armill_formats::toolpath::Summary;
 
 use crate::input::memory::{OF_PATH, PointMemory};
+use crate::input::motion::MotionSetting;
 use crate::input::setting::Setting;
 
 /// A path with its load.
@@ -76,6 +79,8 @@ pub struct PathAnalysis {
     pub measured: Option<Box<MeasuredForces>>,
     /// Whether the process limits that meet the tolerance are requested.
     pub wants_limits: bool,
+    /// How the controller moves the arm, if the motion is requested.
+    pub motion: Option<MotionSetting>,
     /// Requested features.
     pub features: Vec<FeatureTable>,
 }

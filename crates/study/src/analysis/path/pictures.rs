@@ -9,6 +9,7 @@
 //! | `shares` | shares of the joints at the worst points | a path that is reached |
 //! | `turns` | deviation over path and spin of the tool, with the chosen spin | a search |
 //! | `process` | largest deviation over depth and feed per tooth | a cut |
+//! | `speed`, `joint-speeds` | feed and speed, speeds of the joints relative to their greatest | a motion |
 //! | `forces` | the record before and after treatment | measured forces |
 //! | `arm` | the arm at the worst point, faintly elsewhere | a path that is reached |
 
@@ -62,6 +63,13 @@ pub fn pictures(
     pictures.push(drawing.along());
     pictures.extend(drawing.polar());
     pictures.extend(drawing.contributions());
+    pictures.extend(super::motion_columns::pictures(
+        robot,
+        &given.name,
+        &drawing.subtitle(),
+        analysis,
+        found,
+    ));
     pictures.extend(super::process_limits::picture(
         &given.name,
         drawing.subtitle(),

@@ -9,6 +9,7 @@ use super::robot_program::{self, RobotInCell};
 use super::{PathAnalysis, PathSource, program, shape, spin_curve};
 use crate::StudyError;
 use crate::analysis::resolve::Resolver;
+use crate::input::motion::MotionSetting;
 use crate::input::problem_log::ProblemLog;
 use crate::input::setting::Setting;
 
@@ -87,6 +88,11 @@ impl Resolver<'_> {
             drill: None,
             forces: None,
             measured: None,
+            motion: self
+                .common
+                .motion
+                .zip(robot)
+                .map(|(table, robot)| MotionSetting::of(table, robot, self.common.rapid)),
             wants_limits: table.program.as_ref().is_some_and(|of| of.limits.unwrap_or(true)),
             features: table
                 .program

@@ -133,13 +133,14 @@ pub fn read(
             of.next.pace = Pace::Rapid;
         }
     }
-    let (path, spans) = match sampled(&followed.moves, file.sampling) {
+    let (mut path, spans) = match sampled(&followed.moves, file.sampling) {
         Ok(found) => found,
         Err(error) => {
             file.too_many(log, error);
             return Ok(None);
         }
     };
+    take_passages(&mut path, &spans, &program, &followed);
     let robot_path = RobotPath {
         program,
         followed,
@@ -293,6 +294,23 @@ pub fn sampled(
     });
     let spans = spans.collect();
     Ok((path, spans))
+}
+
+/// Marks how the program passes the ends of its moves.
+fn take_passages(path: &mut SampledPath, spans: &[Span], program: &RobotProgram, followed: &Followed) {
+    for (of, span) in followed
+        .moves
+        .iter()
+        .zip(spans)
+        .filter(|(_, span)| !span.points.is_empty())
+    {
+        let end = path
+            .ends
+            .binary_search_by_key(&(span.points.end - 1), |end| end.point);
+        if let Ok(end) = end {
+            path.ends[end].passage = program.moves[of.index].passage;
+        }
+    }
 }
 
 /// The point of the path at which move `index` ends: its own last one, or the start of the cut that follows it.

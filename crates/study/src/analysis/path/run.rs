@@ -9,6 +9,7 @@ use armill_core::map::{
     AlongPath, ProgramLimits, RadialDeviation, along_path, along_postures, obstacles, program_limits,
     radial_deviations, worst_points,
 };
+use armill_core::motion::Motion;
 use armill_core::nalgebra::{Point3, Translation3, UnitQuaternion};
 use armill_core::optimize::{
     FollowedTrack, Gain, Objective, PostureFound, PostureSearch, gain_along, postures_along,
@@ -40,6 +41,8 @@ pub struct PathResult {
     pub process: Option<ProcessLoads>,
     /// The process limits, if they were requested and can be computed.
     pub limits: Option<ProgramLimits>,
+    /// The motion along it, if it was requested; the load is then that at the feed that is reached.
+    pub motion: Option<Motion>,
     /// The search for spins and branches, if there was one.
     pub searched: Option<SearchResult>,
 }
@@ -81,7 +84,7 @@ pub fn passes(path: &PathAnalysis) -> usize {
         let worst = usize::from(search.objective == Objective::Worst);
         2 + worst + if search.back_price > 0.0 { 3 } else { 0 }
     });
-    1 + searched + usize::from(path.has_stock())
+    1 + searched + usize::from(path.has_stock()) + usize::from(path.motion.is_some() && path.cut.is_some())
 }
 
 /// Hint for a program that does not meet its stock.
@@ -146,12 +149,19 @@ impl Runner<'_> {
             }
             _ => forces,
         };
-        along.answers.measure_clearances(&question);
         let track = turned.as_ref().unwrap_or(&analysis.track);
         let limits = match analysis.reports_limits() {
             true => program_limits(&question, track, &along, analysis.setting.tolerance, self.watch)?,
             false => None,
         };
+        let motion = match self.motion(analysis, track, &load, &along)? {
+            Some(moved) => {
+                along = moved.along.unwrap_or(along);
+                Some(moved.motion)
+            }
+            None => None,
+        };
+        along.answers.measure_clearances(&question);
         let worst = worst_points(&analysis.track, &along.answers, WORST);
         Ok(PathResult {
             worst: worst
@@ -169,6 +179,7 @@ impl Runner<'_> {
             along,
             forces,
             limits,
+            motion,
             searched,
         })
     }

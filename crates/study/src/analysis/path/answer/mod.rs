@@ -8,12 +8,13 @@
 //!
 //! `worst`: where it is worst; `feature`: circles, lines, planes, holes; `cut`, `measured`: the load; `limits`: the
 //! process limits; `program`: data of a program; `obstacles`: where the arm cannot follow it; `search`: the result of a search
-//! for spins of the tool and branches; `unloaded`: the effect of backlash and geometry.
+//! for spins of the tool and branches; `motion`: what the controller makes of it; `unloaded`: the effect of backlash and geometry.
 
 mod cut;
 mod feature;
 pub(crate) mod limits;
 pub mod measured;
+pub mod motion;
 pub mod obstacles;
 mod program;
 pub mod search;
@@ -24,6 +25,7 @@ pub use cut::{CutAnswer, RestAnswer, StockAnswer};
 pub use feature::FeatureAnswer;
 pub use limits::{LimitAnswer, LimitsAnswer};
 pub use measured::MeasuredAnswer;
+pub use motion::{LostTime, MotionAnswer, SlowPlace};
 pub use obstacles::ObstacleAnswer;
 pub use program::{OperationAnswer, ProgramAnswer};
 pub use search::{SearchAnswer, StatisticsAnswer};
@@ -110,6 +112,8 @@ pub struct PathAnswer {
     pub program: Option<ProgramAnswer>,
     /// The search for spins of the tool and branches; none without a search.
     pub search: Option<SearchAnswer>,
+    /// What the controller makes of the path; none if the study does not ask for it.
+    pub motion: Option<MotionAnswer>,
     /// Effect of backlash and geometry on the deviations; none if load and gravity alone move the tool.
     pub unloaded: Option<UnloadedAnswer>,
     /// What was skipped or assumed.
@@ -183,6 +187,7 @@ pub fn answer(robot: &Robot, name: &str, analysis: &PathAnalysis, found: &PathRe
         limits: LimitsAnswer::of(analysis, found),
         program: ProgramAnswer::of(analysis, found),
         search: SearchAnswer::of(robot, analysis, found),
+        motion: MotionAnswer::of(robot, analysis, found),
         unloaded: UnloadedAnswer::of(robot, analysis, found),
         notes: notes(analysis, found),
         worst_points,

@@ -1,0 +1,59 @@
+//! Quantities of a point of a path in motion.
+
+use crate::analysis::quantity::{Origin, Quantity};
+
+/// Where the motion comes from.
+const MOTION: Origin = Origin {
+    file: "core/src/motion/along.rs",
+    function: "motion_along",
+    theory: Some("motion"),
+    validation: None,
+};
+
+const fn of_motion(key: &'static str, unit: &'static str, decimals: u8, words: &'static str) -> Quantity {
+    Quantity {
+        key,
+        unit: Some(unit),
+        decimals,
+        words,
+        origin: Some(MOTION),
+    }
+}
+
+/// Time at a point.
+pub const TIME: Quantity = of_motion(
+    "time_s",
+    "s",
+    4,
+    "time at which the command is at the point, from the first one",
+);
+/// Actual speed.
+pub const SPEED: Quantity = of_motion("speed_mm_per_s", "mm/s", 3, "speed of the command at the point");
+/// Part of the programmed feed.
+pub const FEED_PART: Quantity = of_motion(
+    "feed_reached_percent",
+    "%",
+    2,
+    "speed of the command over the programmed feed",
+);
+/// Rounded corners.
+pub const BLENDING: Quantity = of_motion(
+    "blending_um",
+    "um",
+    3,
+    "distance of the commanded path from the programmed point, by the zone of a corner",
+);
+/// Joints that follow late.
+pub const SERVO: Quantity = of_motion(
+    "servo_um",
+    "um",
+    3,
+    "distance of the path that is followed from the commanded one, across it: joints follow late",
+);
+/// All of the deviation.
+pub const WITH_MOTION: Quantity = of_motion(
+    "in_plane_with_motion_um",
+    "um",
+    3,
+    "deviation across the tool of the worst case together with `blending_um` and `servo_um`",
+);
