@@ -20,6 +20,8 @@ use nalgebra::{Point3, Vector3};
 
 /// Pieces of a rounded corner; even.
 const PIECES: usize = 8;
+/// Distance of the first point next to a stop or a zone, m.
+const FINEST: f64 = 1e-5;
 /// A zone smaller than this is none, m.
 const NO_ZONE: f64 = 1e-9;
 
@@ -37,7 +39,7 @@ pub struct Programmed<'a> {
 }
 
 /// The path with rounded corners.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Rounded {
     /// Its points, m.
     pub points: Vec<Point3<f64>>,
@@ -51,6 +53,8 @@ pub struct Rounded {
     pub passes: Vec<f64>,
     /// Distance of the path from each programmed point, m.
     pub errors: Vec<Vector3<f64>>,
+    /// Indices of the points where zones begin and end, in order.
+    anchors: Vec<usize>,
 }
 
 /// A zone within the path.
@@ -61,7 +65,7 @@ struct Zone {
 }
 
 impl Programmed<'_> {
-    /// The path with rounded corners.
+    /// The path with rounded corners, and with points ever nearer to each other towards stops and zones, where speeds change.
     ///
     /// # Panics
     /// If there are fewer than two points, or the numbers of values do not belong together.
@@ -96,7 +100,7 @@ impl Programmed<'_> {
             self.keep(index, &mut path);
         }
         path.feeds.truncate(path.points.len() - 1);
-        path
+        path.graded()
     }
 
     /// The zones, each at most half of the moves next to it.
@@ -134,6 +138,7 @@ impl Programmed<'_> {
         let is_there = path.along.last().is_some()
             && (self.at(begin, lengths).0 - path.points[path.points.len() - 1]).norm() < NO_ZONE;
         let first = path.points.len() - usize::from(is_there);
+        path.anchors.push(first);
         for piece in usize::from(is_there)..=PIECES {
             let w = piece as f64 / PIECES as f64;
             let [before, after] =
@@ -150,6 +155,7 @@ impl Programmed<'_> {
                 self.feeds[after.1.min(self.feeds.len() - 1)]
             });
         }
+        path.anchors.push(path.points.len() - 1);
         first
     }
 
@@ -202,12 +208,69 @@ impl Programmed<'_> {
     }
 }
 
+/// Distances from the beginning of a step of this length at which it gets points, m: dense towards its ends that are anchors.
+fn grades(length: f64, [begin, end]: [bool; 2]) -> Vec<f64> {
+    let reach = if begin && end { 0.5 * length } else { length };
+    let mut ways = Vec::new();
+    let mut way = FINEST;
+    while way < 0.7 * reach {
+        if begin {
+            ways.push(way);
+        }
+        if end {
+            ways.push(length - way);
+        }
+        way *= 2.0;
+    }
+    ways.sort_by(f64::total_cmp);
+    ways
+}
+
 /// Way from the corner of the two points whose sum is the point with the parameter `w`, m, the one before it negative.
 fn ways(radius: f64, w: f64) -> [f64; 2] {
     [-radius * (1.0 - w).powi(2), radius * w * w]
 }
 
 impl Rounded {
+    /// The same path with more points next to its ends and to those of zones, each twice as far from there as the one before.
+    fn graded(mut self) -> Rounded {
+        let last = self.points.len() - 1;
+        let mut graded = Rounded {
+            passes: std::mem::take(&mut self.passes),
+            errors: std::mem::take(&mut self.errors),
+            ..Rounded::default()
+        };
+        let joints = self.positions.len() / self.points.len();
+        let at = |index: usize| &self.positions[index * joints..][..joints];
+        let is_anchor =
+            |index: usize| index == 0 || index == last || self.anchors.binary_search(&index).is_ok();
+        let mut between = vec![0.0; joints];
+        for index in 0..=last {
+            graded.add_at(self.along[index], self.points[index], at(index));
+            if index == last {
+                break;
+            }
+            graded.feeds.push(self.feeds[index]);
+            let length = self.along[index + 1] - self.along[index];
+            for way in grades(length, [is_anchor(index), is_anchor(index + 1)]) {
+                let part = way / length;
+                for ((between, from), to) in between.iter_mut().zip(at(index)).zip(at(index + 1)) {
+                    *between = from + part * (to - from);
+                }
+                let point = self.points[index] + (self.points[index + 1] - self.points[index]) * part;
+                graded.add_at(self.along[index] + way, point, &between);
+                graded.feeds.push(self.feeds[index]);
+            }
+        }
+        graded
+    }
+
+    fn add_at(&mut self, along: f64, at: Point3<f64>, positions: &[f64]) {
+        self.along.push(along);
+        self.points.push(at);
+        self.positions.extend_from_slice(positions);
+    }
+
     fn add(&mut self, at: Point3<f64>, positions: &[f64]) {
         let before = self.points.last().zip(self.along.last());
         self.along

@@ -11,6 +11,7 @@ mod cell;
 mod counts;
 mod deviations;
 mod freedoms;
+mod motion;
 mod paths;
 mod running;
 mod same_points;

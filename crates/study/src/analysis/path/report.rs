@@ -7,7 +7,8 @@ use armill_report::html::{Report, Table};
 
 use crate::analysis::cells::{COUNT, NONE, columns, percent, um, without_empty_columns};
 use crate::analysis::path::answer::{
-    FeatureAnswer, LimitAnswer, LimitsAnswer, OperationAnswer, PathAnswer, ProgramAnswer, WorstPoint,
+    FeatureAnswer, LimitAnswer, LimitsAnswer, MotionAnswer, OperationAnswer, PathAnswer, ProgramAnswer,
+    SlowPlace, WorstPoint,
 };
 use crate::uncertainty_words::deviation_in_words;
 
@@ -20,12 +21,18 @@ pub fn add_section(report: Report, paths: &[PathAnswer]) -> Report {
         .section("Paths")
         .table(&deviations(paths))
         .table(&followed(paths));
+    if paths.iter().any(|path| path.motion.is_some()) {
+        report = report.table(&motions(paths));
+    }
     for path in paths {
         if !path.worst_points.is_empty() {
             report = report.table(&worst_points(&path.name, &path.worst_points));
         }
         if !path.features.is_empty() {
             report = report.table(&features(&path.name, &path.features));
+        }
+        if let Some(motion) = path.motion.as_ref().filter(|motion| !motion.places.is_empty()) {
+            report = report.table(&slow_places(&path.name, motion));
         }
         if let Some(limits) = &path.limits {
             report = report.table(&permitted(&path.name, limits));
@@ -81,6 +88,72 @@ fn deviations(paths: &[PathAnswer]) -> Table {
         ]),
         rows: paths.iter().map(row).collect(),
     })
+}
+
+/// What the controller makes of the paths: a row a path.
+fn motions(paths: &[PathAnswer]) -> Table {
+    let with_motion = paths
+        .iter()
+        .filter_map(|path| Some((path, path.motion.as_ref()?)));
+    let row = |(path, motion): (&PathAnswer, &MotionAnswer)| {
+        vec![
+            path.name.clone(),
+            format!("{:.1}", motion.cycle_time_s),
+            format!("{:.1}", motion.cutting_time_s),
+            format!("{:.1}", motion.programmed_time_s),
+            percent(motion.length_at_feed_percent / 100.0),
+            um(Some(motion.largest_blending_um)),
+            um(Some(motion.largest_servo_um)),
+            um(motion.largest_servo_u_um),
+            um(Some(motion.max_in_plane_with_motion_um)),
+        ]
+    };
+    without_empty_columns(Table {
+        caption: "Motion. Times of the whole program without tool changes, of its cuts, and of these at the programmed feed; part of the length at \
+                  98 % of the feed or more; largest distance of the commanded path from the programmed one (rounded corners) and of the path \
+                  that is followed from the commanded one (joints follow late); deviation across the tool with both."
+            .to_owned(),
+        columns: columns(&[
+            ("path", ""),
+            ("program", "s"),
+            ("cuts", "s"),
+            ("at the programmed feed", "s"),
+            ("length at the feed", "%"),
+            ("rounded corners", "µm"),
+            ("late joints", "µm"),
+            ("its standard uncertainty", "µm"),
+            ("largest across the tool with motion", "µm"),
+        ]),
+        rows: with_motion.map(row).collect(),
+    })
+}
+
+/// Where the feed is not reached: a row a place.
+fn slow_places(name: &str, motion: &MotionAnswer) -> Table {
+    let row = |place: &SlowPlace| {
+        vec![
+            place.line.to_string(),
+            format!("{:.1}", place.distance_mm),
+            format!("{:.1}", place.speed_mm_per_s),
+            format!("{:.1}", place.programmed_mm_per_s),
+            format!("{:.3}", place.lost_s),
+            place.limited_by.clone(),
+            place.advice.clone(),
+        ]
+    };
+    Table {
+        caption: format!("{name}: where most time is lost, and what may help."),
+        columns: columns(&[
+            ("line", ""),
+            ("distance", "mm"),
+            ("speed", "mm/s"),
+            ("programmed", "mm/s"),
+            ("time lost", "s"),
+            ("limited by", ""),
+            ("what may help", ""),
+        ]),
+        rows: motion.places.iter().map(row).collect(),
+    }
 }
 
 /// Data of the paths: files, lengths, times, and points that have no posture or no force.

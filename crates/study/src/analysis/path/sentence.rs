@@ -2,7 +2,7 @@
 
 use armill_core::robot::Robot;
 
-use crate::analysis::path::answer::{CutAnswer, PathAnswer};
+use crate::analysis::path::answer::{CutAnswer, MotionAnswer, PathAnswer};
 use crate::analysis::words::{LimitCounts, LostPoints, largest_contributor, micrometres};
 use crate::uncertainty_words::u_in_words;
 
@@ -37,8 +37,9 @@ pub fn sentence(robot: &Robot, path: &PathAnswer) -> String {
     let limits = limits.in_words();
     let process = path.cut.as_ref().map_or(String::new(), process);
     let clearance = clearance(path);
+    let motion = path.motion.as_ref().map_or(String::new(), motion);
     format!(
-        "{}, branch {}: {}the tool deviates by up to {} µm ({}) {where_to}{line}{roundness}; largest contribution: {}; {:.1} % of the path is within {} µm{limits}.{clearance}{process}",
+        "{}, branch {}: {}the tool deviates by up to {} µm ({}) {where_to}{line}{roundness}; largest contribution: {}; {:.1} % of the path is within {} µm{limits}.{clearance}{process}{motion}",
         path.name,
         path.followed_branch.as_ref().unwrap_or(&path.branch),
         lost.before_others(),
@@ -59,6 +60,23 @@ fn clearance(path: &PathAnswer) -> String {
         true => format!(" The least clearance is {least:.1} mm, of {first} and {second}."),
         false => format!(" {first} and {second} touch."),
     }
+}
+
+/// Time and largest errors of the motion, as a further sentence.
+fn motion(motion: &MotionAnswer) -> String {
+    let lost = motion.cutting_time_s - motion.programmed_time_s;
+    let cause = match motion.lost_time.first() {
+        Some(cause) if lost > 0.01 * motion.programmed_time_s => format!(", mostly by {}", cause.limited_by),
+        _ => String::new(),
+    };
+    format!(
+        " The program takes {:.1} s; its cuts take {:.1} s, {lost:+.1} s from the time at the programmed feed{cause}. Rounded corners are up to {} µm from the \
+         programmed path, and the tip up to {} µm from the commanded one, because joints follow late.",
+        motion.cycle_time_s,
+        motion.cutting_time_s,
+        micrometres(motion.largest_blending_um),
+        micrometres(motion.largest_servo_um)
+    )
 }
 
 /// Force, torque, chip thickness and removal rate of a cut, as a further sentence.

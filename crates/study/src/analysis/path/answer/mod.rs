@@ -269,6 +269,16 @@ fn notes(analysis: &PathAnalysis, found: &PathResult) -> Vec<String> {
                 .to_owned(),
         );
     }
+    if let Some(motion) = analysis
+        .motion
+        .as_ref()
+        .filter(|motion| !motion.assumed.is_empty())
+    {
+        notes.push(format!(
+            "assumed of the controller: {}",
+            motion.assumed.join("; ")
+        ));
+    }
     notes.extend(analysis.measured.as_deref().into_iter().flat_map(measured::notes));
     notes
 }
