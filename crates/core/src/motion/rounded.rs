@@ -16,6 +16,8 @@
 //!
 //! Source: blending by a quadratic polynomial, as in Biagiotti and Melchiorri 2008 [recalled]; controllers do not publish theirs.
 
+use std::ops::Range;
+
 use nalgebra::{Point3, Vector3};
 
 /// Pieces of a rounded corner; even.
@@ -53,8 +55,8 @@ pub struct Rounded {
     pub passes: Vec<f64>,
     /// Distance of the path from each programmed point, m.
     pub errors: Vec<Vector3<f64>>,
-    /// Indices of the points where zones begin and end, in order.
-    anchors: Vec<usize>,
+    /// The steps of each zone, by the points at their beginnings, in order.
+    zones: Vec<Range<usize>>,
 }
 
 /// A zone within the path.
@@ -138,7 +140,6 @@ impl Programmed<'_> {
         let is_there = path.along.last().is_some()
             && (self.at(begin, lengths).0 - path.points[path.points.len() - 1]).norm() < NO_ZONE;
         let first = path.points.len() - usize::from(is_there);
-        path.anchors.push(first);
         for piece in usize::from(is_there)..=PIECES {
             let w = piece as f64 / PIECES as f64;
             let [before, after] =
@@ -155,7 +156,7 @@ impl Programmed<'_> {
                 self.feeds[after.1.min(self.feeds.len() - 1)]
             });
         }
-        path.anchors.push(path.points.len() - 1);
+        path.zones.push(first..path.points.len() - 1);
         first
     }
 
@@ -242,8 +243,14 @@ impl Rounded {
         };
         let joints = self.positions.len() / self.points.len();
         let at = |index: usize| &self.positions[index * joints..][..joints];
-        let is_anchor =
-            |index: usize| index == 0 || index == last || self.anchors.binary_search(&index).is_ok();
+        let zone = |index: usize| {
+            let next = self.zones.partition_point(|zone| zone.end <= index);
+            self.zones
+                .get(next)
+                .filter(|zone| zone.contains(&index))
+                .is_some()
+        };
+        let is_anchor = |index: usize| index == 0 || index == last || zone(index) || zone(index - 1);
         let mut between = vec![0.0; joints];
         for index in 0..=last {
             graded.add_at(self.along[index], self.points[index], at(index));
@@ -251,6 +258,9 @@ impl Rounded {
                 break;
             }
             graded.feeds.push(self.feeds[index]);
+            if zone(index) {
+                continue;
+            }
             let length = self.along[index + 1] - self.along[index];
             for way in grades(length, [is_anchor(index), is_anchor(index + 1)]) {
                 let part = way / length;

@@ -115,16 +115,16 @@ fn a_zone_keeps_more_of_the_feed_than_a_stop_and_leaves_the_corner() {
         let found = motion(&path, &model).unwrap();
         (found.speeds[200], found.blending[200].norm(), found.duration())
     };
-    let (mut slower, mut longer) = (0.0, 4.1);
+    // With a stop 4.08 s; without a corner 4.04 s.
+    let (mut slower, mut longer) = (0.0, 4.075);
     for zone in [0.0005, 0.002, 0.01, 0.05] {
         let (speed, error, duration) = at_corner(zone);
         assert!(
             (error - 0.5 * zone * 45f64.to_radians().sin()).abs() < 1e-12,
             "{error}"
         );
-        // Between 0.5 and 2 mm both are near the time without any corner, and the steps of the parabola count.
         assert!(
-            speed >= slower && duration < longer + 2e-3,
+            speed >= slower && duration < longer,
             "{zone}: {speed} {duration} {longer}"
         );
         (slower, longer) = (speed, duration);
@@ -276,34 +276,4 @@ fn a_point_without_posture_divides_the_path_and_has_no_time() {
     assert!(found.times[50].is_nan() && found.speeds[50].is_nan());
     assert!([49, 51, 299, 300].iter().all(|index| found.speeds[*index] < 1e-8));
     assert!(found.times[51] >= found.times[49]);
-}
-#[test]
-fn zz_print() {
-    let path = path(&L);
-    let points: Vec<Point3<f64>> = path.points.iter().map(|point| point.at).collect();
-    let positions: Vec<f64> = points.iter().flat_map(|at| [at.x, at.y, at.z]).collect();
-    let feeds = vec![0.1; 400];
-    let r = crate::motion::Programmed {
-        points: &points,
-        positions: &positions,
-        feeds: &feeds,
-        zones: &[(200, 0.002)],
-    }
-    .rounded();
-    let m = slides(2.5);
-    let jp = JointPath::new(3, &r.positions, r.along.clone(), |_| false);
-    let p = fastest(&jp, &m.limits, &r.feeds);
-    for i in 0..r.along.len() {
-        if (r.along[i] - 0.199).abs() < 0.012 || i < 12 {
-            println!(
-                "{i} s {:.6} v {:.5} t {:.5} {:?} d {:?}",
-                r.along[i],
-                p.speeds[i],
-                p.times[i],
-                p.limiting[i],
-                jp.after(i).take(2).collect::<Vec<_>>()
-            );
-        }
-    }
-    println!("{}", p.times.last().unwrap());
 }
