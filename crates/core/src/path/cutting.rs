@@ -207,7 +207,7 @@ impl Cutting {
     }
 
     /// The cutter with the size given in an operation.
-    fn cutter_of(&self, operation: &Operation) -> Result<Cutter, NoForces> {
+    pub(super) fn cutter_of(&self, operation: &Operation) -> Result<Cutter, NoForces> {
         let Some(diameter) = operation.diameter.filter(|diameter| *diameter > 0.0) else {
             return Ok(self.cutter);
         };
