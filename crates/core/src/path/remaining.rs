@@ -136,7 +136,10 @@ impl RemainingStock {
             for y in changed[1].clone() {
                 for x in changed[0].clone() {
                     let greatest = self.greatest_below(level, [x, y]);
-                    let Level { squares, greatest: all } = &mut self.levels[level];
+                    let Level {
+                        squares,
+                        greatest: all,
+                    } = &mut self.levels[level];
                     all[y * squares[0] + x] = greatest;
                 }
             }
@@ -151,7 +154,8 @@ impl RemainingStock {
         };
         let [columns, rows] = [0, 1].map(|k| at[k] * SIDE..((at[k] + 1) * SIDE).min(count[k]));
         let of_row = |row: usize| &heights[row * count[0]..][columns.clone()];
-        rows.flat_map(of_row).fold(0.0, |most: f32, height| most.max(*height))
+        rows.flat_map(of_row)
+            .fold(0.0, |most: f32, height| most.max(*height))
     }
 
     /// The box around the columns of a square; `None` where no material is left. Level 0 are the cells.

@@ -78,16 +78,32 @@ fn the_holder_keeps_the_clearance_from_the_stock_that_is_left() {
     let nearest = |path: &armill_study::answer::PathAnswer| path.nearest.clone().unwrap().join(" and ");
     // 1 mm deep: a holder 3 mm above the tip is 2 mm above the banks of the slot, which is narrower than the holder.
     let above = with_holder(20.0, 3.0, "");
-    assert_eq!((above.in_collision, &nearest(&above)[..]), (0, "holder and stock"));
-    assert!((above.least_clearance_mm.unwrap() - 2.0).abs() < 1e-4, "{above:?}");
+    assert_eq!(
+        (above.in_collision, &nearest(&above)[..]),
+        (0, "holder and stock")
+    );
+    assert!(
+        (above.least_clearance_mm.unwrap() - 2.0).abs() < 1e-4,
+        "{above:?}"
+    );
     // A demand of 2.5 mm is missed where the holder is within that of the stock: first 10 mm and 1.5 mm before the block.
     let demanding = with_holder(20.0, 3.0, "least_clearance_mm = 2.5\n");
-    let first = demanding.obstacles.iter().find(|found| found.kind == "collision").unwrap();
-    assert!(demanding.in_collision > 100 && (first.value - 0.5).abs() < 1e-4, "{first:?}");
+    let first = demanding
+        .obstacles
+        .iter()
+        .find(|found| found.kind == "collision")
+        .unwrap();
+    assert!(
+        demanding.in_collision > 100 && (first.value - 0.5).abs() < 1e-4,
+        "{first:?}"
+    );
     assert!((demanding.least_clearance_mm.unwrap() - 2.0).abs() < 1e-4);
     // Half a millimetre above the tip it hits the banks.
     let low = with_holder(20.0, 0.5, "");
-    assert!(low.in_collision > 100 && low.least_clearance_mm == Some(0.0), "{low:?}");
+    assert!(
+        low.in_collision > 100 && low.least_clearance_mm == Some(0.0),
+        "{low:?}"
+    );
     assert_eq!(low.unreachable, low.in_collision);
     // A shank in the slot, 10 mm wide: half a millimetre above its floor, 2 mm from its walls.
     let shank = with_holder(6.0, 0.5, "");

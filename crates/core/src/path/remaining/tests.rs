@@ -47,7 +47,10 @@ fn distances_of_a_holder_over_a_slot_are_those_of_plane_geometry() {
     // Tolerance: heights are single precision, 20 mm to 1e-6 mm.
     let check = |diameter: f64, at: [f64; 2], expected: f64| {
         let found = distance_mm(&remaining, &holder(diameter, at));
-        assert!((found - expected).abs() < 2e-6, "{diameter} {at:?}: {found} {expected}");
+        assert!(
+            (found - expected).abs() < 2e-6,
+            "{diameter} {at:?}: {found} {expected}"
+        );
     };
     // Wider than the slot: above its banks. A cutter that is 8 mm long in a slot 6 mm deep leaves 2 mm.
     check(16.0, [0.0, -6.0 + 8.0], 2.0);
@@ -73,9 +76,16 @@ fn a_stock_that_is_cut_through_is_no_longer_in_the_way() {
 
 /// The surface of a tetrahedron that leans, normals outwards.
 fn wedge() -> Vec<[Point3<f64>; 3]> {
-    let corners = [[-4.0, -3.0, -6.0], [4.0, -2.0, -5.0], [0.0, 5.0, -6.0], [2.0, 1.0, 12.0]];
+    let corners = [
+        [-4.0, -3.0, -6.0],
+        [4.0, -2.0, -5.0],
+        [0.0, 5.0, -6.0],
+        [2.0, 1.0, 12.0],
+    ];
     let at = |index: usize| Point3::from(corners[index]) * MM;
-    [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]].map(|face| face.map(at)).to_vec()
+    [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]
+        .map(|face| face.map(at))
+        .to_vec()
 }
 
 /// The least distance of all columns, m.
@@ -98,7 +108,10 @@ fn the_nearest_column_is_that_of_all_columns_for_bodies_of_every_shape() {
         from: Point3::new(0.0, 0.0, -6.0) * MM,
         to: Point3::new(1.0, 0.0, 9.0) * MM,
     };
-    let capsule = Capsule { axis, radius: 3.0 * MM };
+    let capsule = Capsule {
+        axis,
+        radius: 3.0 * MM,
+    };
     let corners = [[-4.0, -2.0, -6.0], [3.0, 5.0, 9.0]].map(|corner| Point3::from(corner) * MM);
     let shapes = [
         Shape::Capsule(capsule),

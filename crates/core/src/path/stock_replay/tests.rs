@@ -86,7 +86,9 @@ fn the_stock_at_each_point_is_that_of_the_engagement_up_to_it() {
             points: whole.points[..=index].to_vec(),
             ..whole.clone()
         };
-        cutting().along(&until, &placing(), Some(&mut cut), Watch::NONE).unwrap();
+        cutting()
+            .along(&until, &placing(), Some(&mut cut), Watch::NONE)
+            .unwrap();
         assert_eq!(heights, cut.heights(), "point {index}");
         assert!(index == 0 || index == 3 || *heights != found[index - 1]);
     }

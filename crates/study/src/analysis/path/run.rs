@@ -6,8 +6,8 @@ use armill_core::frame::Isometry;
 use armill_core::kernel::{Answers, evaluate_posture};
 use armill_core::load::PathLoad;
 use armill_core::map::{
-    AlongPath, ProgramLimits, RadialDeviation, along_path, along_postures, measure_stock_clearances, obstacles,
-    program_limits, radial_deviations, worst_points,
+    AlongPath, ProgramLimits, RadialDeviation, along_path, along_postures, measure_stock_clearances,
+    obstacles, program_limits, radial_deviations, worst_points,
 };
 use armill_core::nalgebra::{Point3, Translation3, UnitQuaternion};
 use armill_core::optimize::{
@@ -256,8 +256,7 @@ impl Runner<'_> {
             return Ok(());
         };
         let question = self.question(&analysis.setting);
-        let measured =
-            measure_stock_clearances(&question, track, (&cut.cutting, stock), along, self.watch);
+        let measured = measure_stock_clearances(&question, track, (&cut.cutting, stock), along, self.watch);
         measured.map_err(|error| no_forces(analysis, &error))
     }
 
