@@ -94,7 +94,7 @@ fn the_holder_keeps_the_clearance_from_the_stock_that_is_left() {
         .find(|found| found.kind == "collision")
         .unwrap();
     assert!(
-        demanding.in_collision > 100 && (first.value - 0.5).abs() < 1e-4,
+        demanding.in_collision > 100 && (first.value.unwrap() - 0.5).abs() < 1e-4,
         "{first:?}"
     );
     assert!((demanding.least_clearance_mm.unwrap() - 2.0).abs() < 1e-4);

@@ -154,7 +154,7 @@ fn the_nearest_column_is_that_of_all_columns_for_bodies_of_every_shape() {
 }
 
 #[test]
-fn the_pyramid_of_a_cut_stock_is_that_of_the_same_stock_made_anew() {
+fn the_pyramid_of_a_cut_stock_is_that_of_a_new_one_of_the_same_heights() {
     let mut remaining = RemainingStock::new(block());
     let mut stream = Stream(5);
     for _ in 0..30 {
