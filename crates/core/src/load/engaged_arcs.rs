@@ -30,7 +30,7 @@ use super::arc::EngagedArc;
 use super::arcs_of_point::EngagedArcs;
 use super::cut::Cut;
 use super::cutter::{Cutter, EdgePoint};
-use super::pass_before::PassBefore;
+use super::pass_before::{CLOSE, PassBefore};
 
 /// `across rho cos(phi - direction) + along zeta <= bound`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -119,6 +119,15 @@ impl LeaningCut {
 
     /// Where the point of an edge cuts; `corner_radius` in m.
     pub(super) fn arcs_at(&self, point: &EdgePoint, corner_radius: f64) -> EngagedArcs {
+        self.arcs_within(point, corner_radius, CLOSE)
+    }
+
+    /// The same where the conditions that make the ends matter alone: ends without a closed form are not refined.
+    pub(super) fn rough_arcs_at(&self, point: &EdgePoint, corner_radius: f64) -> EngagedArcs {
+        self.arcs_within(point, corner_radius, f64::INFINITY)
+    }
+
+    fn arcs_within(&self, point: &EdgePoint, corner_radius: f64, close: f64) -> EngagedArcs {
         let mut arcs = EngagedArcs::one(Some(EngagedArc {
             entry: 0.0,
             exit: TAU,
@@ -131,7 +140,7 @@ impl LeaningCut {
             side.keep(&mut arcs, at, number);
         }
         match &self.pass_before {
-            Some(pass) => pass.beyond(&arcs, at),
+            Some(pass) => pass.beyond(&arcs, at, close),
             None => arcs,
         }
     }

@@ -43,13 +43,13 @@ const LOW: usize = 17;
 const LEAST_LEAN: f64 = 1e-4;
 const FIRST: f64 = 1e-3;
 /// Samples of an arc are no farther apart than this, rad.
-const STEP: f64 = 0.25;
+const STEP: f64 = 0.35;
 /// Fewest and most intervals between samples of an arc.
-const SAMPLES: [usize; 2] = [4, 26];
+const SAMPLES: [usize; 2] = [4, 18];
 /// Steps of the false position, at most: some 7 are needed.
 const MOST_ROUNDS: usize = 60;
 /// Angle to which the ends of arcs are found, rad.
-const CLOSE: f64 = 1e-13;
+pub(super) const CLOSE: f64 = 1e-12;
 
 /// The pass before.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -151,8 +151,8 @@ impl PassBefore {
     }
 
     /// The parts of `arcs` on which a point at this radius and height over the centres of the corner (m) is beyond the
-    /// profile.
-    pub(super) fn beyond(&self, arcs: &EngagedArcs, [rho, zeta]: [f64; 2]) -> EngagedArcs {
+    /// profile; their new ends are found within `close`, rad.
+    pub(super) fn beyond(&self, arcs: &EngagedArcs, [rho, zeta]: [f64; 2], close: f64) -> EngagedArcs {
         let [side, normal] = [self.side, self.normal].map(|along| along * rho);
         let offset = self.side.z * zeta + self.stepover;
         let height = self.normal.z * zeta + self.height;
@@ -172,9 +172,9 @@ impl PassBefore {
             let (mut before, mut here) = (sample(0), sample(1));
             let mut entry = (before[1] > 0.0).then_some((arc.entry, first));
             let mut pass = |from: [f64; 2], to: [f64; 2]| match entry {
-                None if to[1] > 0.0 => entry = Some((crossing(&by, from, to), CONDITION)),
+                None if to[1] > 0.0 => entry = Some((crossing(&by, [from, to], close), CONDITION)),
                 Some((begin, begun)) if to[1] <= 0.0 => {
-                    let exit = crossing(&by, from, to);
+                    let exit = crossing(&by, [from, to], close);
                     beyond.push(EngagedArc { entry: begin, exit }, [begun, CONDITION]);
                     entry = None;
                 }
@@ -220,11 +220,11 @@ fn turn([before, here, after]: [[f64; 2]; 3]) -> Option<f64> {
     is_turn.then(vertex)
 }
 
-/// Where `by` is zero between two samples of different sign.
-fn crossing(by: &impl Fn(f64) -> f64, from: [f64; 2], to: [f64; 2]) -> f64 {
-    let ([mut a, mut at_a], [mut b, mut at_b]) = (from, to);
+/// Where `by` is zero between two samples of different sign, within `close`.
+fn crossing(by: &impl Fn(f64) -> f64, samples: [[f64; 2]; 2], close: f64) -> f64 {
+    let [[mut a, mut at_a], [mut b, mut at_b]] = samples;
     for _ in 0..MOST_ROUNDS {
-        if b - a <= CLOSE {
+        if b - a <= close {
             break;
         }
         let next = (a * at_b - b * at_a) / (at_b - at_a);

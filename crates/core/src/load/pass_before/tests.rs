@@ -41,7 +41,7 @@ fn arcs_are_cut_where_a_point_passes_the_profile_even_twice_between_samples() {
     let samples = [0.4, 0.6, 0.8].map(|phi| [phi, parabola(phi)]);
     let turn = turn(samples).unwrap();
     assert!((turn - 0.62).abs() < 1e-12);
-    let between = |from: f64, to: f64| crossing(&parabola, [from, parabola(from)], [to, parabola(to)]);
+    let between = |from: f64, to: f64| crossing(&parabola, [from, to].map(|phi| [phi, parabola(phi)]), CLOSE);
     assert!((between(0.4, turn) - 0.61).abs() < 1e-12 && (between(turn, 0.8) - 0.63).abs() < 1e-12);
     // No turn: rising samples, and samples on both sides.
     assert_eq!(super::turn([[0.0, 1.0], [1.0, 2.0], [2.0, 3.0]]), None);
