@@ -20,6 +20,8 @@ const OF_VOLUME: f64 = 1e-3;
 
 /// A row of the record.
 struct Row {
+    /// Whether the side of the material is what the pass before left.
+    is_next_to_pass: bool,
     cutter: Cutter,
     cut: Cut,
     /// Along the feed, to its left, along the normal, N.
@@ -30,8 +32,10 @@ struct Row {
 pub fn checks() -> Vec<Check> {
     let rows: Vec<Row> = FORCES.lines().skip(1).filter_map(row).collect();
     let upright = |row: &&Row| row.cut.lean.lean == Lean::NONE;
+    let (next_to_pass, between_walls): (Vec<&Row>, Vec<&Row>) =
+        rows.iter().partition(|row| row.is_next_to_pass);
     let of = |rows: Vec<&Row>| worst(rows.into_iter().map(of_force));
-    let count = rows.len();
+    let (count, next) = (rows.len(), next_to_pass.len());
     let bound = |worst: f64, tolerance: f64| ErrorBound {
         worst,
         tolerance,
@@ -45,15 +49,27 @@ pub fn checks() -> Vec<Check> {
             4,
         ),
         Check::printed(
-            format!("mean forces of leaning tools, over their length ({count} cuts with the upright ones)"),
+            format!("mean forces in slots and next to walls, over their length ({count} cuts in all)"),
             REFERENCE,
-            bound(of(rows.iter().filter(|row| !upright(row)).collect()), TOLERANCE),
+            bound(of(between_walls), TOLERANCE),
+            4,
+        ),
+        Check::printed(
+            format!("mean forces next to a pass before, over their length ({next} of these)"),
+            REFERENCE,
+            bound(of(next_to_pass), TOLERANCE),
             4,
         ),
         Check::printed(
             "volume of the chips of a slot of a ball nose in nine leans, relative",
             "section of the material times the feed",
             bound(worst(leans().map(of_volume)), OF_VOLUME),
+            4,
+        ),
+        Check::printed(
+            "volume of the chips of a ball nose next to a pass before in nine leans, relative",
+            "section between two circles times the feed",
+            bound(worst(leans().map(of_volume_next_to_pass)), OF_VOLUME),
             4,
         ),
     ]
@@ -65,11 +81,17 @@ fn row(line: &str) -> Option<Row> {
     let number = |index: usize| fields.get(index)?.parse::<f64>().ok();
     let mm = |index: usize| number(index).map(from_mm);
     let cutter = Cutter::bull_nose(mm(0)?, mm(1)?, fields.get(2)?.parse().ok()?).ok()?;
-    let immersion = match *fields.get(4)? {
+    let kind = *fields.get(4)?;
+    let immersion = match kind.trim_start_matches("wall-") {
         "slot" => Immersion::Slot,
         "up" => Immersion::Up(mm(5)?),
         "down" => Immersion::Down(mm(5)?),
         _ => return None,
+    };
+    let upright = cut(&cutter, immersion, mm(3)?)?;
+    let upright = match kind.starts_with("wall-") {
+        true => at_wall(&cutter, upright)?,
+        false => upright,
     };
     let lean = Lean {
         lead: from_deg(number(6)?),
@@ -77,7 +99,8 @@ fn row(line: &str) -> Option<Row> {
     };
     Some(Row {
         cutter,
-        cut: cut(&cutter, immersion, mm(3)?)?.leaning(lean, cutter.body()),
+        is_next_to_pass: upright.engagement.pass_before().is_some(),
+        cut: upright.leaning(lean, cutter.body()),
         force: Vector3::new(number(8)?, number(9)?, number(10)?),
     })
 }
@@ -90,6 +113,18 @@ fn cut(cutter: &Cutter, immersion: Immersion, depth: f64) -> Option<Cut> {
         rise: 0.0,
         lean: LeanInCut::default(),
     })
+}
+
+/// The cut with a wall where the pass before was, at the radial depth from the widest circle that cuts.
+fn at_wall(cutter: &Cutter, cut: Cut) -> Option<Cut> {
+    let (displaced, radius) = (cut.engagement.pass_before()?, cutter.radius());
+    let widest = cutter.at_height(cut.depth).radius;
+    let edges = match displaced < 0.0 {
+        true => [widest + displaced, radius],
+        false => [-radius, displaced - widest],
+    };
+    let engagement = Engagement::strip(edges, cutter.diameter()).ok()?;
+    Some(Cut { engagement, ..cut })
 }
 
 /// Difference of a mean force, over its length.
@@ -116,18 +151,46 @@ fn leans() -> impl Iterator<Item = Lean> {
         .flat_map(move |lead| angles.map(|tilt| Lean { lead, tilt }))
 }
 
-/// Relative difference of the volume that the teeth of a ball nose remove from that of its track: a segment of a circle times
-/// the feed. With a tangential force of 1 N for 1 m2 of chip the torque is the volume per radian.
+/// Radius of a ball nose, its depth and the distance of the pass before, m.
+const BALL: [f64; 3] = [6e-3, 1e-3, 2.5e-3];
+
+/// Relative difference of the volume that the teeth of a ball nose remove in a slot from a segment of a circle times the
+/// feed.
 fn of_volume(lean: Lean) -> f64 {
-    let (radius, depth, flutes) = (6e-3, 1e-3, 2);
-    let of_lean = || {
-        let cutter = Cutter::ball(2.0 * radius, flutes).ok()?;
-        let law = CuttingLaw::Mechanistic(Mechanistic::new(Vector3::x(), Vector3::zeros()).ok()?);
-        let cut = cut(&cutter, Immersion::Slot, depth)?.leaning(lean, cutter.body());
-        let torque = Milling::new(cutter, law, cut).ok()?.mean_torque();
-        Some(torque * std::f64::consts::TAU / f64::from(flutes))
-    };
+    removed(Immersion::Slot, lean).map_or(f64::NAN, |removed| removed / (segment() * FEED) - 1.0)
+}
+
+/// The same next to a pass before: the segment less what both circles have in common below the surface.
+fn of_volume_next_to_pass(lean: Lean) -> f64 {
+    let [radius, depth, stepover] = BALL;
     let half = (1.0 - depth / radius).acos();
-    let segment = radius * radius * (half - half.sin() * half.cos());
-    of_lean().map_or(f64::NAN, |removed| removed / (segment * FEED) - 1.0)
+    // Half the width of the common part is that of the segment less half the stepover; it ends at the ridge.
+    let (wide, ridge) = (radius * half.sin(), 0.5 * stepover);
+    let under = |y: f64| 0.5 * (y * (radius * radius - y * y).sqrt() + radius * radius * (y / radius).asin());
+    let common = 2.0 * (under(wide) - under(ridge) - (wide - ridge) * (radius - depth));
+    let expected = (segment() - common) * FEED;
+    let up = removed(Immersion::Up(stepover), lean);
+    let down = removed(Immersion::Down(stepover), lean);
+    match (up, down) {
+        (Some(up), Some(down)) => worst([up, down].map(|removed| removed / expected - 1.0)),
+        _ => f64::NAN,
+    }
+}
+
+/// Section of the track of the ball, m2.
+fn segment() -> f64 {
+    let [radius, depth, _] = BALL;
+    let half = (1.0 - depth / radius).acos();
+    radius * radius * (half - half.sin() * half.cos())
+}
+
+/// Volume that a tooth of the ball removes in a turn, m3: with a tangential force of 1 N for 1 m2 of chip the torque is the
+/// volume per radian.
+fn removed(immersion: Immersion, lean: Lean) -> Option<f64> {
+    let ([radius, depth, _], flutes) = (BALL, 2);
+    let cutter = Cutter::ball(2.0 * radius, flutes).ok()?;
+    let law = CuttingLaw::Mechanistic(Mechanistic::new(Vector3::x(), Vector3::zeros()).ok()?);
+    let cut = cut(&cutter, immersion, depth)?.leaning(lean, cutter.body());
+    let torque = Milling::new(cutter, law, cut).ok()?.mean_torque();
+    Some(torque * std::f64::consts::TAU / f64::from(flutes))
 }

@@ -1,9 +1,10 @@
 """Mean cutting forces of leaning end mills from a map of heights of the material: writes forces.tsv.
 
-    python3 record.py          needs numpy; some ten minutes
+    python3 record.py          needs numpy; some minutes
 
 The material is a layer of the depth ap over the surface z = 0, as wide as the strip that is cut. A pass before this moment
-is made step by step: the heights under the body of the tool are taken away at each step behind its present position. Then
+is made step by step: the heights under the body of the tool are taken away at each step behind its present position. Of the
+kinds "up" and "down" the same tool has passed before beside it, of the others the sides of the strip are walls. Then
 points of the edges are turned through a revolution; a point cuts where it is below the remaining height. No angle of the
 engagement is computed, and no normal decides where a tooth cuts.
 
@@ -12,8 +13,9 @@ mm, N; x along the feed, y to its left, z along the normal of the surface.
 
 import numpy as np
 
-STEP = 0.01  # of the map along the feed and of the pass
-ACROSS = 0.02  # of the map across the feed
+# Step of the map along the feed and of the pass, and across the feed. Near the tip of a ball nose the surfaces of both passes
+# are almost parallel: the map decides there for a border that is wider than its cells.
+CELLS = {"ball": (0.005, 0.005), "bull": (0.01, 0.02)}
 TURNS = 1440
 SLICES = 500
 FEED = 0.1  # per tooth
@@ -26,16 +28,28 @@ CASES = [
     (12.0, 6.0, 2, 1.0, "slot", 0.0, 0.0, 0.0),
     (12.0, 6.0, 2, 1.0, "slot", 0.0, 15.0, 0.0),
     (12.0, 6.0, 2, 1.0, "slot", 0.0, -15.0, 10.0),
+    (12.0, 6.0, 2, 0.5, "wall-up", 1.2, 20.0, 0.0),
+    (12.0, 6.0, 2, 0.5, "wall-down", 1.2, 20.0, 0.0),
+    (12.0, 6.0, 2, 0.5, "wall-up", 1.2, 10.0, -25.0),
+    (12.0, 6.0, 2, 0.5, "wall-down", 1.2, -10.0, 25.0),
+    (25.0, 5.0, 3, 1.0, "wall-up", 6.0, 0.0, 0.0),
+    (25.0, 5.0, 3, 1.0, "slot", 0.0, 10.0, 0.0),
+    (25.0, 5.0, 3, 1.0, "wall-up", 3.0, 5.0, 10.0),
+    (25.0, 5.0, 3, 1.0, "wall-down", 3.0, 15.0, -20.0),
+    (25.0, 5.0, 3, 0.6, "wall-down", 2.0, 8.0, 30.0),
+    (25.0, 5.0, 3, 1.5, "slot", 0.0, -8.0, 5.0),
+    (12.0, 6.0, 2, 0.5, "up", 1.2, 0.0, 0.0),
+    (12.0, 6.0, 2, 0.5, "down", 1.2, 0.0, 0.0),
     (12.0, 6.0, 2, 0.5, "up", 1.2, 20.0, 0.0),
     (12.0, 6.0, 2, 0.5, "down", 1.2, 20.0, 0.0),
     (12.0, 6.0, 2, 0.5, "up", 1.2, 10.0, -25.0),
     (12.0, 6.0, 2, 0.5, "down", 1.2, -10.0, 25.0),
+    (12.0, 6.0, 2, 1.0, "up", 3.0, 15.0, 0.0),
     (25.0, 5.0, 3, 1.0, "up", 6.0, 0.0, 0.0),
-    (25.0, 5.0, 3, 1.0, "slot", 0.0, 10.0, 0.0),
+    (25.0, 5.0, 3, 1.0, "down", 3.0, 0.0, 0.0),
     (25.0, 5.0, 3, 1.0, "up", 3.0, 5.0, 10.0),
     (25.0, 5.0, 3, 1.0, "down", 3.0, 15.0, -20.0),
     (25.0, 5.0, 3, 0.6, "down", 2.0, 8.0, 30.0),
-    (25.0, 5.0, 3, 1.5, "slot", 0.0, -8.0, 5.0),
 ]
 
 
@@ -117,7 +131,7 @@ def widest(heights, y, ap):
     for last, step in ((below[0], -1), (below[-1], 1)):
         beyond = profile[last + step]
         part = (ap - profile[last]) / (beyond - profile[last]) if np.isfinite(beyond) else 0.5
-        ends.append(y[last] + step * part * ACROSS)
+        ends.append(y[last] + step * part * (y[1] - y[0]))
     return ends
 
 
@@ -125,15 +139,22 @@ def mean_force(diameter, corner, teeth, ap, kind, ae, lead, tilt):
     axis = axis_of(np.radians(lead), np.radians(tilt))
     body = Body(diameter, corner, axis)
     half = diameter / 2 + 2.0
-    x = np.arange(-half, half, STEP)
-    y = np.arange(-half, half, ACROSS) + ACROSS / 2
+    step, across = CELLS["ball" if body.flat == 0 else "bull"]
+    x = np.arange(-half, half, step)
+    y = np.arange(-half, half, across) + across / 2
     heights = body.heights(x, y)
     right, left = widest(heights, y, ap)
-    sides = {"slot": (-np.inf, np.inf), "up": (left - ae, np.inf), "down": (-np.inf, right + ae)}[kind]
+    free = (-np.inf, np.inf)
+    sides = {"wall-up": (left - ae, np.inf), "wall-down": (-np.inf, right + ae)}.get(kind, free)
     # The pass: behind the present position the tool was at every step, so that over a position its heights ahead were.
     ahead = np.minimum.accumulate(heights[::-1], axis=0)[::-1]
     remaining = np.full(heights.shape, ap)
     remaining[:-1] = np.minimum(ap, ahead[1:])
+    # The same tool passed before, by the stepover to the side of it that has no material.
+    before = {"up": -ae, "down": ae}.get(kind)
+    if before is not None:
+        lowest = np.minimum(heights.min(axis=0), ap + 10.0)
+        remaining = np.minimum(remaining, np.interp(y - before, y, lowest, left=ap + 10.0, right=ap + 10.0))
     edge = body.edge(ap)
     height, radius, sin_kappa, cos_kappa, width = edge.T
     force = np.zeros(3)
@@ -143,7 +164,7 @@ def mean_force(diameter, corner, teeth, ap, kind, ae, lead, tilt):
         at = body.centre + np.outer(radius, out) + np.outer(height - corner, axis)
         i = np.clip(np.searchsorted(x, at[:, 0]) - 1, 0, len(x) - 2)
         j = np.clip(np.searchsorted(y, at[:, 1]) - 1, 0, len(y) - 2)
-        u, v = (at[:, 0] - x[i]) / STEP, (at[:, 1] - y[j]) / ACROSS
+        u, v = (at[:, 0] - x[i]) / step, (at[:, 1] - y[j]) / across
         near = remaining[i, j] * (1 - u) + remaining[i + 1, j] * u
         far = remaining[i, j + 1] * (1 - u) + remaining[i + 1, j + 1] * u
         here = near * (1 - v) + far * v

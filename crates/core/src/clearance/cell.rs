@@ -9,6 +9,7 @@
 //! | what carries the arm, and an obstacle that it touches in every posture | no: it rides on it |
 //! | a cutter and the part | no: it cuts it |
 //! | a holder and the part, the arm and anything that stands still | yes |
+//! | a holder or a link, and the stock that is cut along a path | yes, by [`crate::map::measure_stock_clearances`] |
 
 use nalgebra::IsometryMatrix3;
 
@@ -23,6 +24,9 @@ use crate::robot::Attachment;
 
 /// Longest edge of the triangles of a mesh of the arm whose distance is bounded, m.
 const PIECE_EDGE: f64 = 0.03;
+
+/// Name of the stock that is cut along a path.
+const STOCK: &str = "stock";
 
 /// What a body of the arm is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -177,13 +181,22 @@ pub struct Clearance {
 }
 
 impl Cell {
-    /// Name of a body of a [`Clearance`]: those of the arm first, then obstacles, then the part, then the floor.
+    /// Name of a body of a [`Clearance`]: those of the arm first, then obstacles, then the part, then the floor, then the stock.
     pub fn name(&self, index: usize) -> &str {
+        let mut names = self.names();
+        names.nth(index).map_or(STOCK, String::as_str)
+    }
+
+    /// Index of the stock that is cut along a path, which is no body of the cell.
+    pub fn stock_index(&self) -> usize {
+        self.names().count()
+    }
+
+    fn names(&self) -> impl Iterator<Item = &String> {
         let still = [&self.obstacles, &self.part].into_iter().flatten();
         let arm = self.arm.iter().map(|body| &body.name);
         let floor = self.floor.iter().map(|floor| &floor.name);
-        let mut names = arm.chain(still.flat_map(|still| &still.names)).chain(floor);
-        names.nth(index).map_or("", String::as_str)
+        arm.chain(still.flat_map(|still| &still.names)).chain(floor)
     }
 
     /// The cell with a floor.

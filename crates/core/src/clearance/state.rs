@@ -91,7 +91,7 @@ impl<'a> CellState<'a> {
     }
 
     /// The bodies.
-    pub(super) fn cell(&self) -> &'a Cell {
+    pub fn cell(&self) -> &'a Cell {
         self.cell
     }
 

@@ -46,6 +46,14 @@ impl Cut {
                 ..*self
             };
         }
+        if self.engagement.pass_before().is_some() {
+            // The tool leaned in the same way there: its distance is the same.
+            let moved = [0.0; 2];
+            return Cut {
+                lean: LeanInCut { lean, moved },
+                ..*self
+            };
+        }
         let [upright, leaning] = [Lean::NONE, lean].map(|lean| body.extent(lean, self.depth));
         let moved = [0, 1].map(|side| leaning[side] - upright[side]);
         let [right, left] = self.engagement.edges();
@@ -65,13 +73,10 @@ impl Cut {
     /// The same with depth and edges of the engagement rounded to multiples of `part` of the `diameter` (m).
     #[must_use]
     pub(super) fn rounded(&self, part: f64, diameter: f64) -> Cut {
-        let (step, rim) = (part * diameter, diameter / 2.0);
-        let nearest = |value: f64| ((value / step).round() * step).clamp(-rim, rim);
-        let edges = self.engagement.edges().map(nearest);
+        let step = part * diameter;
         Cut {
             depth: (self.depth / step).round().max(1.0) * step,
-            // A strip thinner than a step keeps its edges.
-            engagement: Engagement::strip(edges, diameter).unwrap_or(self.engagement),
+            engagement: self.engagement.rounded(step, diameter / 2.0),
             ..*self
         }
     }

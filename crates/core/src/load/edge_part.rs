@@ -20,9 +20,10 @@
 //! Over a part the arcs have kinks where other conditions bound them. They are found by bisection, and each piece is integrated
 //! separately.
 
+use super::arcs_of_point::EngagedArcs;
 use super::cut::Cut;
 use super::cutter::{Cutter, EdgePoint};
-use super::engaged_arcs::{EngagedArcs, LeaningCut};
+use super::engaged_arcs::LeaningCut;
 
 /// A part of the edge.
 #[derive(Clone, Copy, Debug, PartialEq)]

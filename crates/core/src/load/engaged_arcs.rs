@@ -8,7 +8,7 @@
 //! n . p < ap - P . n      right < l . p < left           F . N > 0
 //! ```
 //!
-//! Each is `A cos(phi - delta) <= B`: an arc. The body is convex: a point with `F . N > 0` was never inside it before, and one with
+//! Next to a pass before, one side is its profile ([`super::pass_before`]). Each other condition is `A cos(phi - delta) <= B`: an arc. The body is convex: a point with `F . N > 0` was never inside it before, and one with
 //! `F . N < 0` just was.
 //!
 //! | symbol | meaning | unit |
@@ -27,94 +27,10 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use nalgebra::Vector3;
 
 use super::arc::EngagedArc;
+use super::arcs_of_point::EngagedArcs;
 use super::cut::Cut;
 use super::cutter::{Cutter, EdgePoint};
-
-/// Most arcs of a point: four conditions.
-const MOST: usize = 6;
-/// Ends of an arc that no condition makes.
-const NO_LIMIT: u8 = 9;
-
-/// Arcs over which a point of an edge cuts, in ascending order.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct EngagedArcs {
-    arcs: [EngagedArc; MOST],
-    /// The conditions that make the ends.
-    ends: [[u8; 2]; MOST],
-    count: usize,
-}
-
-impl EngagedArcs {
-    /// This arc, or none.
-    pub(super) fn one(arc: Option<EngagedArc>) -> EngagedArcs {
-        let mut arcs = EngagedArcs::none();
-        if let Some(arc) = arc {
-            arcs.push(arc, [NO_LIMIT; 2]);
-        }
-        arcs
-    }
-
-    fn none() -> EngagedArcs {
-        EngagedArcs {
-            arcs: [EngagedArc {
-                entry: 0.0,
-                exit: 0.0,
-            }; MOST],
-            ends: [[NO_LIMIT; 2]; MOST],
-            count: 0,
-        }
-    }
-
-    pub(super) fn is_empty(&self) -> bool {
-        self.count == 0
-    }
-
-    pub(super) fn iter(&self) -> impl Iterator<Item = EngagedArc> + '_ {
-        self.arcs[..self.count].iter().copied()
-    }
-
-    /// Whether one of them contains `phi` (rad, from 0 to a turn).
-    pub(super) fn contains(&self, phi: f64) -> bool {
-        let on = |turn: f64| move |arc: EngagedArc| arc.contains(phi + turn);
-        self.iter().any(on(0.0)) || self.iter().any(on(TAU)) || self.iter().any(on(-TAU))
-    }
-
-    /// Which conditions make their ends: it changes where the arcs have a kink.
-    pub(super) fn kind(&self) -> ([[u8; 2]; MOST], usize) {
-        (self.ends, self.count)
-    }
-
-    fn push(&mut self, arc: EngagedArc, ends: [u8; 2]) {
-        if self.count < MOST && arc.exit > arc.entry {
-            (self.arcs[self.count], self.ends[self.count]) = (arc, ends);
-            self.count += 1;
-        }
-    }
-
-    /// The parts of them inside `permitted`, or in whole turns from it.
-    fn within(&self, permitted: EngagedArc, condition: u8) -> EngagedArcs {
-        let mut within = EngagedArcs::none();
-        for (arc, ends) in self.arcs.iter().zip(self.ends).take(self.count) {
-            let mut turn = TAU * ((arc.entry - permitted.exit) / TAU).ceil();
-            while permitted.entry + turn < arc.exit {
-                let [entry, exit] = [permitted.entry + turn, permitted.exit + turn];
-                let (entry, first) = if entry > arc.entry {
-                    (entry, condition)
-                } else {
-                    (arc.entry, ends[0])
-                };
-                let (exit, last) = if exit < arc.exit {
-                    (exit, condition)
-                } else {
-                    (arc.exit, ends[1])
-                };
-                within.push(EngagedArc { entry, exit }, [first, last]);
-                turn += TAU;
-            }
-        }
-        within
-    }
-}
+use super::pass_before::{CLOSE, PassBefore};
 
 /// `across rho cos(phi - direction) + along zeta <= bound`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -164,6 +80,7 @@ pub(super) struct LeaningCut {
     pub(super) lean: [f64; 2],
     below: Condition,
     sides: [Option<Condition>; 2],
+    pass_before: Option<PassBefore>,
     in_front: Condition,
 }
 
@@ -179,14 +96,17 @@ impl LeaningCut {
         let radius = cutter.radius();
         let moved = cut.lean.moved;
         let feed = [across, along];
+        let pass_before = PassBefore::of(cutter, cut);
+        let has_walls = pass_before.is_none();
         LeaningCut {
             feed,
             lean: [normal.z, normal.xy().norm()],
             below: Condition::of(normal, cut.depth - body.height_over_surface(&axis)),
             sides: [
-                (right_edge > -radius).then(|| Condition::of(-left, -(right_edge + moved[0]))),
-                (left_edge < radius).then(|| Condition::of(left, left_edge + moved[1])),
+                (has_walls && right_edge > -radius).then(|| Condition::of(-left, -(right_edge + moved[0]))),
+                (has_walls && left_edge < radius).then(|| Condition::of(left, left_edge + moved[1])),
             ],
+            pass_before,
             // With the sine and the cosine of the axial immersion angle for radius and height.
             in_front: Condition {
                 direction: -FRAC_PI_2,
@@ -199,6 +119,15 @@ impl LeaningCut {
 
     /// Where the point of an edge cuts; `corner_radius` in m.
     pub(super) fn arcs_at(&self, point: &EdgePoint, corner_radius: f64) -> EngagedArcs {
+        self.arcs_within(point, corner_radius, CLOSE)
+    }
+
+    /// The same where the conditions that make the ends matter alone: ends without a closed form are not refined.
+    pub(super) fn rough_arcs_at(&self, point: &EdgePoint, corner_radius: f64) -> EngagedArcs {
+        self.arcs_within(point, corner_radius, f64::INFINITY)
+    }
+
+    fn arcs_within(&self, point: &EdgePoint, corner_radius: f64, close: f64) -> EngagedArcs {
         let mut arcs = EngagedArcs::one(Some(EngagedArc {
             entry: 0.0,
             exit: TAU,
@@ -210,7 +139,10 @@ impl LeaningCut {
         for (side, number) in self.sides.iter().flatten().zip([2, 3]) {
             side.keep(&mut arcs, at, number);
         }
-        arcs
+        match &self.pass_before {
+            Some(pass) => pass.beyond(&arcs, at, close),
+            None => arcs,
+        }
     }
 }
 

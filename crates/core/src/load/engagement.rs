@@ -29,6 +29,14 @@
 //! | `v`, `omega`, `N` | feed speed, spindle speed, number of flutes | m/s, rad/s, - |
 //! | `h` | chip thickness | m |
 //!
+//! The side of the material that a ball or a bull nose end mill leaves is no wall: the pass before, of the same tool at the
+//! distance `ae` on the same level, left its own profile. At every height the strip is therefore `ae` wide, where the
+//! tool is not narrower than that:
+//!
+//! ```text
+//! up:       right edge = R(z) - ae          down:    left edge = ae - R(z)          slot at R(z) < ae/2
+//! ```
+//!
 //! Teeth run on circles: the trochoid that they really run on changes the chip by some `N c/(2 pi R)` of itself.
 //!
 //! Source: plane geometry; `docs/theory/cutting.md`.
@@ -59,10 +67,13 @@ pub struct Engagement {
     right: f64,
     /// Where it ends on the left, m.
     left: f64,
+    /// Of a strip whose inner side is the profile that the pass before left: how far to the left of this pass it was, m;
+    /// its edges are those at the widest circle of the tool. `None` if both sides are walls along the feed.
+    pass_before: Option<f64>,
 }
 
 impl Engagement {
-    /// The engagement of a tool of this `diameter` (m).
+    /// The engagement of a tool of this `diameter` (m) with walls along the feed.
     ///
     /// # Errors
     /// A radial depth that is not above zero or beyond the diameter.
@@ -72,49 +83,59 @@ impl Engagement {
             // The least positive number: zero is not a valid radial depth.
             checked("radial depth of cut", ae, [f64::MIN_POSITIVE, diameter], "m")
         };
-        Ok(match immersion {
-            Immersion::Up(ae) => Engagement {
-                right: radius - depth(ae)?,
-                left: radius,
-            },
-            Immersion::Down(ae) => Engagement {
-                right: -radius,
-                left: depth(ae)? - radius,
-            },
-            Immersion::Centred(ae) => Engagement {
-                right: -depth(ae)? / 2.0,
-                left: ae / 2.0,
-            },
-            Immersion::Slot => Engagement {
-                right: -radius,
-                left: radius,
-            },
+        let [right, left] = match immersion {
+            Immersion::Up(ae) => [radius - depth(ae)?, radius],
+            Immersion::Down(ae) => [-radius, depth(ae)? - radius],
+            Immersion::Centred(ae) => [-depth(ae)? / 2.0, ae / 2.0],
+            Immersion::Slot => [-radius, radius],
+        };
+        Ok(Engagement::between_walls([right, left]))
+    }
+
+    fn between_walls([right, left]: [f64; 2]) -> Engagement {
+        Engagement {
+            right,
+            left,
+            pass_before: None,
+        }
+    }
+
+    /// Next to a pass of the same tool of this `radius` (m) that was `displaced` (m) to the left; `None` if there is nothing
+    /// between them.
+    fn next_to_pass(displaced: f64, radius: f64) -> Option<Engagement> {
+        let [right, left] = match displaced < 0.0 {
+            true => [(radius + displaced).max(-radius), radius],
+            false => [-radius, (displaced - radius).min(radius)],
+        };
+        (right < left).then_some(Engagement {
+            right,
+            left,
+            pass_before: Some(displaced),
         })
     }
 
     /// The engagement of `cutter` in a cut of this axial `depth` (m).
     ///
-    /// A tool that cuts only with its rounded corner is no wider than there: the radial depth is measured from the
-    /// widest engaged circle, and a part that reaches beyond it extends to the rim of the tool.
+    /// Of a ball or bull nose end mill with material on one side, the other side is what the pass before left: the radial
+    /// depth is its distance, the stepover. It is a wall for a flat end mill, where both are the same.
     ///
     /// # Errors
     /// As [`Engagement::of`].
     pub fn at_depth(immersion: Immersion, cutter: &Cutter, depth: f64) -> Result<Engagement, CuttingError> {
-        let given = Engagement::of(immersion, cutter.diameter())?;
-        let (radius, widest) = (cutter.radius(), cutter.at_height(depth).radius);
-        let narrower = radius - widest;
-        let reaches = |y: f64| if y >= widest { radius } else { y };
-        Ok(match immersion {
-            Immersion::Up(_) => Engagement {
-                right: -reaches(-(given.right - narrower)),
-                left: radius,
-            },
-            Immersion::Down(_) => Engagement {
-                right: -radius,
-                left: reaches(given.left + narrower),
-            },
-            Immersion::Centred(_) | Immersion::Slot => given,
-        })
+        let walls = Engagement::of(immersion, cutter.diameter())?;
+        let displaced = match immersion {
+            Immersion::Up(ae) => -ae,
+            Immersion::Down(ae) => ae,
+            Immersion::Centred(_) | Immersion::Slot => return Ok(walls),
+        };
+        if cutter.corner_radius() == 0.0 {
+            return Ok(walls);
+        }
+        // Farther than the tool is wide where it cuts: a slot.
+        if displaced.abs() >= 2.0 * cutter.at_height(depth).radius {
+            return Engagement::of(Immersion::Slot, cutter.diameter());
+        }
+        Ok(Engagement::next_to_pass(displaced, cutter.radius()).unwrap_or(walls))
     }
 
     /// The strip from `right` to `left` (m, to the left of the tool axis) before a tool of this `diameter` (m);
@@ -133,12 +154,19 @@ impl Engagement {
             [f64::MIN_POSITIVE, diameter],
             "m",
         )?;
-        Ok(Engagement { right, left })
+        Ok(Engagement::between_walls([right, left]))
     }
 
     /// The strip that a tool of this `radius` (m) cuts when it is displaced by `cross` (m) to the left; `None` if
-    /// that takes it past the strip. A strip that reaches the rim continues beyond it.
+    /// that takes it past the strip. A strip that reaches the rim continues beyond it; the pass before is where it was.
     pub fn deflected(&self, cross: f64, radius: f64) -> Option<Engagement> {
+        if let Some(displaced) = self.pass_before {
+            let moved = displaced - cross;
+            let is_between = moved * displaced > 0.0;
+            return is_between
+                .then(|| Engagement::next_to_pass(moved, radius))
+                .flatten();
+        }
         let left = if self.left >= radius {
             radius
         } else {
@@ -149,12 +177,16 @@ impl Engagement {
         } else {
             (self.right - cross).max(-radius)
         };
-        (right < left).then_some(Engagement { right, left })
+        (right < left).then_some(Engagement::between_walls([right, left]))
     }
 
     /// The strip made `width` (m) wide before a tool of this radius that is `widest` (m) where it cuts: from there
-    /// inwards, if it reaches a rim, else about its middle, as far as the tool goes. `None` if nothing is left.
+    /// inwards, if it reaches a rim, else about its middle, as far as the tool goes; next to a pass before, with that at this
+    /// distance. `None` if nothing is left.
     pub fn of_width(&self, width: f64, [widest, radius]: [f64; 2]) -> Option<Engagement> {
+        if let Some(displaced) = self.pass_before {
+            return Engagement::next_to_pass(width.copysign(displaced), radius).filter(|_| width > 0.0);
+        }
         let [right, left] = if self.left >= radius {
             [widest - width, radius]
         } else if self.right <= -radius {
@@ -166,7 +198,30 @@ impl Engagement {
         Engagement::strip([right, left], 2.0 * radius).ok()
     }
 
-    /// Right and left edge of the strip, m to the left of the tool axis.
+    /// The same with edges rounded to multiples of `step` (m) for a tool of this `radius` (m); a strip thinner than a step keeps
+    /// its edges.
+    #[must_use]
+    pub(super) fn rounded(&self, step: f64, radius: f64) -> Engagement {
+        let nearest = |value: f64| (value / step).round() * step;
+        let rounded = match self.pass_before {
+            Some(displaced) => Some(nearest(displaced))
+                .filter(|displaced| *displaced != 0.0)
+                .and_then(|displaced| Engagement::next_to_pass(displaced, radius)),
+            None => {
+                let edges = self.edges().map(|edge| nearest(edge).clamp(-radius, radius));
+                Engagement::strip(edges, 2.0 * radius).ok()
+            }
+        };
+        rounded.unwrap_or(*self)
+    }
+
+    /// How far to the left of this pass the one before was, m, if its profile is the side of the strip.
+    pub fn pass_before(&self) -> Option<f64> {
+        self.pass_before
+    }
+
+    /// Right and left edge of the strip, m to the left of the tool axis; next to a pass before those at the widest circle of
+    /// the tool.
     pub fn edges(&self) -> [f64; 2] {
         [self.right, self.left]
     }
@@ -179,17 +234,25 @@ impl Engagement {
     /// Where a point of the edge at `radius` (m) cuts; `None` if it passes outside the strip.
     pub fn arc_at(&self, radius: f64) -> Option<EngagedArc> {
         let angle = |y: f64| (y / radius).clamp(-1.0, 1.0).acos();
-        let outside = radius <= 0.0 || self.right >= radius || self.left <= -radius;
+        let [right, left] = match self.pass_before {
+            None => [self.right, self.left],
+            Some(displaced) if displaced < 0.0 => [radius + displaced, radius],
+            Some(displaced) => [-radius, displaced - radius],
+        };
+        let outside = radius <= 0.0 || right >= radius || left <= -radius;
         let arc = (!outside).then(|| EngagedArc {
-            entry: angle(self.left),
-            exit: angle(self.right),
+            entry: angle(left),
+            exit: angle(right),
         })?;
         (arc.exit > arc.entry).then_some(arc)
     }
 
     /// The radii at which the arc begins or ceases to depend on the radius: it has a kink there.
     pub(super) fn kinks(&self) -> [f64; 2] {
-        [self.right.abs(), self.left.abs()]
+        match self.pass_before {
+            None => [self.right.abs(), self.left.abs()],
+            Some(displaced) => [0.5 * displaced.abs(); 2],
+        }
     }
 }
 
@@ -295,38 +358,74 @@ mod tests {
     }
 
     #[test]
-    fn the_radial_depth_of_a_shallow_ball_is_measured_from_its_cutting_circle() {
+    fn the_profile_of_the_pass_before_is_met_where_two_circles_at_a_height_intersect() {
         let ball = Cutter::ball(10.0 * MM, 2).unwrap();
-        // At 0.2 mm the circle of a ball of 5 mm has a radius of sqrt(2 5 0.2 - 0.2^2) mm = 1.4 mm.
-        let at = |immersion| Engagement::at_depth(immersion, &ball, 0.2 * MM).unwrap();
-        let met = |immersion| at(immersion).arc_at(1.4 * MM).map(|arc| [arc.entry, arc.exit]);
-        let immersion = (1.0 - 0.5 / 1.4_f64).acos();
-        let [entry, exit] = met(Immersion::Up(0.5 * MM)).unwrap();
-        assert!(entry == 0.0 && (exit - immersion).abs() < 1e-12);
-        let [entry, exit] = met(Immersion::Down(0.5 * MM)).unwrap();
-        assert!((entry - (PI - immersion)).abs() < 1e-12 && exit == PI);
-        // Wider than the circle is all of it: a slot.
-        for all in [
-            Immersion::Up(5.0 * MM),
-            Immersion::Down(2.9 * MM),
-            Immersion::Slot,
-        ] {
-            assert_eq!(at(all).edges(), [-5.0 * MM, 5.0 * MM], "{all:?}");
+        let (ae, depth) = (0.5 * MM, 0.2 * MM);
+        for immersion in [Immersion::Up(ae), Immersion::Down(ae)] {
+            let strip = Engagement::at_depth(immersion, &ball, depth).unwrap();
+            for radius in [0.26, 0.4, 1.0, 1.4].map(|radius| radius * MM) {
+                let arc = strip.arc_at(radius).unwrap();
+                // At the side of the pass before a tooth is as far from its axis as the rim of that.
+                let (is_up, inner) = match immersion {
+                    Immersion::Up(_) => (1.0, arc.exit),
+                    _ => (-1.0, arc.entry),
+                };
+                let beyond = radius * inner.cos() + is_up * ae;
+                assert!((beyond - is_up * radius).abs() < 1e-15, "{immersion:?} {radius}");
+            }
+            // In the ridge between the two all is cut.
+            assert_eq!(strip.arc_at(0.24 * MM), Some(EngagedArc { entry: 0.0, exit: PI }));
+            assert!((strip.width() - ae).abs() < 1e-15);
         }
-        let rib = at(Immersion::Centred(MM));
-        assert_eq!(rib, Engagement::of(Immersion::Centred(MM), 10.0 * MM).unwrap());
-        assert!(Engagement::at_depth(Immersion::Up(10.1 * MM), &ball, MM).is_err());
+        // Farther than the tool is wide at this depth: 2.8 mm.
+        let slot = Engagement::of(Immersion::Slot, 10.0 * MM).unwrap();
+        assert_eq!(
+            Engagement::at_depth(Immersion::Up(2.9 * MM), &ball, depth),
+            Ok(slot)
+        );
+        assert_ne!(
+            Engagement::at_depth(Immersion::Up(2.7 * MM), &ball, depth),
+            Ok(slot)
+        );
+        assert!(Engagement::at_depth(Immersion::Up(10.1 * MM), &ball, depth).is_err());
     }
 
     #[test]
-    fn above_the_corner_and_on_a_flat_end_mill_the_depth_changes_nothing() {
+    fn a_tool_displaced_from_the_pass_before_has_another_stepover() {
+        let nose = Cutter::bull_nose(10.0 * MM, 2.0 * MM, 2).unwrap();
+        let stepover = |immersion: Immersion, cross: f64| {
+            let strip = Engagement::at_depth(immersion, &nose, MM).unwrap();
+            strip
+                .deflected(cross * MM, 5.0 * MM)?
+                .pass_before()
+                .map(|displaced| displaced / MM)
+        };
+        assert!((stepover(Immersion::Up(2.0 * MM), 0.5).unwrap() + 2.5).abs() < 1e-12);
+        assert!((stepover(Immersion::Down(2.0 * MM), 0.5).unwrap() - 1.5).abs() < 1e-12);
+        assert_eq!(stepover(Immersion::Down(2.0 * MM), 2.0), None);
+        assert_eq!(stepover(Immersion::Up(2.0 * MM), -2.5), None);
+        let strip = Engagement::at_depth(Immersion::Down(2.0 * MM), &nose, MM).unwrap();
+        let wider = strip.of_width(3.0 * MM, [4.0 * MM, 5.0 * MM]).unwrap();
+        assert_eq!(wider.pass_before(), Some(3.0 * MM));
+        assert_eq!(strip.of_width(0.0, [4.0 * MM, 5.0 * MM]), None);
+        assert_eq!(
+            strip.rounded(0.7 * MM, 5.0 * MM).pass_before(),
+            Some(3.0 * 0.7 * MM)
+        );
+        assert_eq!(strip.rounded(7.0 * MM, 5.0 * MM), strip);
+    }
+
+    #[test]
+    fn on_the_cylinder_the_pass_before_left_a_wall_as_a_flat_end_mill_does() {
         let nose = Cutter::bull_nose(10.0 * MM, 2.0 * MM, 2).unwrap();
         let flat = Cutter::flat(10.0 * MM, 2).unwrap();
         for ae in [0.1, 3.0, 5.0, 10.0].map(|ae| ae * MM) {
             for immersion in [Immersion::Up(ae), Immersion::Down(ae), Immersion::Centred(ae)] {
-                let plain = Engagement::of(immersion, 10.0 * MM);
-                assert_eq!(Engagement::at_depth(immersion, &nose, 2.0 * MM), plain);
-                assert_eq!(Engagement::at_depth(immersion, &flat, 0.01 * MM), plain);
+                let plain = Engagement::of(immersion, 10.0 * MM).unwrap();
+                let next = Engagement::at_depth(immersion, &nose, 2.0 * MM).unwrap();
+                assert_eq!(next.edges(), plain.edges());
+                assert_eq!(next.arc_at(5.0 * MM), plain.arc_at(5.0 * MM));
+                assert_eq!(Engagement::at_depth(immersion, &flat, 0.01 * MM), Ok(plain));
             }
         }
     }

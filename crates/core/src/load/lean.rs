@@ -67,6 +67,20 @@ impl EndMillBody {
         [-right, self.reach(&axis, Vector3::y(), depth)]
     }
 
+    /// The point of the leaning body with the outward normal `u`, a unit vector that does not point up along its axis; relative to
+    /// the point of contact, m.
+    pub(super) fn point_with_normal(&self, axis: &Vector3<f64>, u: &Vector3<f64>) -> Vector3<f64> {
+        let across = u - axis * u.dot(axis);
+        let ring = across * (self.flat_radius() / across.norm().max(f64::MIN_POSITIVE));
+        // Written so that low points keep their height.
+        let height = self.corner_radius() * (1.0 + u.z) + self.flat_radius() * axis.xy().norm() + ring.z;
+        Vector3::new(
+            self.corner_radius() * u.x + ring.x,
+            self.corner_radius() * u.y + ring.y,
+            height,
+        )
+    }
+
     /// How far the part below `depth` reaches along `side`, m.
     fn reach(&self, axis: &Vector3<f64>, side: Vector3<f64>, depth: f64) -> f64 {
         let centre = Vector3::z() * self.height_over_surface(axis);

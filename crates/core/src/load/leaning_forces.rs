@@ -91,8 +91,8 @@ pub struct LeaningForces {
     known: Mutex<BTreeMap<CutKey, [Vector3<f64>; 2]>>,
 }
 
-/// A cut with its lean: tool, depth, edges, feed, rise, lead, tilt.
-type CutKey = [u64; 8];
+/// A cut with its lean: tool, depth, edges, pass before, feed, rise, lead, tilt.
+type CutKey = [u64; 9];
 
 impl LeaningForces {
     /// For the cuts of this load, if it has any.
@@ -160,9 +160,29 @@ impl LeaningForces {
 
 fn key(here: &CutHere, cut: &Cut, lean: Lean) -> CutKey {
     let [right, left] = cut.engagement.edges();
-    let [depth, right, left, feed, rise, lead, tilt] =
-        [cut.depth, right, left, cut.feed, cut.rise, lean.lead, lean.tilt].map(f64::to_bits);
-    [here.cutter as u64, depth, right, left, feed, rise, lead, tilt]
+    let pass_before = cut.engagement.pass_before().unwrap_or(0.0);
+    let [depth, right, left, pass_before, feed, rise, lead, tilt] = [
+        cut.depth,
+        right,
+        left,
+        pass_before,
+        cut.feed,
+        cut.rise,
+        lean.lead,
+        lean.tilt,
+    ]
+    .map(f64::to_bits);
+    [
+        here.cutter as u64,
+        depth,
+        right,
+        left,
+        pass_before,
+        feed,
+        rise,
+        lead,
+        tilt,
+    ]
 }
 
 #[cfg(test)]

@@ -141,8 +141,13 @@ impl Milling {
 
     /// Adds what the edge of a leaning tool gives, piece after piece.
     fn add_leaning<const D: bool>(&self, sum: &mut Sum<D>) {
+        let Some(leaning) = &self.leaning else {
+            return;
+        };
+        let corner = self.cutter.corner_radius();
         for part in parts(&self.cutter, &self.cut, self.leaning.as_ref()) {
-            for [from, to] in part.pieces(|along| self.arcs_at(&part.point(&self.cutter, along))) {
+            let rough = |along: f64| leaning.rough_arcs_at(&part.point(&self.cutter, along), corner);
+            for [from, to] in part.pieces(rough) {
                 for (along, weight) in nodes_between_powers(from, to) {
                     let point = part.point(&self.cutter, along);
                     let width = part.width(&self.cutter) * weight;

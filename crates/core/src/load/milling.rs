@@ -47,10 +47,11 @@ use std::f64::consts::TAU;
 use nalgebra::Vector3;
 
 use super::arc::{Chip, EngagedArc, Moments};
+use super::arcs_of_point::EngagedArcs;
 use super::cut::Cut;
 use super::cutter::{Cutter, EdgePoint};
 use super::edge_part::{EdgePart, parts};
-use super::engaged_arcs::{EngagedArcs, LeaningCut};
+use super::engaged_arcs::LeaningCut;
 use super::error::{CuttingError, checked};
 use super::law::CuttingLaw;
 use super::lean::Lean;

@@ -4,7 +4,8 @@
 //! from point to point; `leaning_forces`: cuts whose tool leans; `actual_feed`: cuts at another feed. `input_uncertainty`: their uncertainty.
 //!
 //! Cutting forces: [`end_mill_body`] and [`cutter`] (the edge on it), [`engagement`] and [`arc`] (where it cuts and the
-//! chip thickness), [`lean`], [`cut`], `engaged_arcs` and `edge_part` (the same of a leaning tool), [`mechanistic`] and [`kienzle`] (force of a chip; [`law`] is either, [`sets`] several of one
+//! chip thickness), [`lean`], [`cut`], `arcs_of_point`, `pass_before`, `engaged_arcs` and
+//! `edge_part` (the same of a leaning tool), [`mechanistic`] and [`kienzle`] (force of a chip; [`law`] is either, [`sets`] several of one
 //! material), [`milling`] (force at a spindle angle and over a revolution), [`mean`] (its mean, with uncertainty),
 //! `peak` (its greatest over a revolution), `spindle` (torque, chip thickness, removal rate),
 //! [`drilling`], [`process`] (a tool with its cutting data and feed), [`force_equilibrium`] (the force on a tool that
@@ -17,6 +18,7 @@
 mod actual_feed;
 pub mod along;
 pub mod arc;
+mod arcs_of_point;
 pub mod cases;
 pub mod cut;
 pub mod cutter;
@@ -35,6 +37,7 @@ mod leaning_forces;
 pub mod mean;
 pub mod mechanistic;
 pub mod milling;
+mod pass_before;
 mod peak;
 pub mod process;
 pub mod record;

@@ -103,13 +103,10 @@ impl Process {
     #[must_use]
     pub fn rounded(&self, part: f64) -> Process {
         let diameter = self.cutter.diameter();
-        let (step, rim) = (part * diameter, diameter / 2.0);
-        let nearest = |value: f64| ((value / step).round() * step).clamp(-rim, rim);
-        let [right, left] = self.engagement.edges().map(nearest);
+        let step = part * diameter;
         Process {
             depth: (self.depth / step).round().max(1.0) * step,
-            // A strip thinner than a step keeps its edges.
-            engagement: Engagement::strip([right, left], diameter).unwrap_or(self.engagement),
+            engagement: self.engagement.rounded(step, diameter / 2.0),
             ..*self
         }
     }

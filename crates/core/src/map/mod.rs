@@ -3,7 +3,8 @@
 //! [`plane`]: deviation over a plane; [`volume`]: in space; [`along`]: along a path; [`radial`]: radial deviation and
 //! roundness of a circle; [`radial_parts`]: the part without load, and its uncertainty; [`backlash_geometry`]: effect
 //! of backlash and geometry along a path; `worst`: the largest deviations of a path; `obstacles`: where the arm cannot
-//! follow it; `spin_map`: the deviation over path and spin; [`limits`]: permitted force and cut along a path (`point_limits`: at a point; `varied`: one cut with a
+//! follow it; `spin_map`: the deviation over path and spin;
+//! [`stock_clearance`]: clearance from the stock as it becomes while it is cut; [`limits`]: permitted force and cut along a path (`point_limits`: at a point; `varied`: one cut with a
 //! varied parameter), [`depth_by_feed`]: depth over feed; [`region`]: the part of a plane within the tolerance, its
 //! area, boundary and inscribed shapes; [`certainty`]: its uncertainty.
 //!
@@ -22,6 +23,7 @@ pub mod radial;
 pub mod radial_parts;
 pub mod region;
 mod spin_map;
+pub mod stock_clearance;
 mod turns;
 mod varied;
 pub mod volume;
@@ -40,5 +42,6 @@ pub use radial::{RadialDeviation, radial_deviations};
 pub use radial_parts::{WithoutLoad, radial_uncertainties, radial_without_load};
 pub use region::{Region, region_within};
 pub use spin_map::{MOST_EVALUATED, SpinCell, SpinMap, spin_map};
+pub use stock_clearance::measure_stock_clearances;
 pub use volume::{BoxGrid, VolumeMap, volume_map};
 pub use worst::worst_points;

@@ -205,7 +205,7 @@ impl Builder<'_> {
             }
             if stops || !continues {
                 if index > begin {
-                    self.from_stop_to_stop(begin..index + 1, ends)?;
+                    self.between_stops(begin..index + 1, ends)?;
                 } else if self.found.times[index].is_nan() {
                     self.found.times[index] = self.found.duration();
                     self.found.speeds[index] = 0.0;
@@ -247,7 +247,7 @@ impl Builder<'_> {
     }
 
     /// These points, of which the tip stops at the first and the last only.
-    fn from_stop_to_stop(&mut self, points: Range<usize>, ends: &[MoveEnd]) -> Result<(), NoFeed> {
+    fn between_stops(&mut self, points: Range<usize>, ends: &[MoveEnd]) -> Result<(), NoFeed> {
         let joints = self.joints;
         let steps = points.start + 1..points.end;
         let feeds: Vec<f64> = steps

@@ -22,6 +22,8 @@ use nalgebra::{Point3, Vector3};
 
 /// Pieces of a rounded corner; even.
 const PIECES: usize = 8;
+/// Step of the parameter of a zone for the direction there.
+const NEAR: f64 = 1e-4;
 /// Distance of the first point next to a stop or a zone, m.
 const FINEST: f64 = 1e-5;
 /// A zone smaller than this is none, m.
@@ -94,7 +96,9 @@ impl Programmed<'_> {
             let first = self.round(zone, &lengths, &mut path);
             while next < count && lengths[next] < end + NO_ZONE {
                 let w = 0.5 * (1.0 + (lengths[next] - lengths[zone.corner]) / zone.radius);
-                self.pass_within(zone, next, (w.clamp(0.0, 1.0), first), &lengths, &mut path);
+                let w = w.clamp(0.0, 1.0);
+                path.pass_within(first, w);
+                path.errors.push(self.error_within(zone, next, w, &lengths));
                 next += 1;
             }
         }
@@ -160,31 +164,19 @@ impl Programmed<'_> {
         first
     }
 
-    /// Where the path passes a programmed point inside a zone, at the parameter `w` of the rounded corner, whose first point has this index.
-    fn pass_within(
-        &self,
-        zone: Zone,
-        index: usize,
-        (w, first): (f64, usize),
-        lengths: &[f64],
-        path: &mut Rounded,
-    ) {
-        let place = w * PIECES as f64;
-        let piece = (place.floor() as usize).min(PIECES - 1);
-        let [from, to] = [piece, piece + 1].map(|piece| path.along[first + piece]);
-        path.passes.push(from + (place - piece as f64) * (to - from));
+    /// Distance from a programmed point to the path at the parameter `w` of the zone that the point is in, across the path, m.
+    fn error_within(&self, zone: Zone, index: usize, w: f64, lengths: &[f64]) -> Vector3<f64> {
         let at = |w: f64| {
             let [before, after] =
                 ways(zone.radius, w).map(|way| self.at(lengths[zone.corner] + way, lengths).0);
             before + (after - self.points[zone.corner])
         };
-        let step = 1e-4;
-        let tangent = at((w + step).min(1.0)) - at((w - step).max(0.0));
+        let tangent = at((w + NEAR).min(1.0)) - at((w - NEAR).max(0.0));
         let error = at(w) - self.points[index];
         let along = tangent
             .try_normalize(0.0)
             .map_or(Vector3::zeros(), |tangent| tangent * tangent.dot(&error));
-        path.errors.push(error - along);
+        error - along
     }
 
     /// The programmed path at a length: its point, the step that the point is on, and the part of the step before it.
@@ -279,6 +271,14 @@ impl Rounded {
         self.along.push(along);
         self.points.push(at);
         self.positions.extend_from_slice(positions);
+    }
+
+    /// Passes a programmed point at the parameter `w` of the zone whose first point has this index.
+    fn pass_within(&mut self, first: usize, w: f64) {
+        let place = w * PIECES as f64;
+        let piece = (place.floor() as usize).min(PIECES - 1);
+        let [from, to] = [piece, piece + 1].map(|piece| self.along[first + piece]);
+        self.passes.push(from + (place - piece as f64) * (to - from));
     }
 
     fn add(&mut self, at: Point3<f64>, positions: &[f64]) {

@@ -207,7 +207,7 @@ impl Cutting {
     }
 
     /// The cutter with the size given in an operation.
-    fn cutter_of(&self, operation: &Operation) -> Result<Cutter, NoForces> {
+    pub(super) fn cutter_of(&self, operation: &Operation) -> Result<Cutter, NoForces> {
         let Some(diameter) = operation.diameter.filter(|diameter| *diameter > 0.0) else {
             return Ok(self.cutter);
         };
@@ -436,7 +436,7 @@ impl InStock<'_> {
 
 /// Ratios of the greatest to the mean force, on the level, of the cuts computed so far.
 #[derive(Default)]
-struct Peaks(BTreeMap<[u64; 7], Vector3<f64>>);
+struct Peaks(BTreeMap<[u64; 8], Vector3<f64>>);
 
 impl Peaks {
     fn over_mean(&mut self, process: &Process) -> Result<Vector3<f64>, CuttingError> {
@@ -448,6 +448,7 @@ impl Peaks {
             process.depth,
             right,
             left,
+            process.engagement.pass_before().unwrap_or(0.0),
             process.feed,
             process.spindle,
         ]

@@ -6,6 +6,8 @@
 //! Material on the way of a step longer than two pitches is included only in its volume. For a spindle that turns
 //! counterclockwise left and right are exchanged: up-milling is down-milling.
 
+use nalgebra::{Unit, Vector3};
+
 use super::pass::Pass;
 use super::stock::{Stock, StockError, checked_place};
 use super::strip::{Heading, LEAST_HEIGHT, StripAhead, strip_ahead};
@@ -44,6 +46,16 @@ pub struct PassEngagement {
 /// Largest tilt of a tool that is treated as upright, rad: it lifts the rim of a cutter of 10 mm by 5 um.
 const UPRIGHT: f64 = 1e-3;
 
+/// Angle of a tool from the path's z, rad; not a number where its direction is none.
+fn tilt(axis: &Unit<Vector3<f64>>) -> f64 {
+    axis.xy().norm().atan2(axis.z)
+}
+
+/// Whether a tool of this direction, from the tip towards the spindle, is treated as upright.
+pub(super) fn is_upright(axis: &Unit<Vector3<f64>>) -> bool {
+    tilt(axis) <= UPRIGHT
+}
+
 impl Stock {
     /// Engagement of the cutter on `pass`; removes the material.
     ///
@@ -55,9 +67,8 @@ impl Stock {
         if !pass.direction.iter().all(|value| value.is_finite()) {
             return Err(StockError::NotFinite("a direction of the path"));
         }
-        let lean = pass.axis.xy().norm().atan2(pass.axis.z);
-        if lean.is_nan() || lean > UPRIGHT {
-            let angle_deg = lean.to_degrees();
+        if !is_upright(&pass.axis) {
+            let angle_deg = tilt(&pass.axis).to_degrees();
             return Err(StockError::Tilted { angle_deg });
         }
         let heading = Heading::of(pass);

@@ -3,7 +3,8 @@
 //! [`program`]: the moves of a tool path program. [`sampler`]: those moves as points. [`shape`]: circles and lines on a
 //! workpiece plane. [`sampled`]: the points of either. [`placing`] and [`track`]: position in the cell and turn of the
 //! tool; [`spin_curve`]: a turn that changes along the path; `lean`: the tool leans from the programmed axis; `scallop`: what it leaves between passes. [`thinned`](mod@thinned): fewer points of a path. [`clock`]: time at each point. [`stock`], `sweep`, `pass`,
-//! `strip` and [`engagement`]: engagement of the cutter; [`cutting`], [`drilled`]: its forces. [`feature`]: errors of
+//! `strip` and [`engagement`]: engagement of the cutter; [`cutting`], [`drilled`]: its forces. [`remaining`],
+//! [`stock_replay`]: distance of other bodies from the stock. [`feature`]: errors of
 //! the circle, line, plane or hole produced. [`holes`]: single points.
 
 pub mod clock;
@@ -17,12 +18,14 @@ mod pass;
 mod passage;
 pub mod placing;
 pub mod program;
+pub mod remaining;
 pub mod sampled;
 pub mod sampler;
 mod scallop;
 pub mod shape;
 pub mod spin_curve;
 pub mod stock;
+pub mod stock_replay;
 mod strip;
 mod sweep;
 pub mod thinned;
@@ -40,11 +43,13 @@ pub use pass::Pass;
 pub use passage::{MoveEnd, Passage};
 pub use placing::{Placing, Spin};
 pub use program::{Arc, Command, Course, DepthOfCut, GivenSpin, Move, Operation, Pace, Step};
+pub use remaining::{BodyNearStock, NearestColumn, RemainingStock};
 pub use sampled::{PathBuilder, PlacedCommand, Rapids, SampledPath, TooManyPoints};
 pub use sampler::{PathPoint, Sampler, Sampling};
 pub use scallop::scallop;
 pub use shape::Shape;
 pub use spin_curve::{NoSpinCurve, SpinCurve, SpinKnot};
 pub use stock::{Stock, StockError};
+pub use stock_replay::StockReplay;
 pub use thinned::{Thinning, thinned};
 pub use track::{LoadedStop, LoadedTrack, Parts, Stop, Track};

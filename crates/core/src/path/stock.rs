@@ -23,15 +23,18 @@
 //! ([`engagement`](super::engagement)).
 //!
 //! Not modelled: undercuts (one height per cell), tilted tools, the arc between two points (a step is its chord), shank
-//! and holder, wear and deflection of the cutter.
+//! and holder (their distance from the stock: [`remaining`](super::remaining)), wear and deflection of the cutter.
 //!
 //! Source: height maps of stock go back to Van Hook, Real-time shaded NC milling display, Computer Graphics 20(4),
 //! 1986, and to the z-map of Anderson, Detecting and eliminating collisions in NC machining, Computer-Aided Design
 //! 10(4), 1978 \[recalled\].
 
+use std::ops::Range;
+
 use nalgebra::{Point2, Point3};
 
 use super::sweep::{Row, Sweep};
+use crate::clearance::Bounds;
 use crate::load::EndMillBody;
 
 /// A box of material from which a tool cuts, in the frame of the path.
@@ -175,6 +178,29 @@ impl Stock {
         self.sides[0].max(self.sides[1])
     }
 
+    /// Number of cells along x and along y.
+    pub(super) fn cells(&self) -> [usize; 2] {
+        self.cells
+    }
+
+    /// Heights of the cells above the bottom of the box, m; x runs fastest.
+    pub(super) fn heights(&self) -> &[f32] {
+        &self.heights
+    }
+
+    /// The box over these cells along x and y, from the bottom of the stock to this height above it, m.
+    pub(super) fn column(&self, cells: [Range<usize>; 2], height: f32) -> Bounds {
+        let corner = |cell: [usize; 2], height: f64| {
+            let [x, y] = [0, 1].map(|k| self.low[k] + cell[k] as f64 * self.sides[k]);
+            Point3::new(x, y, self.low.z + height)
+        };
+        let [x, y] = cells;
+        Bounds {
+            least: corner([x.start, y.start], 0.0),
+            greatest: corner([x.end, y.end], f64::from(height)),
+        }
+    }
+
     /// Path z of the bottom of the box, m.
     pub(super) fn bottom(&self) -> f64 {
         self.low.z
@@ -214,7 +240,7 @@ impl Stock {
     }
 
     /// The cells along axis `k` whose centres may lie between `from` and `to` (m): all of them, clipped to the box.
-    fn cells_between(&self, k: usize, from: f64, to: f64) -> std::ops::Range<usize> {
+    pub(super) fn cells_between(&self, k: usize, from: f64, to: f64) -> Range<usize> {
         let count = self.cells[k] as f64;
         let first = ((from - self.low[k]) / self.sides[k] - 0.5)
             .floor()

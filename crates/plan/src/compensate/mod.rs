@@ -80,7 +80,8 @@ pub fn compensate<'a>(
 /// the commanded one.
 pub fn point_count(study: &Study, name: Option<&str>) -> usize {
     let of = |(_, path): (&str, &PathAnalysis)| {
-        let again = usize::from(path.source.robot().is_some());
+        let again = usize::from(path.source.robot().is_some())
+            + usize::from(path.has_stock() && path.setting.cell.is_some());
         (passes(path) + 3 + again) * path.track.len()
     };
     let holes = study.holes(name).map(|(_, holes)| 4 * holes.path.track.len());
@@ -115,13 +116,15 @@ fn of_path<'a>(
     let load = &followed.load;
     let drawn = followed.turned.as_ref().unwrap_or(&analysis.track);
     let question = runner.question(&analysis.setting);
-    let found = compensated(
+    let mut found = compensated(
         &question,
         LoadedTrack { track: drawn, load },
         &followed.along.choices,
         compensation,
         runner.watch,
     )?;
+    // The tool cuts where the nominal path is, with the postures of the commanded one.
+    runner.keep_clear_of_stock(analysis, drawn, &mut found.along)?;
     let rewritten = in_place(runner, analysis, &followed, load, &found.track)?;
     let (in_place, mut notes) = match rewritten {
         None => (None, Vec::new()),

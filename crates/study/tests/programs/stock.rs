@@ -7,7 +7,7 @@ use armill_core::watch::Watch;
 use armill_study::file::resolve::read;
 use armill_study::run::run;
 
-use crate::{CELL, CUT, STEP_OVER, STOCK, analysis, of_cut};
+use crate::{CELL, CUT, STEP_OVER, STOCK, analysis, of_cut, reported};
 
 #[test]
 fn a_stock_determines_where_the_cutter_is_in_the_air_in_a_slot_and_next_to_one() {
@@ -58,4 +58,57 @@ fn a_program_that_misses_its_stock_is_refused_and_not_praised() {
     ] {
         assert!(error.contains(words), "no `{words}` in {error}");
     }
+}
+
+/// The path of the step-over in the stock, with a holder of this diameter that begins at this distance from the tip, mm.
+fn with_holder(diameter: f64, from_tip: f64, more: &str) -> armill_study::answer::PathAnswer {
+    const TOOL: &str = "tool = { flange_from_tool_mm_deg = [0, 0, 150, 0, 0, 0] }\n";
+    let cell = CELL.replace(TOOL, more);
+    assert_ne!(cell, CELL);
+    let body = format!(
+        "\n[tool]\nflange_from_tool_mm_deg = [0, 0, 150, 0, 0, 0]\n[[tool.body]]\nname = \"holder\"\ncylinder_mm = {{ from = [0, 0, 100], to = [0, 0, {}], diameter = {diameter} }}\n",
+        150.0 - from_tip
+    );
+    let study = format!("{cell}{CUT}{STOCK}{body}{}", analysis("file = \"step.ngc\""));
+    reported(&study, &[("step.ngc", STEP_OVER)]).unwrap().paths[0].clone()
+}
+
+#[test]
+fn the_holder_keeps_the_clearance_from_the_stock_that_is_left() {
+    let nearest = |path: &armill_study::answer::PathAnswer| path.nearest.clone().unwrap().join(" and ");
+    // 1 mm deep: a holder 3 mm above the tip is 2 mm above the banks of the slot, which is narrower than the holder.
+    let above = with_holder(20.0, 3.0, "");
+    assert_eq!(
+        (above.in_collision, &nearest(&above)[..]),
+        (0, "holder and stock")
+    );
+    assert!(
+        (above.least_clearance_mm.unwrap() - 2.0).abs() < 1e-4,
+        "{above:?}"
+    );
+    // A demand of 2.5 mm is missed where the holder is within that of the stock: first 10 mm and 1.5 mm before the block.
+    let demanding = with_holder(20.0, 3.0, "least_clearance_mm = 2.5\n");
+    let first = demanding
+        .obstacles
+        .iter()
+        .find(|found| found.kind == "collision")
+        .unwrap();
+    assert!(
+        demanding.in_collision > 100 && (first.value.unwrap() - 0.5).abs() < 1e-4,
+        "{first:?}"
+    );
+    assert!((demanding.least_clearance_mm.unwrap() - 2.0).abs() < 1e-4);
+    // Half a millimetre above the tip it hits the banks.
+    let low = with_holder(20.0, 0.5, "");
+    assert!(
+        low.in_collision > 100 && low.least_clearance_mm == Some(0.0),
+        "{low:?}"
+    );
+    assert_eq!(low.unreachable, low.in_collision);
+    // A shank in the slot, 10 mm wide: half a millimetre above its floor, 2 mm from its walls.
+    let shank = with_holder(6.0, 0.5, "");
+    assert!(
+        shank.in_collision == 0 && (shank.least_clearance_mm.unwrap() - 0.5).abs() < 1e-4,
+        "{shank:?}"
+    );
 }

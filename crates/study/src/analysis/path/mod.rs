@@ -48,7 +48,7 @@ pub use measured::MeasuredForces;
 pub use robot_program::RobotPath;
 
 use armill_core::load::PathLoad;
-use armill_core::path::{ForceSummary, Shape, SpinCurve, Track};
+use armill_core::path::{ForceSummary, Shape, SpinCurve, Stock, Track};
 use armill_formats::robot::RobotDescription;
 use armill_formats::toolpath::Summary;
 
@@ -126,7 +126,13 @@ impl PathAnalysis {
 
     /// Whether its cut specifies the stock.
     pub fn has_stock(&self) -> bool {
-        self.cut.as_ref().is_some_and(|cut| cut.stock.is_some())
+        self.cut_in_stock().is_some()
+    }
+
+    /// Its cut and the uncut stock, if it specifies one.
+    pub fn cut_in_stock(&self) -> Option<(&Cut, &Stock)> {
+        let cut = self.cut.as_ref()?;
+        Some((cut, cut.stock.as_ref()?))
     }
 
     /// Its points in memory.

@@ -47,13 +47,14 @@ impl Runner<'_> {
             .map(|(speed, feed)| (speed / feed).min(1.0))
             .collect();
         let slower = PathLoad::Cuts(cuts.at_feeds(&factors));
-        let along = along_postures(
+        let mut along = along_postures(
             &self.question(&analysis.setting),
             track,
             slower,
             along.choices.clone(),
             self.watch,
         )?;
+        self.keep_clear_of_stock(analysis, track, &mut along)?;
         Ok(Some(Moved {
             motion,
             along: Some(along),

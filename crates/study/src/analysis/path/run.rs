@@ -6,8 +6,8 @@ use armill_core::frame::Isometry;
 use armill_core::kernel::{Answers, evaluate_posture};
 use armill_core::load::PathLoad;
 use armill_core::map::{
-    AlongPath, ProgramLimits, RadialDeviation, along_path, along_postures, obstacles, program_limits,
-    radial_deviations, worst_points,
+    AlongPath, ProgramLimits, RadialDeviation, along_path, along_postures, measure_stock_clearances,
+    obstacles, program_limits, radial_deviations, worst_points,
 };
 use armill_core::motion::Motion;
 use armill_core::nalgebra::{Point3, Translation3, UnitQuaternion};
@@ -84,7 +84,13 @@ pub fn passes(path: &PathAnalysis) -> usize {
         let worst = usize::from(search.objective == Objective::Worst);
         2 + worst + if search.back_price > 0.0 { 3 } else { 0 }
     });
-    1 + searched + usize::from(path.has_stock()) + usize::from(path.motion.is_some() && path.cut.is_some())
+    let slowed = usize::from(path.motion.is_some() && path.cut.is_some());
+    let replayed = match (path.has_stock(), &path.setting.cell, &path.setting.search) {
+        (false, ..) | (_, None, _) => 0,
+        (true, Some(_), None) => 1 + slowed,
+        (true, Some(_), Some(_)) => 2 + slowed,
+    };
+    1 + searched + usize::from(path.has_stock()) + replayed + slowed
 }
 
 /// Hint for a program that does not meet its stock.
@@ -104,6 +110,14 @@ fn nothing_cut(analysis: &PathAnalysis, stock: &Stock) -> StudyError {
         mm(stock.corners())
     );
     StudyError::value(message, STOCK_HINT)
+}
+
+/// The cut of a path is not known, or was cancelled.
+fn no_forces(analysis: &PathAnalysis, error: &NoForces) -> StudyError {
+    match error {
+        NoForces::Cancelled => StudyError::Cancelled(Cancelled),
+        error => StudyError::value(format!("{}: {error}", analysis.shown()), STOCK_HINT),
+    }
 }
 
 /// A path as it is followed.
@@ -161,7 +175,9 @@ impl Runner<'_> {
             }
             None => None,
         };
-        along.answers.measure_clearances(&question);
+        if along.answers.clearances.is_empty() {
+            along.answers.measure_clearances(&question);
+        }
         let worst = worst_points(&analysis.track, &along.answers, WORST);
         Ok(PathResult {
             worst: worst
@@ -189,7 +205,8 @@ impl Runner<'_> {
     pub fn follow(&self, analysis: &PathAnalysis, load: PathLoad) -> Result<Followed, StudyError> {
         let question = self.question(&analysis.setting);
         let track = &analysis.track;
-        let nominal = along_path(&question, track, load.clone(), self.watch)?;
+        let mut nominal = along_path(&question, track, load.clone(), self.watch)?;
+        self.keep_clear_of_stock(analysis, track, &mut nominal)?;
         let Some(search) = &analysis.setting.search else {
             return Ok(Followed {
                 turned: None,
@@ -202,8 +219,9 @@ impl Runner<'_> {
             posture,
             turned,
             load: leaning,
-            along: found,
+            along: mut found,
         } = self.search(analysis, &load, search)?;
+        self.keep_clear_of_stock(analysis, &turned, &mut found)?;
         let ways = [(track, &load, &nominal), (&turned, &leaning, &found)];
         let followed = ways.map(|(track, load, along)| FollowedTrack {
             path: LoadedTrack { track, load },
@@ -238,6 +256,22 @@ impl Runner<'_> {
         })
     }
 
+    /// Measures the clearances along a path from the cell and from the stock as it becomes while it is cut: points that do not
+    /// keep the demanded clearance from the stock are in collision. Nothing where the study has no stock or no bodies.
+    pub fn keep_clear_of_stock(
+        &self,
+        analysis: &PathAnalysis,
+        track: &Track,
+        along: &mut AlongPath,
+    ) -> Result<(), StudyError> {
+        let Some((cut, stock)) = analysis.cut_in_stock() else {
+            return Ok(());
+        };
+        let question = self.question(&analysis.setting);
+        let measured = measure_stock_clearances(&question, track, (&cut.cutting, stock), along, self.watch);
+        measured.map_err(|error| no_forces(analysis, &error))
+    }
+
     /// The spins and branches that `search` finds along the path under this load, and the path with them.
     pub fn search(
         &self,
@@ -261,19 +295,13 @@ impl Runner<'_> {
 
     /// The load along a path: of a cut in a stock from the engagement of the tool there.
     pub fn pushed(&self, analysis: &PathAnalysis) -> Result<(PathLoad, Option<ForceSummary>), StudyError> {
-        let in_stock = analysis
-            .cut
-            .as_ref()
-            .and_then(|cut| Some((cut, cut.stock.clone()?)));
-        let Some((cut, mut stock)) = in_stock else {
+        let Some((cut, stock)) = analysis.cut_in_stock() else {
             return Ok((analysis.load.clone(), analysis.forces));
         };
+        let mut stock = stock.clone();
         let (path, placing) = (&analysis.track.path, &analysis.track.placing);
         let found = cut.cutting.along(path, placing, Some(&mut stock), self.watch);
-        let found = found.map_err(|error| match error {
-            NoForces::Cancelled => StudyError::Cancelled(Cancelled),
-            error => StudyError::value(format!("{}: {error}", analysis.shown()), STOCK_HINT),
-        })?;
+        let found = found.map_err(|error| no_forces(analysis, &error))?;
         if found.cuts.points.iter().all(|here| here.cut.is_none()) {
             return Err(nothing_cut(analysis, &stock));
         }

@@ -10,8 +10,8 @@ const CHECKED: [&str; 3] = [
      against itself. Distances are those of the bodies as given; capsules are larger than the links that they enclose.",
     "Not checked: links next to each other and bodies in contact in every posture, which touch by design; the cutter against the part; base and first link \
      against floor and pedestal.",
-    "Not part of the cell: cables and hoses, what the study does not contain, and the part as it becomes while it is cut. Moves between the points are \
-     checked where a program is written.",
+    "Not part of the cell: cables and hoses, what the study does not contain, and the part as it becomes while it is cut, unless the path has a stock: this is \
+     checked at the points of the path. Moves between the points are checked where a program is written, without the stock.",
 ];
 
 /// The clearance of an analysis.
