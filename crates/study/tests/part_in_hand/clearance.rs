@@ -163,8 +163,8 @@ fn box_stl() -> String {
     text + "endsolid box\n"
 }
 
-#[test]
-fn meshes_of_a_urdf_move_with_their_links() {
+/// A folder with an MH12 whose links have a mesh each.
+fn meshed_arm() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let urdf = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../validation/urdf-forward/mh12.urdf");
     let mut urdf = fs::read_to_string(urdf).unwrap();
@@ -175,8 +175,19 @@ fn meshes_of_a_urdf_move_with_their_links() {
     }
     fs::write(folder.path().join("arm.urdf"), urdf).unwrap();
     fs::write(folder.path().join("box.stl"), box_stl()).unwrap();
-    let common = "format = 1\nrobot = \"arm.urdf\"\ntolerance_um = 200\ncompliance = { class = \"light\" }\n\
-         [[obstacle]]\nname = \"wall\"\nbox_mm = { from = [-600, -900, 0], to = [-500, 900, 1200] }\n[floor]\nheight_mm = -100\n";
+    folder
+}
+
+const MESHED: &str =
+    "format = 1\nrobot = \"arm.urdf\"\ntolerance_um = 200\ncompliance = { class = \"light\" }\n";
+const LOAD: &str = "[load]\nframe = \"part\"\ncases_n = [[1, 2, 3]]\n";
+
+#[test]
+fn meshes_of_a_urdf_move_with_their_links() {
+    let folder = meshed_arm();
+    let common = format!(
+        "{MESHED}[[obstacle]]\nname = \"wall\"\nbox_mm = {{ from = [-600, -900, 0], to = [-500, 900, 1200] }}\n[floor]\nheight_mm = -100\n"
+    );
     let spindle = "cylinder_mm = { from = [0, 0, -300], to = [0, 0, 120], diameter = 120 }";
     let of_hand = format!(
         "{common}[part_in_hand]\nbase_from_mount_mm_deg = [900, 100, 700, 10, -80, 0]\n\
@@ -189,9 +200,8 @@ fn meshes_of_a_urdf_move_with_their_links() {
          [tool]\nflange_from_tool_mm_deg = [0, 0, 150, 0, 0, 0]\nbody = [{{ name = \"part\", box_mm = {{ from = [-100, -80, 60], to = [120, 90, 150] }} }}]\n\
          [plane]\ncentre_mm = [800, 0, 700]\ntilt_deg = 0\nhalf_size_mm = 0\nstep_mm = 50\n"
     );
-    let load = "[load]\nframe = \"part\"\ncases_n = [[1, 2, 3]]\n";
     let [hand, tool] = [of_hand, with_tool].map(|text| {
-        let text = format!("{text}{load}");
+        let text = format!("{text}{LOAD}");
         read("study.toml", folder.path(), text.as_bytes()).unwrap_or_else(|error| panic!("{error}"))
     });
     let mut states = [&hand, &tool].map(|study| {
@@ -219,4 +229,26 @@ fn meshes_of_a_urdf_move_with_their_links() {
         links += usize::from(of_hand.bodies[0] < 7);
     }
     assert!(links > 100, "{links}");
+}
+
+#[test]
+fn a_part_that_the_wrist_is_inside_of_in_every_posture_is_refused() {
+    let folder = meshed_arm();
+    let text = |from: i32| {
+        format!(
+            "{MESHED}[part_in_hand]\nbase_from_mount_mm_deg = [900, 100, 700, 10, -80, 0]\n\
+             [tool]\nflange_from_tool_mm_deg = [0, 0, 150, 0, 0, 0]\n\
+             [plane]\ncentre_mm = [0, 0, 150]\nrotation_deg = [0, 0, 0]\nhalf_size_mm = 0\nstep_mm = 50\n\
+             [part]\nbox_mm = {{ from = [-150, -150, {from}], to = [150, 150, 0] }}\n{LOAD}"
+        )
+    };
+    let read = |from: i32| read("study.toml", folder.path(), text(from).as_bytes());
+    assert!(read(-90).is_ok());
+    // The centre of the wrist is 250 mm behind the plane.
+    let found = read(-400).unwrap_err().to_string();
+    assert!(
+        found.contains("the part in the hand touches b in every posture of the robot")
+            && found.contains("study.toml:14:"),
+        "{found}"
+    );
 }
