@@ -3,8 +3,6 @@
 use armill_core::robot::Robot;
 use armill_core::units::{from_deg, from_mm};
 
-use crate::error::StudyError;
-
 /// The units of one joint at the boundary.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointUnit {
@@ -51,59 +49,6 @@ impl JointUnit {
             JointUnit::TURNING
         }
     }
-}
-
-/// Joint positions in rad (m) from those given in deg (mm); those of a positioner may be left out, and are then those of
-/// the study.
-///
-/// # Errors
-/// Not one a joint.
-pub fn joint_positions(robot: &Robot, given: &[f64]) -> Result<Vec<f64>, StudyError> {
-    let of_positioner = robot.chain().ground().positioner_joints();
-    if of_positioner > 0 && given.len() + of_positioner == robot.joints().len() {
-        let home = robot.home(None);
-        let of_arm = given.iter().enumerate();
-        let of_arm = of_arm.map(|(joint, value)| JointUnit::of(robot, joint + of_positioner).to_si(*value));
-        return Ok(home[..of_positioner].iter().copied().chain(of_arm).collect());
-    }
-    let order: Vec<usize> = (0..robot.joints().len()).collect();
-    positions_in(&order, robot, given)
-}
-
-/// [`joint_positions`] in the order of the robot itself, from its base on: the opposite of that of the chain where it holds
-/// the part.
-///
-/// # Errors
-/// Not one a joint.
-pub fn joint_positions_from_base(robot: &Robot, given: &[f64]) -> Result<Vec<f64>, StudyError> {
-    if !robot.chain().ground().part_is_in_hand() {
-        return joint_positions(robot, given);
-    }
-    let order: Vec<usize> = (0..robot.joints().len()).rev().collect();
-    positions_in(&order, robot, given)
-}
-
-/// Joint positions in rad (m) from those in deg (mm) of the joints in this order.
-fn positions_in(order: &[usize], robot: &Robot, given: &[f64]) -> Result<Vec<f64>, StudyError> {
-    if given.len() != order.len() {
-        let message = format!(
-            "{} joint positions for the {} joints of `{}`",
-            given.len(),
-            order.len(),
-            robot.name()
-        );
-        let names = order.iter().map(|joint| robot.joints()[*joint].name.as_str());
-        let names: Vec<&str> = names.collect();
-        return Err(StudyError::value(
-            message,
-            format!("one each for {}", names.join(", ")),
-        ));
-    }
-    let mut all = vec![0.0; order.len()];
-    for (joint, value) in order.iter().zip(given) {
-        all[*joint] = JointUnit::of(robot, *joint).to_si(*value);
-    }
-    Ok(all)
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@
 //! queries of a page that shows a study while it is edited, [`program_out`] writes a path as a robot program. The robot
 //! library and the example studies are embedded in the program ([`library`]); [`compliance_class`] assumes joint
 //! compliances if none are known. [`robots`] and [`studies`] find what a user names, [`robot_answers`] and
-//! [`materials`] report what is known of a robot or material, [`enclosed_links`] encloses its links by capsules, [`mod@new`] creates a study. [`joint_unit`],
+//! [`materials`] report what is known of a robot or material, [`enclosed_links`] encloses its links by capsules, [`mod@new`] creates a study. [`joint_order`], [`joint_unit`],
 //! [`number`] and [`uncertainty_words`] format numbers, [`naming`] and [`file_names`] names.
 //!
 //! Command line, Python and web return the same bytes.
@@ -23,6 +23,7 @@ pub mod file;
 pub mod file_names;
 pub mod finished;
 pub mod input;
+pub mod joint_order;
 pub mod joint_unit;
 pub mod library;
 pub mod link_meshes;

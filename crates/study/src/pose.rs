@@ -29,7 +29,10 @@ use crate::StudyError;
 use crate::file::resolve::Study;
 use crate::input::cell::AnalysisCell;
 use crate::input::setting::Setting;
-use crate::joint_unit::{JointUnit, joint_positions};
+use crate::joint_order::{
+    contributor_names, in_joint_order, joint_names, joint_order, joint_positions, shown_positions,
+};
+use crate::joint_unit::JointUnit;
 use crate::model_words::{left_out, parts};
 use crate::number::without_rounding;
 pub use crate::pose_answer::{PoseAnswer, PostureAnswer, StiffnessAnswer, ToolAnswer, UnreachableAnswer};
@@ -230,13 +233,14 @@ pub(crate) fn answer_in(
     Ok(PoseAnswer {
         robot: robot.name().to_owned(),
         base: question.base.clone(),
-        joint_names: robot.joints().iter().map(|joint| joint.name.clone()).collect(),
-        joint_units: (0..robot.joints().len())
+        joint_names: joint_names(robot),
+        joint_units: joint_order(robot)
+            .into_iter()
             .map(|joint| JointUnit::of(robot, joint).name)
             .collect(),
         compliance_assumed: question.caution.is_some(),
         model: parts(robot, model),
-        contributors: model.contributor_names(robot.joints()),
+        contributors: contributor_names(robot, model),
         postures: found
             .iter()
             .map(|p| {
@@ -340,17 +344,13 @@ fn posture_answer(
     let from_si = |i: usize, value: f64| value * JointUnit::of(robot, i).scale;
     let margin = robot.limit_margin(&posture.joints);
     let j = jacobian(robot, &posture.screws);
+    let order = joint_order(robot);
     let reference_from_tool = base_from_reference.inv_mul(&posture.base_from_tool);
     let axis = Unit::new_unchecked(posture.base_from_tool * Vector3::z());
     let rotation = reference_from_tool.rotation.quaternion();
     PostureAnswer {
         branch: posture.name.to_string(),
-        joints_deg: posture
-            .joints
-            .iter()
-            .enumerate()
-            .map(|(i, q)| from_si(i, *q))
-            .collect(),
+        joints_deg: shown_positions(robot, &posture.joints),
         within_limits: margin.is_none_or(|(_, margin)| margin >= -AT_LIMIT),
         limit_margin_deg: margin.map(|(i, margin)| from_si(i, margin)),
         limit_joint: margin.map(|(i, _)| robot.joints()[i].name.clone()),
@@ -361,7 +361,9 @@ fn posture_answer(
         singularity: posture.singularity.map(|s| s.to_string()),
         manipulability: manipulability(&j),
         condition_number: condition_number(&j, WEIGHING_LENGTH),
-        jacobian: rows(&DMatrix::from_iterator(6, j.ncols(), j.iter().copied())),
+        jacobian: rows(&DMatrix::from_fn(6, order.len(), |row, column| {
+            j[(row, order[column])]
+        })),
         compliance: compliance.map(|c| six_rows(&c)),
         stiffness: compliance.map(|c| stiffness_answer(&c, axis)),
         loaded_compliance: loaded_compliance.map(|c| six_rows(&c)),
@@ -370,7 +372,8 @@ fn posture_answer(
         rotation_urad: deviation.as_ref().map(|d| to_urad(d.twist.angular).into()),
         joint_share_um: deviation
             .as_ref()
-            .map(|d| d.shares.iter().map(|s| to_um(s.linear).into()).collect()),
+            .map(|d| in_joint_order(robot, &d.shares))
+            .map(|shares| shares.iter().map(|s| to_um(s.linear).into()).collect()),
         deviation_u_um: deviation
             .as_ref()
             .filter(|_| uncertainty_is_known)

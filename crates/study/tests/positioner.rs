@@ -10,6 +10,7 @@ use armill_core::nalgebra::Vector3;
 use armill_core::watch::Watch;
 use armill_study::answer::{StudyAnswer, answer};
 use armill_study::file::resolve::read;
+use armill_study::output::{StudyResults, pictures};
 use armill_study::run::run;
 
 /// Tilts about x at 400 mm, then turns about z at 500 mm above its root.
@@ -284,4 +285,53 @@ fn the_floor_stays_where_it_is_below_a_table() {
     nearest.sort();
     assert_eq!(nearest, ["floor", "part"]);
     assert_eq!(at(-480.0).maps[0].counts.in_collision, 1);
+}
+
+/// Centres of the circles of a picture: joints, and points of least distance, px.
+fn circles(svg: &str) -> Vec<[f64; 2]> {
+    let number = |text: &str, key: &str| -> f64 {
+        let value = text.split(key).nth(1).unwrap();
+        value.split('"').next().unwrap().parse().unwrap()
+    };
+    svg.split("<circle ")
+        .skip(1)
+        .map(|text| [number(text, "cx=\""), number(text, "cy=\"")])
+        .collect()
+}
+
+#[test]
+fn pictures_show_the_robot_as_it_stands_without_the_positioner() {
+    let folder = cell("positioner-pictures", "0", "0");
+    let pictures_of = |more: &str| -> Vec<(String, Vec<[f64; 2]>)> {
+        let keys = "tool = { flange_from_tool_mm_deg = [0, 0, 150, 0, 0, 0], body = [{ cylinder_mm = { from = [0, 0, 10], to = [0, 0, 120], diameter = 90 } }] }";
+        let cell = "[part]\nbox_mm = { from = [-150, -150, -60], to = [150, 150, -40] }\npart_from_body_mm_deg = [0, 0, 0, 5, 3, 0]\n[[obstacle]]\nname = \"wall\"\nbox_mm = { from = [1300, -400, 0], to = [1320, 400, 900] }\n[floor]\nheight_mm = -100\n";
+        let text = study(keys, "[1000, 0, 800]", "[0, -30, 0]", &format!("{cell}{more}"));
+        let text = text.replace("half_size_mm = 100", "half_size_mm = 0");
+        let study = read("study.toml", &folder, text.as_bytes()).unwrap_or_else(|error| panic!("{error}"));
+        let done = run(&study, Watch::NONE).unwrap();
+        let answer = answer(&study, &done);
+        let results = StudyResults {
+            study: &study,
+            done: &done,
+            answer: &answer,
+        };
+        let drawn = pictures(results).into_iter();
+        let drawn = drawn.filter(|picture| picture.name == "map-arm" || picture.name == "map-clearance");
+        drawn
+            .map(|picture| (picture.name, circles(&picture.svg)))
+            .collect()
+    };
+    let alone = pictures_of("");
+    assert_eq!(alone.len(), 2);
+    for joints in ["[0, 0]", "[35, 70]", "[-60, -110]"] {
+        for ((name, alone), (_, both)) in alone.iter().zip(pictures_of(&positioner(joints))) {
+            assert!(alone.len() >= 12, "{name}: {alone:?}");
+            assert_eq!(alone.len(), both.len());
+            for ([x, y], [other_x, other_y]) in alone.iter().zip(both) {
+                // Printed to 0.01 px.
+                let is_there = (x - other_x).abs() < 0.02 && (y - other_y).abs() < 0.02;
+                assert!(is_there, "{name} at {joints}: {x} {y}, {other_x} {other_y} px");
+            }
+        }
+    }
 }

@@ -10,6 +10,15 @@
 //! | a cutter and the part | no: it cuts it |
 //! | a holder and the part, the arm and anything that stands still | yes |
 //! | a holder or a link, and the stock that is cut along a path | yes, by [`crate::map::measure_stock_clearances`] |
+//!
+//! If the arm holds the part ([`crate::robot::hand`]), the part is at the base of the chain, and tool and obstacles are bodies of the ground:
+//!
+//! | pair | checked |
+//! |---|---|
+//! | the part and the last link of the arm, to which it is fixed | no |
+//! | the part and any other body but the cutter | yes |
+//! | tool, cutter or obstacle, and any link but the base of the arm | yes |
+//! | tool, cutter and obstacles | no: they do not move relative to each other |
 
 use nalgebra::IsometryMatrix3;
 
@@ -37,7 +46,7 @@ pub enum Role {
     Holder,
     /// The cutter, which may touch the part.
     Cutter,
-    /// An obstacle on the ground of a chain whose base, the table of a positioner, moves.
+    /// An obstacle on the ground of a chain whose base, the table of a positioner or the flange that holds the part, moves.
     Obstacle,
 }
 
@@ -84,6 +93,10 @@ pub struct Cell {
     /// Checked pairs that are nearer than the demanded clearance in every posture, such as a spindle and the link before its flange: of these
     /// contact alone is a conflict.
     pub(super) always_near: Vec<[usize; 2]>,
+    /// Links that a part in the hand is nearer to than the demanded clearance in every posture: of these contact alone is a conflict.
+    pub(super) near_part: Vec<usize>,
+    /// Bodies of the arm that are not checked against the part.
+    pub(super) apart_from_part: Vec<usize>,
     pub(super) obstacles: Option<Still>,
     pub(super) part: Option<Still>,
     pub(super) floor: Option<Floor>,

@@ -51,6 +51,8 @@ impl Cell {
             pairs,
             always_in_contact: Vec::new(),
             always_near: Vec::new(),
+            near_part: Vec::new(),
+            apart_from_part: Vec::new(),
             obstacles: Still::of(still.iter().filter(|body| !body.is_part)),
             part: Still::of(still.iter().filter(|body| body.is_part)),
             floor: None,
@@ -72,10 +74,52 @@ impl Cell {
     }
 
     /// The cell for this demanded clearance, m: pairs of bodies of the arm that never keep it are near by design, and only must not
-    /// touch.
+    /// touch. What stands next to an arm that holds the part is not near by design.
     pub fn for_clearance(self, robot: &Robot, flange_from_tool: &Isometry, least: f64) -> Cell {
-        let always_near = self.always_within(robot, flange_from_tool, least);
+        let mut always_near = self.always_within(robot, flange_from_tool, least);
+        if robot.chain().ground().part_is_in_hand() {
+            let is_link = |body: &usize| self.arm[*body].role == Role::Link;
+            always_near.retain(|pair| pair.iter().all(is_link));
+        }
         Cell { always_near, ..self }
+    }
+
+    /// The cell without a check of these bodies of the arm (indices) against the part.
+    pub fn apart_from_part(self, bodies: Vec<usize>) -> Cell {
+        Cell {
+            apart_from_part: bodies,
+            ..self
+        }
+    }
+
+    /// The cell for this demanded clearance, m, of an arm that holds the part there: links that never keep it from the part are near by
+    /// design, as those of the wrist, and only must not touch.
+    pub fn with_part_in_hand(self, robot: &Robot, base_from_part: &Isometry, least: f64) -> Cell {
+        let mut near_part = self.always_near_part(robot, base_from_part, least);
+        near_part.retain(|body| self.arm[*body].role == Role::Link);
+        Cell { near_part, ..self }
+    }
+
+    /// Bodies of the arm that are not farther from the part, which is there, than `limit`, m, in any sampled posture. Only those whose
+    /// place does not depend on the tool.
+    pub fn always_near_part(&self, robot: &Robot, base_from_part: &Isometry, limit: f64) -> Vec<usize> {
+        let Some(part) = &self.part else {
+            return Vec::new();
+        };
+        let part_from_base = matrix(&base_from_part.inverse());
+        let checked = |body: &usize| {
+            let of_arm = &self.arm[*body];
+            !matches!(of_arm.attachment, Attachment::Base | Attachment::Tool)
+                && of_arm.role != Role::Cutter
+                && !self.apart_from_part.contains(body)
+        };
+        let bodies = (0..self.arm.len()).filter(checked).collect();
+        self.in_every_posture(robot, &Isometry::identity(), bodies, |state, body| {
+            let frame = part_from_base * state.base_from_body()[*body];
+            let own = self.arm[*body].shape.placed(&frame);
+            part.nearest(&own, limit, |_| true)
+                .is_some_and(|(found, _)| found.distance <= limit)
+        })
     }
 
     /// Checked pairs of bodies of the arm that are not farther apart than `limit`, m, in any sampled posture.
@@ -190,3 +234,6 @@ fn radical_inverse(mut number: usize, base: usize) -> f64 {
     }
     value
 }
+
+#[cfg(test)]
+mod tests;

@@ -188,7 +188,8 @@ impl<'a> CellState<'a> {
             shape,
             ..
         } = &self.cell.arm[body];
-        if *attachment == Attachment::Base || (*role == Role::Cutter && matches!(check, Check::Part(_))) {
+        let is_apart = matches!(check, Check::Part(_)) && !self.meets_part(body, *role);
+        if *attachment == Attachment::Base || is_apart {
             return None;
         }
         let hull = match check {
@@ -204,6 +205,11 @@ impl<'a> CellState<'a> {
             },
             thresholds,
         ))
+    }
+
+    /// Whether a body with this role is checked against the part.
+    fn meets_part(&self, body: usize, role: Role) -> bool {
+        role != Role::Cutter && !self.cell.apart_from_part.contains(&body)
     }
 
     /// Whether a body rides on an obstacle, which the field of distances contains.
@@ -321,7 +327,11 @@ impl<'a> CellState<'a> {
     }
 
     fn is_near_by_design(&self, check: Check) -> bool {
-        matches!(check, Check::OfArm(pair) if self.cell.always_near.contains(&pair))
+        match check {
+            Check::OfArm(pair) => self.cell.always_near.contains(&pair),
+            Check::Part(body) => self.cell.near_part.contains(&body),
+            Check::Obstacles(_) | Check::Floor(_) => false,
+        }
     }
 
     /// All checks whose lower bound is not above the limit, with their bounds.
@@ -350,9 +360,12 @@ impl<'a> CellState<'a> {
                     queue.push((bound, Check::Obstacles(index)));
                 }
             }
-            if let Some(still) = self.cell.part.as_ref().filter(|_| body.role != Role::Cutter) {
+            let meets_part = self.meets_part(index, body.role);
+            if let Some(still) = self.cell.part.as_ref().filter(|_| meets_part) {
                 let in_part = hull.moved(&self.part_from_base);
                 let bound = still.field.bound_of(&in_part, &still.bodies, limit);
+                let more = self.more_of(Check::Part(index), more);
+                let bound = if bound > 0.0 { bound + more } else { bound };
                 if bound <= limit {
                     queue.push((bound, Check::Part(index)));
                 }

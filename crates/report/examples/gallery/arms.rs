@@ -60,6 +60,7 @@ pub fn pictures() -> Vec<(&'static str, String)> {
         ]),
         path_mm: (0..=72).map(|k| on_circle(f64::from(k) * 5.0)).collect(),
         view: View::Iso,
+        standing_tool_mm: None,
     };
     let plain = ArmDrawing {
         ghosts: Vec::new(),

@@ -98,6 +98,12 @@ impl Body {
         solids.extend(skeleton.tool());
         Self { solids, joints }
     }
+
+    /// With a tool that stands in the cell, from its mount to its tip, as thick as one of this posture.
+    pub(crate) fn and_tool(mut self, posture: &ArmPosture, ends: [Vec3; 2]) -> Self {
+        self.solids.extend(Skeleton::of(posture).tool_between(ends));
+        self
+    }
 }
 
 /// The lines of an arm, and how thick it is along them.
@@ -211,7 +217,12 @@ impl<'a> Skeleton<'a> {
 
     /// Flange, tool and its tip, from the flange to the tool centre point; nothing where they are one.
     fn tool(&self) -> Vec<Solid> {
-        let reach = between(self.posture.flange_mm, self.posture.tool_mm);
+        self.tool_between([self.posture.flange_mm, self.posture.tool_mm])
+    }
+
+    /// A tool between its mount and its tip.
+    fn tool_between(&self, [mount, tip]: [Vec3; 2]) -> Vec<Solid> {
+        let reach = between(mount, tip);
         let total = length(reach);
         if total <= self.near_mm * 0.1 {
             return Vec::new();
@@ -219,7 +230,7 @@ impl<'a> Skeleton<'a> {
         let axis = unit(reach);
         let r = self.radius_mm(self.last());
         let cylinder = |[from, to]: [f64; 2], radius: f64, part: Part| Solid::Cylinder {
-            centre: along(self.posture.flange_mm, axis, (from + to) / 2.0),
+            centre: along(mount, axis, (from + to) / 2.0),
             axis,
             radius,
             half_length: (to - from) / 2.0,

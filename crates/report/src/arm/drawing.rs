@@ -2,7 +2,7 @@
 
 use super::view::View;
 
-/// One joint of a posture, in the base frame, at the position that it has in this posture.
+/// One joint of a posture, in the frame of the ground, at the position that it has in this posture.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ArmJoint {
     /// Its name, written next to it: `S`; empty for none.
@@ -13,7 +13,7 @@ pub struct ArmJoint {
     pub axis: [f64; 3],
 }
 
-/// The arm in one posture, in the base frame.
+/// The arm in one posture, in the frame of the ground on which it stands: z upward.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ArmPosture {
     /// The position of the foot, in mm. The foot is drawn about the axis of the first joint.
@@ -42,6 +42,8 @@ pub struct ArmDrawing {
     pub plate_mm: Option<[[f64; 3]; 4]>,
     /// Path of the tool in mm; points that are not finite are left out.
     pub path_mm: Vec<[f64; 3]>,
+    /// A tool that stands in the cell: its mount and its tip, in mm; left out where one is not finite.
+    pub standing_tool_mm: Option<[[f64; 3]; 2]>,
     /// From where the arm is seen; `to_svg_views` takes its own.
     pub view: View,
 }

@@ -8,10 +8,11 @@
 //! | posture | solids in full colour, a name in a badge next to each joint |
 //! | ghosts | the same, faint, without foot and names |
 //! | plate, path | a translucent quadrilateral, a red line on white |
+//! | standing tool | a tool without an arm |
 //! | floor | a grid of nice steps with the arm's shadow; a line where it is seen from the side |
-//! | base frame | three arrows at the lower left, x red, y green, z blue |
+//! | frame of the ground | three arrows at the lower left, x red, y green, z blue |
 //!
-//! All points are in the base frame, in mm. Nothing about the arm's shape is known but its joints: how thick it
+//! All points are in the frame of the ground, in mm: that of the base, unless what the arm is drawn relative to moves. Nothing about the arm's shape is known but its joints: how thick it
 //! is drawn follows from its length.
 
 mod bodies;

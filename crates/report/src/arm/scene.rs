@@ -3,7 +3,7 @@
 //!
 //! Painter's order: floor, shadow, ghosts, then solids, plate and path sorted by their depth, names and base
 //! directions last. Nearer solids hide those behind them; solids that pass through each other are not
-//! cut, which a schematic bears. Points of the scene are in the base frame in mm, points of the drawing in px
+//! cut, which a schematic bears. Points of the scene are in the frame of the ground in mm, points of the drawing in px
 //! with y downwards.
 
 use super::body::{Body, JointSpot, Part, Solid, arm_length};
@@ -16,7 +16,7 @@ use crate::colour::{INK, MUTED, SIGNAL};
 use crate::font::{SMALL_PX, Weight, text_width_px};
 use crate::svg::{Point, Rect, Style, Svg, Text};
 
-/// Everything that is drawn, in the base frame; what is not finite is left out.
+/// Everything that is drawn, in the frame of the ground; what is not finite is left out.
 pub(crate) struct Scene {
     /// The arm in colour.
     body: Body,
@@ -49,6 +49,9 @@ impl Scene {
         let plate_mm = drawing
             .plate_mm
             .filter(|c| c.iter().flatten().all(|v| v.is_finite()));
+        let standing = drawing
+            .standing_tool_mm
+            .filter(|ends| ends.iter().flatten().all(|v| v.is_finite()));
         let posture = &drawing.posture;
         let size_mm = arm_length(posture).max(1.0);
         let links_mm: Vec<Vec3> = std::iter::once(posture.base_mm)
@@ -65,6 +68,7 @@ impl Scene {
                 .chain(ghost_points)
                 .chain(plate_mm.into_iter().flatten())
                 .chain(path_mm.iter().copied())
+                .chain(standing.into_iter().flatten())
         };
         let margin = 0.1 * size_mm;
         let ends =
@@ -81,8 +85,12 @@ impl Scene {
         } else {
             posture.base_mm[2]
         };
+        let body = Body::of(posture);
         Self {
-            body: Body::of(posture),
+            body: match standing {
+                Some(ends) => body.and_tool(posture, ends),
+                None => body,
+            },
             ghosts: ghosts.into_iter().map(Body::of).collect(),
             plate_mm,
             path_mm,

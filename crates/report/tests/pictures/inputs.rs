@@ -411,6 +411,11 @@ pub fn everything() -> Vec<String> {
         .to_svg(),
         ArmDrawing::default().to_svg(),
         ArmDrawing {
+            standing_tool_mm: Some([[900.0, 0.0, 600.0], [900.0, 0.0, 300.0]]),
+            ..arm()
+        }
+        .to_svg(),
+        ArmDrawing {
             posture: ArmPosture {
                 joints: vec![ArmJoint::default(); 6],
                 ..ArmPosture::default()

@@ -265,3 +265,20 @@ fn ghosts_and_plate_are_drawn_when_given() {
     .to_svg();
     assert!(!without.contains("class=\"ghost\"") && !without.contains("class=\"plate\""));
 }
+
+#[test]
+fn a_tool_that_stands_in_the_cell_is_drawn_where_it_is_finite() {
+    let with = |standing_tool_mm| {
+        ArmDrawing {
+            standing_tool_mm,
+            ..arm()
+        }
+        .to_svg()
+    };
+    let without = arm().to_svg();
+    assert_eq!(with(Some([[f64::NAN; 3], [0.0; 3]])), without);
+    assert_eq!(with(None), without);
+    let shapes = |svg: &str| svg.matches("<polygon").count() + svg.matches("<path").count();
+    let near = with(Some([[900.0, 0.0, 600.0], [900.0, 0.0, 300.0]]));
+    assert!(shapes(&near) > shapes(&without));
+}

@@ -28,6 +28,7 @@ use crate::analysis::numbers::Numbers;
 use crate::analysis::quantity::{self, Quantity};
 use crate::analysis::rows::{MM_DECIMALS, Rows, of_points};
 use crate::error::StudyError;
+use crate::joint_order::{contributor_names, in_joint_order, joint_order};
 use crate::joint_unit::JointUnit;
 
 /// Points whose answers stay in the cache while all columns read them.
@@ -119,7 +120,7 @@ pub fn numbers_of<'a>(
     let Some(rows) = series.first() else {
         return Vec::new();
     };
-    let contributors = rows.setting.model.contributor_names(robot.joints());
+    let contributors = contributor_names(robot, &rows.setting.model);
     let mut columns = found.own_columns(robot);
     columns.extend(numbers(robot, contributors, rows.answers));
     columns
@@ -167,7 +168,8 @@ fn numbers<'a>(robot: &'a Robot, contributors: Vec<String>, answers: &Answers) -
     if !shared {
         columns.retain(|column| !WITH_SHARES.contains(&column.quantity));
     }
-    for (i, joint) in robot.joints().iter().enumerate() {
+    for i in joint_order(robot) {
+        let joint = &robot.joints()[i];
         let quantity = match robot.slides(i) {
             true => &quantity::JOINT_MM,
             false => &quantity::JOINT_DEG,
@@ -177,7 +179,9 @@ fn numbers<'a>(robot: &'a Robot, contributors: Vec<String>, answers: &Answers) -
             move |rows: &Rows<'_>, index: usize, _: &Evaluation| rows.answers.joints_at(index)[i] * scale;
         columns.push(Numbers::of(quantity, of).named("NAME", &joint.name));
     }
-    for (i, contributor) in contributors.iter().enumerate().filter(|_| shared) {
+    let of_contributors: Vec<usize> = (0..contributors.len()).collect();
+    let of_contributors = in_joint_order(robot, &of_contributors).into_iter();
+    for (i, contributor) in of_contributors.zip(&contributors).filter(|_| shared) {
         let of = move |rows: &Rows<'_>, index: usize, _: &Evaluation| to_um(rows.answers.shares_at(index)[i]);
         columns.push(Numbers::of(&quantity::SHARE, of).named("NAME", contributor));
     }

@@ -10,6 +10,7 @@ use armill_report::{AxisLabels, Grid, PointState, ShareBar, ShareBars};
 
 use crate::analysis::point::PointAnswer;
 use crate::input::setting::Setting;
+use crate::joint_order::contributor_names;
 use crate::naming::FLANGE;
 
 /// The quantity of the colours.
@@ -92,7 +93,7 @@ pub fn shares(robot: &Robot, title: &str, setting: &Setting, quantity: &str, bar
         title: title.to_owned(),
         subtitle: subtitle(setting),
         quantity: quantity.to_owned(),
-        parts: setting.model.contributor_names(robot.joints()),
+        parts: contributor_names(robot, &setting.model),
         bars,
     };
     picture.to_svg()

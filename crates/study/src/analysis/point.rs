@@ -19,6 +19,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::input::setting::Setting;
+use crate::joint_order::{contributor_names, in_joint_order, shown_positions};
 use crate::model_words::parts;
 use crate::naming::usual_reference;
 use crate::number::without_rounding;
@@ -96,7 +97,7 @@ impl SettingAnswer {
             inputs_without_uncertainty: inputs_without_uncertainty(&setting.arm(robot)),
             tolerance_um: without_rounding(to_um(setting.tolerance)),
             model: parts(robot, &setting.model),
-            contributors: setting.model.contributor_names(robot.joints()),
+            contributors: contributor_names(robot, &setting.model),
         }
     }
 }
@@ -178,7 +179,6 @@ impl PointAnswer {
             evaluation,
             tcp,
         } = *point;
-        let position = |(i, q): (usize, &f64)| if robot.slides(i) { to_mm(q) } else { to_deg(q) };
         let compliance = by_force(&setting.compliance_at(robot, answers.joints_at(index)));
         let normal = setting.plane.normal();
         // A case that is a moment alone has no direction.
@@ -189,12 +189,7 @@ impl PointAnswer {
             xyz_mm: clean(setting.in_reference(&tcp).coords.map(to_mm).into()),
             in_plane_mm: PointAnswer::in_plane_mm(&setting.plane, &tcp),
             branch: evaluation.name.to_string(),
-            joints_deg: answers
-                .joints_at(index)
-                .iter()
-                .enumerate()
-                .map(position)
-                .collect(),
+            joints_deg: shown_positions(robot, answers.joints_at(index)),
             within_limits: evaluation.within_limits(),
             singularity: evaluation.singularity.map(|s| s.to_string()),
             worst_case: evaluation.worst_case + 1,
@@ -202,7 +197,10 @@ impl PointAnswer {
             in_plane_u_um: evaluation.in_plane_uncertainty.map(to_um),
             normal_um: to_um(evaluation.normal),
             full_um: to_um(evaluation.full),
-            joint_share_um: answers.shares_at(index).iter().map(to_um).collect(),
+            joint_share_um: in_joint_order(robot, answers.shares_at(index))
+                .iter()
+                .map(to_um)
+                .collect(),
             permissible_along_load_n: along.filter(|n| n.is_finite()),
             permissible_any_direction_n: Some(any).filter(|n| n.is_finite()),
         }

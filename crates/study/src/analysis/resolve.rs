@@ -373,7 +373,7 @@ impl Resolver<'_> {
     /// The position of a rail and the preferred positions of redundant joints; `None` also if that has problems.
     fn home(&self, log: &mut ProblemLog<'_>) -> Option<Vec<f64>> {
         let given = self.of_posture(|posture| posture.home_deg.as_ref())?;
-        match crate::joint_unit::joint_positions_from_base(&self.robot?.robot, given) {
+        match crate::joint_order::joint_positions(&self.robot?.robot, given) {
             Ok(home) => Some(home),
             Err(StudyError::Value { message, hint }) => {
                 log.problem("posture.home_deg", message, &hint);

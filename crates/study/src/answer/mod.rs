@@ -51,6 +51,7 @@ use crate::budget::{self, BudgetAnswer};
 use crate::file::resolve::Study;
 use crate::file::slips;
 use crate::input::setting::Setting;
+use crate::joint_order::joint_order;
 use crate::joint_unit::JointUnit;
 use crate::model_words::left_out;
 use crate::uncertainty_words;
@@ -178,11 +179,9 @@ fn robot_answer(study: &Study) -> RobotAnswer {
         name: robot.name().to_owned(),
         title: study.robot.title.clone(),
         compliance_assumed: study.compliance_is_assumed(),
-        joints: robot
-            .joints()
-            .iter()
-            .enumerate()
-            .map(|(i, j)| joint(i, j))
+        joints: joint_order(robot)
+            .into_iter()
+            .map(|i| joint(i, &robot.joints()[i]))
             .collect(),
     }
 }
@@ -271,8 +270,9 @@ fn warnings(study: &Study, answers: &AnalysisAnswers) -> Vec<String> {
         let unknown = uncertainty_words::warning(&setting.arm(&study.robot.robot));
         warnings.extend(unknown.filter(|warning| !warnings.contains(warning)));
     }
-    for (i, joint) in study.robot.joint_notes.iter().enumerate() {
-        for limits in &joint.other_limits {
+    for i in joint_order(&study.robot.robot) {
+        let notes = study.robot.joint_notes.get(i);
+        for limits in notes.iter().flat_map(|note| &note.other_limits) {
             let OtherLimits {
                 limits_deg: [lower, upper],
                 source,

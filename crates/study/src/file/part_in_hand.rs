@@ -1,8 +1,8 @@
 //! A part in the hand of the robot: the robot holds the part, and the tool stands in the cell.
 //!
 //! Robot and tool become one chain, from the flange to the mount of the tool ([`armill_core::robot::hand`]): its base is the
-//! flange, so that what is given of the part is constant while the robot moves. In results joints are in the order of that
-//! chain, from the flange back; in the study in that of the robot.
+//! flange, so that what is given of the part is constant while the robot moves. In study and results joints have the order of the
+//! robot ([`crate::joint_order`]).
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
@@ -85,40 +85,10 @@ fn refused(error: RobotError) -> StudyError {
     )
 }
 
-/// Reports what is not known of a part in the hand.
+/// Reports a positioner next to a part in the hand.
 pub(super) fn check(log: &mut ProblemLog<'_>, file: &StudyFile) {
-    let mut refuse = |is_given: bool, key: &str, message: &str, hint: &str| {
-        if is_given {
-            log.problem(key, message, hint);
-        }
-    };
-    refuse(
-        file.positioner.is_some(),
-        "positioner",
-        "a part is either on a positioner or in the hand of the robot",
-        "remove `[positioner]` or `[part_in_hand]`",
-    );
-    let of_clearance = "the clearance of a part in the hand is not known";
-    let without = "remove it: deviations do not depend on it";
-    refuse(!file.obstacle.is_empty(), "obstacle", of_clearance, without);
-    refuse(file.pedestal.is_some(), "pedestal", of_clearance, without);
-    refuse(file.floor.is_some(), "floor", of_clearance, without);
-    refuse(file.part.is_some(), "part", of_clearance, without);
-    refuse(
-        file.least_clearance_mm.is_some(),
-        "least_clearance_mm",
-        of_clearance,
-        without,
-    );
-    let has_bodies = file.tool.as_ref().is_some_and(|tool| !tool.body.is_empty());
-    refuse(has_bodies, "tool.body", of_clearance, without);
-    for (index, analysis) in file.analysis.iter().enumerate() {
-        let has_bodies = analysis.tool.as_ref().is_some_and(|tool| !tool.body.is_empty());
-        refuse(
-            has_bodies,
-            &format!("analysis[{index}].tool.body"),
-            of_clearance,
-            without,
-        );
+    if file.positioner.is_some() {
+        let message = "a part is either on a positioner or in the hand of the robot";
+        log.problem("positioner", message, "remove `[positioner]` or `[part_in_hand]`");
     }
 }

@@ -27,7 +27,8 @@ use crate::error::StudyError;
 use crate::file::format::PositionerTable;
 use crate::input::problem_log::ProblemLog;
 use crate::input::quantities::pose_mm_deg;
-use crate::joint_unit::{JointUnit, joint_positions};
+use crate::joint_order::joint_positions;
+use crate::joint_unit::JointUnit;
 use crate::naming::{BASE_LINK, TABLE};
 use crate::robots;
 

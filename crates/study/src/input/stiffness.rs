@@ -24,7 +24,7 @@ use armill_formats::robot::spring_tables::SpringTableError;
 use crate::error::StudyError;
 use crate::input::problem_log::ProblemLog;
 use crate::input::tables::{CutterMaterial, GravityTable, ThermalTable, ToolTable};
-use crate::joint_unit::joint_positions_from_base;
+use crate::joint_order::joint_positions;
 
 /// What the study adds to the stiffness model of the robot file, as written.
 #[derive(Clone, Copy, Debug)]
@@ -165,7 +165,7 @@ fn gravity(
     robot: &Robot,
     structure: &Structure,
 ) -> Option<Gravity> {
-    let reference = match joint_positions_from_base(robot, &table.reference_joints_deg) {
+    let reference = match joint_positions(robot, &table.reference_joints_deg) {
         Ok(reference) => Some(reference),
         Err(StudyError::Value { message, .. }) => {
             let hint = "the joint positions when the tool was set, base to flange";

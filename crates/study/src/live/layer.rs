@@ -17,6 +17,7 @@ use crate::analysis::{AnalysisData, AnalysisResult};
 use crate::answer::StudyAnswer;
 use crate::error::StudyError;
 use crate::input::setting::Setting;
+use crate::joint_order::{contributor_names, in_joint_order};
 use crate::joint_unit::JointUnit;
 use crate::live::lines::short;
 use crate::live::scale::{checked, levels_around};
@@ -111,8 +112,8 @@ impl LayerKey {
                 Some(evaluation.limit_margin * JointUnit::of(robot, evaluation.limit_joint).scale)
             }
             LayerKey::LargestShare => (answers.share_count > 0).then(|| {
-                let shares = answers.shares_at(index).iter().enumerate();
-                let largest = shares.max_by(|a, b| a.1.total_cmp(b.1));
+                let shares = in_joint_order(robot, answers.shares_at(index));
+                let largest = shares.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
                 largest.map_or(0.0, |(contributor, _)| contributor as f64)
             }),
         };
@@ -189,7 +190,7 @@ pub(super) fn layer_of(
     Ok(LayerAnswer {
         key,
         names: match (key, setting) {
-            (LayerKey::LargestShare, Some(setting)) => setting.model.contributor_names(robot.joints()),
+            (LayerKey::LargestShare, Some(setting)) => contributor_names(robot, &setting.model),
             _ => Vec::new(),
         },
         lines: answer.maps.iter().zip(&values).map(lines_of).collect(),

@@ -31,6 +31,7 @@ use crate::analysis::quantity;
 use crate::analysis::rows::Rows;
 use crate::analysis::{AnalysisData, AnalysisResult};
 use crate::error::StudyError;
+use crate::joint_order::joint_order;
 use crate::joint_unit::JointUnit;
 use crate::live::EditedAnalysis;
 use crate::live::layer::LayerKey;
@@ -184,7 +185,7 @@ fn columns<'a>(
     );
     let all = numbers_of(robot, data, rows).into_iter();
     let of_table = all.filter(|numbers| ![&quantity::SHARE, &quantity::OF_CASE].contains(&numbers.quantity));
-    let mut joint = 0;
+    let mut joints = joint_order(robot).into_iter();
     for numbers in of_table {
         let (key, unit) = (numbers.name.clone(), numbers.quantity.unit);
         let of_joint = [&quantity::JOINT_DEG, &quantity::JOINT_MM].contains(&numbers.quantity);
@@ -194,13 +195,13 @@ fn columns<'a>(
             values.extend(known.into_iter().map(|value| or_nan(value) as f32));
         });
         let mut column = PathColumn::filled(&key, unit, fill);
-        if of_joint {
+        let joint = if of_joint { joints.next() } else { None };
+        if let Some(joint) = joint {
             let of = &robot.joints()[joint];
             let given = |value: f64| without_rounding(value * JointUnit::of(robot, joint).scale);
             column.about.joint = Some(of.name.clone());
             column.about.lower = of.limits.map(|limits| given(limits.lower));
             column.about.upper = of.limits.map(|limits| given(limits.upper));
-            joint += 1;
         }
         columns.push(column);
     }

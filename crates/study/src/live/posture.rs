@@ -25,7 +25,8 @@ use crate::analysis::{AnalysisResult, Subject};
 use crate::error::StudyError;
 use crate::file::resolve::Study;
 use crate::input::setting::Setting;
-use crate::joint_unit::{JointUnit, joint_positions};
+use crate::joint_order::{in_joint_order, joint_order, joint_positions, shown_positions};
+use crate::joint_unit::JointUnit;
 use crate::live::along::{ToolTarget, answered_posture, at_hole, on_path};
 use crate::live::bodies::{BodyPose, DrawnBodies, DrawnCell};
 use crate::live::meshes::{DrawnMesh, Shapes};
@@ -222,12 +223,7 @@ pub(super) fn postures_of(
             reference_joints_deg: None,
             base: setting.base_name.clone(),
             caution: study.own_compliance.as_ref().and_then(|own| own.caution.clone()),
-            home_deg: home.map(|home| {
-                home.iter()
-                    .enumerate()
-                    .map(|(i, q)| q * JointUnit::of(robot, i).scale)
-                    .collect()
-            }),
+            home_deg: home.map(|home| shown_positions(robot, home)),
         },
         &PoseContext {
             model: &setting.model,
@@ -395,7 +391,10 @@ fn deviations(
             full_um: to_um(evaluation.full),
             force_n: wrench.force.map(without_rounding).into(),
             deviation_um: to_um(answers.deviations_at(0)[0]).into(),
-            share_um: answers.shares_at(0).iter().map(to_um).collect(),
+            share_um: in_joint_order(robot, answers.shares_at(0))
+                .iter()
+                .map(to_um)
+                .collect(),
             permissible_along_load_n: along.filter(|n| n.is_finite()),
             permissible_any_direction_n: Some(any).filter(|n| n.is_finite()),
         })
@@ -425,7 +424,7 @@ fn drawn(robot: &Robot, q: &[f64], flange_from_tool: &Isometry) -> DrawnPosture 
         .chain(origins)
         .chain([arm.flange_mm, arm.tool_mm]);
     DrawnPosture {
-        joints: (0..robot.joints().len()).map(joint).collect(),
+        joints: joint_order(robot).into_iter().map(joint).collect(),
         flange_mm: arm.flange_mm,
         flange_axes: axes(&frames.base_from_flange.rotation),
         tool_mm: arm.tool_mm,
@@ -455,12 +454,13 @@ fn as_chain(robot: &Robot, q: &[f64]) -> Vec<ChainPosition> {
             upper_deg: ends.map(|[a, b]| a.max(b)),
         }
     };
-    (0..robot.joints().len()).map(of).collect()
+    joint_order(robot).into_iter().map(of).collect()
 }
 
 /// Limits of every joint.
 fn limits(robot: &Robot) -> Vec<JointLimits> {
-    let of = |(i, joint): (usize, &armill_core::robot::Joint)| {
+    let of = |i: usize| {
+        let joint = &robot.joints()[i];
         let unit = JointUnit::of(robot, i);
         let given = |value: f64| without_rounding(value * unit.scale);
         JointLimits {
@@ -470,7 +470,7 @@ fn limits(robot: &Robot) -> Vec<JointLimits> {
             unit: unit.name,
         }
     };
-    robot.joints().iter().enumerate().map(of).collect()
+    joint_order(robot).into_iter().map(of).collect()
 }
 
 #[cfg(test)]

@@ -19,6 +19,7 @@ use crate::analysis::runner::Runner;
 use crate::analysis::{Subject, quantity};
 use crate::error::StudyError;
 use crate::input::posture_search::SearchTable;
+use crate::joint_order::{joint_names, joint_order};
 use crate::joint_unit::JointUnit;
 use crate::live::scale::levels_around;
 use crate::live::{EditedAnalysis, StudyText};
@@ -139,6 +140,14 @@ pub fn spin_map(
         .map(|um| [to_um(um); 2])
         .reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
     let rows = || map.cells.chunks(map.points.len().max(1));
+    let order = joint_order(robot);
+    let shown = |joint: usize| {
+        order
+            .iter()
+            .position(|other| *other == joint)
+            .unwrap_or(0)
+            .min(255) as u8
+    };
     let along = |index: &usize| without_rounding(to_mm(track.path.points[*index].along));
     Ok(SpinMapAnswer {
         length_mm: without_rounding(to_mm(path.length())),
@@ -148,10 +157,14 @@ pub fn spin_map(
         limit_margin_deg: rows()
             .map(|row| row.iter().map(|cell| margin(robot, cell)).collect())
             .collect(),
-        limit_joint: rows().map(|row| row.iter().map(limit_joint).collect()).collect(),
+        limit_joint: rows()
+            .map(|row| row.iter().map(|cell| shown(limit_joint(cell))).collect())
+            .collect(),
         state: rows().map(|row| row.iter().map(state).collect()).collect(),
-        move_joint: rows().map(|row| row.iter().map(move_joint).collect()).collect(),
-        joint_names: robot.joints().iter().map(|joint| joint.name.clone()).collect(),
+        move_joint: rows()
+            .map(|row| row.iter().map(|cell| shown(move_joint(cell))).collect())
+            .collect(),
+        joint_names: joint_names(robot),
         levels_um: range.map(|[least, largest]| {
             let largest = largest.min(least.max(MOST_TOLERANCES * tolerance_um));
             levels_around([least, largest], Some(tolerance_um))
@@ -307,14 +320,13 @@ fn margin(robot: &Robot, cell: &SpinCell) -> Option<f64> {
     Some(decimals(evaluation.limit_margin * unit.scale, 2)).filter(|margin| margin.is_finite())
 }
 
-fn limit_joint(cell: &SpinCell) -> u8 {
-    cell.evaluation
-        .map_or(0, |evaluation| evaluation.limit_joint.min(255) as u8)
+fn limit_joint(cell: &SpinCell) -> usize {
+    cell.evaluation.map_or(0, |evaluation| evaluation.limit_joint)
 }
 
-fn move_joint(cell: &SpinCell) -> u8 {
+fn move_joint(cell: &SpinCell) -> usize {
     match cell.on_move {
-        Some(ObstacleKind::Jump { joint, .. } | ObstacleKind::TooSlow { joint, .. }) => joint.min(255) as u8,
+        Some(ObstacleKind::Jump { joint, .. } | ObstacleKind::TooSlow { joint, .. }) => joint,
         _ => 0,
     }
 }

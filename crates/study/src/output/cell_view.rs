@@ -10,13 +10,13 @@ use armill_core::units::to_mm;
 use armill_formats::robot::RobotDescription;
 use armill_report::{BodyKind, CellBody, CellView, NearestPair};
 
-use crate::analysis::arm::arm_posture;
+use crate::analysis::arm::{FromGround, arm_on_ground};
 use crate::analysis::picture::Picture;
 use crate::analysis::rows::Rows;
 use crate::error::StudyError;
 use crate::file_names::slug;
 use crate::input::cell::links::LinkBodies;
-use crate::naming::base_name;
+use crate::naming::BASE_LINK;
 
 /// Half the edge of the piece of the floor that is drawn, m.
 const FLOOR_HALF: f64 = 50.0;
@@ -45,7 +45,7 @@ pub fn bodies_drawing(found: &RobotDescription, name: &str) -> Result<String, St
     let view = CellView {
         title: found.title.clone(),
         subtitle: format!("{count} bodies of its links; all joints at zero"),
-        bodies: moving(&cell, &state),
+        bodies: moving(&cell, &state, &FromGround::at(robot, &zeros)),
         line_mm: line(robot, &zeros, &here),
         ..CellView::default()
     };
@@ -68,16 +68,23 @@ pub(super) fn least_clearance(name: &str, robot: &Robot, series: &[Rows<'_>]) ->
     let joints = rows.answers.joints_at(index);
     let mut state = CellState::new(of_analysis.placed(), robot, &setting.flange_from_tool);
     state.set_joints(joints);
-    let mut bodies = moving(cell, &state);
+    let seen = FromGround::at(robot, joints);
+    let mut bodies = moving(cell, &state, &seen);
     let of_arm = bodies.len() - of_analysis.carried;
     bodies[of_arm..]
         .iter_mut()
         .for_each(|body| body.kind = BodyKind::Obstacle);
+    let of_base = of_analysis.base_from_floor.map(nalgebra::convert);
+    let base_from_floor = of_base.or_else(|| {
+        let floor = of_analysis.floor_body?;
+        bodies.remove(floor);
+        Some(state.base_from_body()[floor])
+    });
     bodies.extend(
         of_analysis
             .still
             .iter()
-            .map(|body| still(body, &of_analysis.base_from_part)),
+            .map(|body| still(body, &of_analysis.base_from_part, &seen)),
     );
     let label = match found.nearest.distance > 0.0 {
         true => format!("{:.1} mm", to_mm(found.nearest.distance)),
@@ -89,15 +96,16 @@ pub(super) fn least_clearance(name: &str, robot: &Robot, series: &[Rows<'_>]) ->
         "TCP at ({x:.0}, {y:.0}, {z:.0}) mm relative to {}",
         setting.base_name
     );
-    let base = base_name(robot);
     let view = CellView {
         title: format!("{name}: least clearance, {label}"),
-        subtitle: format!("{first} and {second}; {place}; coordinates of the picture relative to {base}"),
+        subtitle: format!(
+            "{first} and {second}; {place}; coordinates of the picture relative to {BASE_LINK}"
+        ),
         bodies,
         line_mm: line(robot, joints, &setting.flange_from_tool),
-        floor_mm: of_analysis.base_from_floor.as_ref().map(floor),
+        floor_mm: base_from_floor.map(|frame| floor(&(seen.ground_from_base() * frame))),
         nearest: Some(NearestPair {
-            points_mm: found.nearest.points.map(mm),
+            points_mm: found.nearest.points.map(|point| seen.point_mm(mm(point))),
             label: label.clone(),
         }),
     };
@@ -115,9 +123,9 @@ fn mm(point: Point3<f64>) -> [f64; 3] {
     to_mm(point.coords).into()
 }
 
-/// Base, joint origins, flange and tool centre point.
+/// Base, joint origins, flange and tool centre point, seen from the ground.
 fn line(robot: &Robot, joints: &[f64], flange_from_tool: &Isometry) -> Vec<[f64; 3]> {
-    let posture = arm_posture(robot, joints, flange_from_tool);
+    let posture = arm_on_ground(robot, joints, flange_from_tool);
     let origins = posture.joints.iter().map(|joint| joint.origin_mm);
     std::iter::once(posture.base_mm)
         .chain(origins)
@@ -126,7 +134,7 @@ fn line(robot: &Robot, joints: &[f64], flange_from_tool: &Isometry) -> Vec<[f64;
 }
 
 /// The bodies that move with the arm, or carry it.
-fn moving(cell: &Cell, state: &CellState<'_>) -> Vec<CellBody> {
+fn moving(cell: &Cell, state: &CellState<'_>, seen: &FromGround) -> Vec<CellBody> {
     let frames = state.base_from_body().iter();
     let bodies = cell.arm().iter().zip(frames);
     bodies
@@ -137,21 +145,22 @@ fn moving(cell: &Cell, state: &CellState<'_>) -> Vec<CellBody> {
                 Role::Cutter => BodyKind::Cutter,
                 Role::Obstacle => BodyKind::Obstacle,
             };
-            drawn(kind, &body.shape, frame)
+            drawn(kind, &body.shape, &(seen.ground_from_base() * frame))
         })
         .collect()
 }
 
-fn still(body: &FixedBody, base_from_part: &Isometry) -> CellBody {
+fn still(body: &FixedBody, base_from_part: &Isometry, seen: &FromGround) -> CellBody {
     let (kind, frame) = match body.is_part {
         true => (BodyKind::Part, base_from_part * body.frame_from_body),
         false => (BodyKind::Obstacle, body.frame_from_body),
     };
-    drawn(kind, &body.shape, &nalgebra::convert(frame))
+    let base_from_body: IsometryMatrix3<f64> = nalgebra::convert(frame);
+    drawn(kind, &body.shape, &(seen.ground_from_base() * base_from_body))
 }
 
-/// A shape as balls, in base.
-fn drawn(kind: BodyKind, shape: &Shape, base_from_body: &IsometryMatrix3<f64>) -> CellBody {
+/// A shape as balls, where this frame is.
+fn drawn(kind: BodyKind, shape: &Shape, ground_from_body: &IsometryMatrix3<f64>) -> CellBody {
     let (points, radius): (Vec<Point3<f64>>, f64) = match shape {
         Shape::Capsule(capsule) => (vec![capsule.axis.from, capsule.axis.to], capsule.radius),
         Shape::Cylinder(axis, radius) => {
@@ -172,7 +181,7 @@ fn drawn(kind: BodyKind, shape: &Shape, base_from_body: &IsometryMatrix3<f64>) -
         kind,
         points_mm: points
             .into_iter()
-            .map(|point| mm(base_from_body * point))
+            .map(|point| mm(ground_from_body * point))
             .collect(),
         radius_mm: to_mm(radius),
     }
@@ -192,7 +201,8 @@ fn outermost(mesh: &Mesh) -> Vec<Point3<f64>> {
         .collect()
 }
 
-fn floor(base_from_floor: &Isometry) -> [[f64; 3]; 4] {
+/// Corners of a piece of the floor.
+fn floor(ground_from_floor: &IsometryMatrix3<f64>) -> [[f64; 3]; 4] {
     [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
-        .map(|(x, y)| mm(base_from_floor * Point3::new(x * FLOOR_HALF, y * FLOOR_HALF, 0.0)))
+        .map(|(x, y)| mm(ground_from_floor * Point3::new(x * FLOOR_HALF, y * FLOOR_HALF, 0.0)))
 }

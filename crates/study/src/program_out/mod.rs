@@ -40,7 +40,8 @@ use crate::analysis::path::answer::obstacles;
 use crate::error::StudyError;
 use crate::file::resolve::Study;
 use crate::input::setting::Setting;
-use crate::joint_unit::{JointUnit, joint_positions_from_base};
+use crate::joint_order::joint_positions;
+use crate::joint_unit::JointUnit;
 use crate::number::decimals;
 
 /// A path with its postures, to be written as a program.
@@ -132,9 +133,7 @@ fn standing(study: &Study, answers: &Answers) -> Result<Option<Vec<f64>>, StudyE
     let robot = &study.robot.robot;
     let count = robot.chain().ground().positioner_joints();
     let home = study.controller.home_deg.as_ref();
-    let home = home
-        .map(|home| joint_positions_from_base(robot, home))
-        .transpose()?;
+    let home = home.map(|home| joint_positions(robot, home)).transpose()?;
     let reached = (0..answers.points.len()).filter(|index| answers.points[*index].is_ok());
     let mut all = reached
         .map(|index| answers.joints_at(index))

@@ -20,7 +20,7 @@ use super::rapids::RapidPoses;
 use super::settings::ProgramSettings;
 use super::tooling::Change;
 use crate::error::StudyError;
-use crate::joint_unit::joint_positions_from_base;
+use crate::joint_order::joint_positions;
 
 /// Joint positions that differ by less are the same, rad (m).
 const SAME_JOINTS: f64 = 1e-3;
@@ -97,7 +97,7 @@ impl<'a> Ways<'a> {
         let up = placing.axis.into_inner();
         // The number of its values was checked with the study.
         let home = controller.home_deg.as_ref();
-        let home = home.and_then(|home| joint_positions_from_base(arm.robot, home).ok());
+        let home = home.and_then(|home| joint_positions(arm.robot, home).ok());
         Ways {
             arm,
             rapids: RapidPoses { placing },

@@ -26,6 +26,7 @@ use crate::analysis::map::answer::CountsAnswer;
 use crate::analysis::path::PathSource;
 use crate::analysis::point::{PointAnswer, ReachedPoint, SettingAnswer};
 use crate::input::setting::Setting;
+use crate::joint_order::shown_positions;
 use crate::number::without_rounding;
 
 /// A set of holes.
@@ -282,7 +283,7 @@ fn hole(robot: &Robot, analysis: &HolesAnalysis, found: &HolesFound, index: usiz
         in_plane_um: evaluation.map(|evaluation| to_um(evaluation.in_plane)),
         in_plane_u_um: evaluation.and_then(|evaluation| evaluation.in_plane_uncertainty.map(to_um)),
         joints_deg: match evaluation {
-            Some(_) => joints.iter().enumerate().map(|(i, q)| q * scale(i)).collect(),
+            Some(_) => shown_positions(robot, joints),
             None => Vec::new(),
         },
         limit_margin_deg: evaluation

@@ -12,7 +12,7 @@ use armill_report::{
 };
 
 use crate::analysis::Sheet;
-use crate::analysis::arm::arm_posture;
+use crate::analysis::arm::{FromGround, arm_on_ground, standing_tool};
 use crate::analysis::map::answer::MapAnswer;
 use crate::analysis::picture::{
     NORMAL_QUANTITY, Picture, QUANTITY, axes, base_y, grid, grid_of, share_bar, shares, subtitle,
@@ -245,13 +245,15 @@ fn plate_corners(map: &PlaneMap) -> [[f64; 3]; 4] {
     ]
 }
 
-/// The arm at these joint positions (rad, m), with the plate, from two sides.
+/// The arm at these joint positions (rad, m), with the plate (base), from two sides.
 fn arm(robot: &Robot, setting: &Setting, title: &str, joints: &[f64], plate_mm: [[f64; 3]; 4]) -> String {
+    let seen = FromGround::at(robot, joints);
     let drawing = ArmDrawing {
         title: title.to_owned(),
         subtitle: subtitle(setting),
-        posture: arm_posture(robot, joints, &setting.flange_from_tool),
-        plate_mm: Some(plate_mm),
+        posture: arm_on_ground(robot, joints, &setting.flange_from_tool),
+        plate_mm: Some(plate_mm.map(|corner| seen.point_mm(corner))),
+        standing_tool_mm: standing_tool(robot, &setting.flange_from_tool),
         ..ArmDrawing::default()
     };
     drawing.to_svg_views(&[View::Iso, View::Side])

@@ -25,7 +25,7 @@ use armill_report::{
     Series, Stretch, TrackMap, VectorField, View,
 };
 
-use crate::analysis::arm::arm_posture;
+use crate::analysis::arm::{FromGround, arm_on_ground, standing_tool};
 use crate::analysis::path::answer::PathAnswer;
 use crate::analysis::path::point_groups::PointGroups;
 use crate::analysis::path::run::PathResult;
@@ -407,19 +407,21 @@ impl Drawing<'_> {
         let (worst, _) = answers.worst()?;
         let robot = &self.robot;
         let flange_from_tool = &self.analysis.setting.flange_from_tool;
-        let draw = |i: usize| arm_posture(robot, answers.joints_at(i), flange_from_tool);
+        let draw = |i: usize| arm_on_ground(robot, answers.joints_at(i), flange_from_tool);
         let ghosts = (0..GHOSTS)
             .map(|k| k * track.len() / GHOSTS)
             .filter(|i| answers.points[*i].is_ok());
         let stride = track.len().div_ceil(MOST_IN_SPACE).max(1);
-        let base =
-            |at: &Point3<f64>| -> [f64; 3] { to_mm((track.placing.base_from_path * at).coords).into() };
+        let seen = FromGround::at(robot, answers.joints_at(worst));
+        let shown = |at: &Point3<f64>| -> [f64; 3] {
+            seen.point_mm(to_mm((track.placing.base_from_path * at).coords).into())
+        };
         let mut path_mm: Vec<[f64; 3]> = track
             .path
             .points
             .iter()
             .step_by(stride)
-            .map(|p| base(&p.at))
+            .map(|p| shown(&p.at))
             .collect();
         if !self.found.radial.is_empty() {
             path_mm.extend(path_mm.first().copied());
@@ -429,8 +431,9 @@ impl Drawing<'_> {
             subtitle: self.subtitle(),
             posture: draw(worst),
             ghosts: ghosts.map(draw).collect(),
-            plate_mm: Some(self.plate().map(|corner| base(&corner))),
+            plate_mm: Some(self.plate().map(|corner| shown(&corner))),
             path_mm,
+            standing_tool_mm: standing_tool(robot, flange_from_tool),
             view: View::Iso,
         };
         let caption = "the arm along the path, solid where the deviation is largest.";

@@ -264,7 +264,9 @@ impl Runner<'_> {
         track: &Track,
         along: &mut AlongPath,
     ) -> Result<(), StudyError> {
-        let Some((cut, stock)) = analysis.cut_in_stock() else {
+        // A stock in the hand of the robot is not measured.
+        let in_hand = self.robot.chain().ground().part_is_in_hand();
+        let Some((cut, stock)) = analysis.cut_in_stock().filter(|_| !in_hand) else {
             return Ok(());
         };
         let question = self.question(&analysis.setting);

@@ -16,8 +16,10 @@ pub struct AnalysisCell {
     pub still: Vec<FixedBody>,
     /// The frame of the part in base.
     pub base_from_part: Isometry,
-    /// The frame whose x-y plane is the floor.
+    /// The frame whose x-y plane is the floor, where the base stands on it.
     pub base_from_floor: Option<Isometry>,
+    /// Which body of the arm is the floor, where the base moves.
+    pub floor_body: Option<usize>,
     /// The demanded clearance, m.
     pub least: f64,
 }

@@ -38,7 +38,7 @@ pub struct CellTables<'a> {
 }
 
 /// Names of the bodies that a study has once.
-const PART: &str = "part";
+pub(super) const PART: &str = "part";
 const PEDESTAL: &str = "pedestal";
 
 /// The bodies of a study.
@@ -48,7 +48,7 @@ pub struct CellBodies {
     pub links: Vec<ArmBody>,
     /// Pairs of links that are apart in every posture.
     pub apart: Vec<[usize; 2]>,
-    /// Of each link whether the tool is not checked against it, since its body is too coarse.
+    /// Of each link whether the tool or part in the hand is not checked against it, since its body is too coarse.
     pub is_coarse: Vec<bool>,
     /// What stands in the cell, in the reference frame.
     pub obstacles: Vec<NamedShape>,

@@ -8,7 +8,8 @@
 //! ```
 //!
 //! Where a positioner carries the part, its table is the base of the chain: obstacles and the floor stand on the ground and
-//! move relative to it. They are bodies of the ground there.
+//! move relative to it. They are bodies of the ground there. Where the robot holds the part, their coordinates are relative to its `base_link`,
+//! the ground itself.
 //!
 //! They are bodies of the link of that joint, and not checked against the links next to it, as links of the arm are not.
 
@@ -41,10 +42,12 @@ impl CarriedBody {
     /// The body with its frame.
     pub(super) fn placed(&self, robot: &Robot, base_from_reference: &Isometry) -> ArmBody {
         let base_from_body = base_from_reference * self.body.frame_from_body;
+        let ground = robot.chain().ground();
         let attachment_from_body = match self.attachment {
+            _ if ground.part_is_in_hand() => ground.joint_from_ground * self.body.frame_from_body,
             Attachment::Joint(joint) => {
                 let mut at = robot.home(None);
-                at[robot.chain().ground().joints..].fill(0.0);
+                at[ground.joints..].fill(0.0);
                 let base_from_joint: Isometry = nalgebra::convert(forward(robot, &at).base_from_joint[joint]);
                 base_from_joint.inverse() * base_from_body
             }
@@ -62,8 +65,10 @@ impl CarriedBody {
 
 /// Joints between the ground and the arm: those of a rail or gantry.
 fn in_front(robot: &Robot) -> std::ops::Range<usize> {
+    let ground = robot.chain().ground().joints;
     let joints = 0..robot.joints().len();
-    robot.chain().ground().joints..joints.take_while(|joint| robot.is_external(*joint)).count()
+    let external = joints.take_while(|joint| robot.is_external(*joint)).count();
+    ground..external.max(ground)
 }
 
 /// What the pedestal of this robot moves with: the last joint in front of the arm, or the ground.
@@ -74,8 +79,12 @@ pub(super) fn under_the_arm(robot: &Robot) -> Attachment {
 
 /// Whether a link is the base of the arm, its first link, or carries them: above the floor by design.
 pub(super) fn is_near_the_ground(body: &ArmBody, robot: &Robot) -> bool {
-    let ground = robot.chain().ground().joints;
-    let first_of_arm = in_front(robot).end;
+    let ground = robot.chain().ground();
+    if ground.part_is_in_hand() {
+        // The first link of the arm is in front of its base.
+        return matches!(body.attachment, Attachment::Joint(joint) if joint + 2 >= ground.joints);
+    }
+    let (ground, first_of_arm) = (ground.joints, in_front(robot).end);
     matches!(body.attachment, Attachment::Joint(joint) if joint + 1 >= ground && joint <= first_of_arm)
 }
 

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use armill_core::clearance::{ArmBody, Role, Shape};
 use armill_core::frame::Isometry;
 use armill_core::nalgebra;
-use armill_core::robot::Attachment;
 use armill_core::robot::forward::forward;
+use armill_core::robot::{Attachment, Robot};
 use armill_formats::mesh;
 use armill_formats::robot::RobotDescription;
 use armill_formats::robot::urdf::meshes::Mesh;
@@ -22,13 +22,13 @@ pub struct LinkBodies {
     pub links: Vec<ArmBody>,
     /// Pairs of them that are apart in every posture.
     pub apart: Vec<[usize; 2]>,
-    /// Of each whether it is so much larger than its link that a tool on the wrist would touch it without touching the link.
+    /// Of each whether it is so much larger than its link that a tool or part on the wrist would touch it without touching the link.
     pub is_coarse: Vec<bool>,
     /// What a user should know of them.
     pub notes: Vec<String>,
 }
 
-/// A body of a link of the wrist that may be larger than the link by more than this is not checked against the tool, mm.
+/// A body of a link of the wrist that may be larger than the link by more than this is not checked against what is in the hand, mm.
 const COARSE_MM: f64 = 20.0;
 /// Joints of a wrist.
 const WRIST: usize = 3;
@@ -72,25 +72,24 @@ impl LinkBodies {
 
     /// Those of the robot file.
     fn of_file(robot: &RobotDescription) -> LinkBodies {
-        let joints = robot.robot.joints();
         let is_coarse: Vec<bool> = robot
             .bodies
             .iter()
             .zip(&robot.body_notes)
             .map(|(body, note)| {
-                let in_wrist = match body.attachment {
-                    Attachment::Joint(joint) => joint + WRIST >= joints.len(),
-                    Attachment::Flange | Attachment::Tool => true,
-                    Attachment::Base => false,
-                };
-                in_wrist && note.accuracy_mm.is_none_or(|accuracy| accuracy > COARSE_MM)
+                is_of_wrist(body.attachment, &robot.robot)
+                    && note.accuracy_mm.is_none_or(|accuracy| accuracy > COARSE_MM)
             })
             .collect();
         let mut notes = Vec::new();
         if is_coarse.contains(&true) {
             notes.push(format!(
-                "The tool is not checked against the wrist of {}: its bodies may be larger than its links by more than \
+                "{} is not checked against the wrist of {}: its bodies may be larger than its links by more than \
                  {COARSE_MM} mm. A URDF with collision meshes has exact ones.",
+                match robot.robot.chain().ground().part_is_in_hand() {
+                    true => "The part",
+                    false => "The tool",
+                },
                 robot.title
             ));
         }
@@ -101,6 +100,17 @@ impl LinkBodies {
             notes,
         }
     }
+}
+
+/// Whether a body with this attachment is a link of the wrist: one of the last of the arm.
+fn is_of_wrist(attachment: Attachment, robot: &Robot) -> bool {
+    let joints = robot.joints().len();
+    // Number of links between the body and the part or tool in the hand.
+    let before_hand = match robot.chain().ground().part_is_in_hand() {
+        true => attachment.rank(joints),
+        false => joints.saturating_sub(attachment.rank(joints)),
+    };
+    before_hand < WRIST
 }
 
 /// The body of one mesh.
@@ -138,11 +148,20 @@ fn attachment_of(robot: &RobotDescription, mesh: &Mesh) -> (Attachment, Isometry
         None => (ground.attachment(), ground.joint_from_ground * base_from_mesh),
         Some(joint) => {
             let zero = forward(&robot.robot, &vec![0.0; joints.len()]);
-            let base_from_joint: Isometry = nalgebra::convert(zero.base_from_joint[joint]);
+            // In a chain that begins at the flange a link is in front of its joint.
+            let moved_by = match ground.part_is_in_hand() {
+                true => joint.checked_sub(1),
+                false => Some(joint),
+            };
+            let attachment = moved_by.map_or(Attachment::Base, Attachment::Joint);
+            let base_from_attachment: Isometry = match moved_by {
+                None => Isometry::identity(),
+                Some(joint) => nalgebra::convert(zero.base_from_joint[joint]),
+            };
             let base_from_ground: Isometry = nalgebra::convert(ground.in_base(&zero.base_from_joint));
             (
-                Attachment::Joint(joint),
-                base_from_joint.inverse() * base_from_ground * base_from_mesh,
+                attachment,
+                base_from_attachment.inverse() * base_from_ground * base_from_mesh,
             )
         }
     }

@@ -7,8 +7,8 @@
 //! | body | frame of its coordinates |
 //! |---|---|
 //! | link | attachment of the robot file; of a URDF the link |
-//! | `[[tool.body]]` | flange |
-//! | `[[obstacle]]`, `[pedestal]`, `[floor]` | reference frame of the study; joints in front of the arm at 0 |
+//! | `[[tool.body]]` | flange; with a part in the hand the mount of the tool |
+//! | `[[obstacle]]`, `[pedestal]`, `[floor]` | reference frame of the study, joints in front of the arm at 0; `base_link` with a part in the hand |
 //! | `[part]` | part: centre and axes of the plane |
 
 pub mod analysis_cell;

@@ -6,7 +6,7 @@ use armill_core::robot::Robot;
 use armill_core::units::to_mm;
 
 use crate::input::cell::AnalysisCell;
-use crate::input::cell::bodies::CellBodies;
+use crate::input::cell::bodies::{CellBodies, PART};
 use crate::input::cell::placed::CellFrames;
 use crate::input::problem_log::ProblemLog;
 use crate::number::without_rounding;
@@ -40,18 +40,36 @@ pub fn report_permanent_contacts(
         );
     }
     let first_carried = cell.arm().len() - bodies.carried.len();
+    let in_hand = robot.chain().ground().part_is_in_hand();
     for [other, body] in cell.always_in_contact() {
-        if let Some(carried) = body.checked_sub(first_carried) {
+        if in_hand && (bodies.links.len()..first_carried).contains(body) {
+            let table = format!("tool.body[{}]", body - bodies.links.len());
+            let what = format!("`{}`, which stands in the cell,", cell.name(*body));
+            report(&table, &what, *other, "is base_from_mount_mm_deg right?");
+        } else if let Some(carried) = body.checked_sub(first_carried) {
             let carried = &bodies.carried[carried].body;
             let hint =
                 "is its position right? Links next to what it is on are not checked against it; this one is";
             report(&carried.table, &format!("`{}`", carried.name), *other, hint);
         }
     }
-    let Some(height) = bodies.floor else { return };
-    let base = frames
-        .base_from_reference
-        .inverse_transform_point(&Point3::origin());
+    if in_hand {
+        for body in cell.always_near_part(robot, frames.base_from_part, 0.0) {
+            let hint = "it is relative to the centre of the plane, and that to the flange; are both right?";
+            report(PART, "the part in the hand", body, hint);
+        }
+    }
+    let slab = bodies.carried.iter().find(|body| in_hand && body.is_floor());
+    let slab = slab.map(|slab| slab.body.frame_from_body.translation.z);
+    let Some(height) = bodies.floor.or(slab) else {
+        return;
+    };
+    let base = match in_hand {
+        true => Point3::origin(),
+        false => frames
+            .base_from_reference
+            .inverse_transform_point(&Point3::origin()),
+    };
     let on_floor = cell.always_on_floor(robot, frames.flange_from_tool);
     if base.z < height - STANDS_ON {
         let [floor, base] = [height, base.z].map(|z| without_rounding(to_mm(z)));

@@ -8,7 +8,7 @@ use armill_core::robot::Robot;
 
 use crate::input::cell::AnalysisCell;
 use crate::input::cell::bodies::CellBodies;
-use crate::input::cell::carried::is_near_the_ground;
+use crate::input::cell::carried::{CarriedBody, is_near_the_ground};
 use crate::input::cell::named_shape::FLOOR;
 
 /// Where the frames of a study are.
@@ -38,19 +38,18 @@ pub fn placed_cell(
         .iter()
         .map(|body| body.fixed(&Isometry::identity(), true));
     let still: Vec<_> = obstacles.chain(part).collect();
-    let coarse = bodies
-        .is_coarse
-        .iter()
-        .enumerate()
-        .filter(|(_, is_coarse)| **is_coarse);
     let of_tool = bodies.links.len()..bodies.links.len() + tool.len();
-    let unchecked = coarse.flat_map(|(link, _)| of_tool.clone().map(move |body| [link, body]));
+    let part_is_in_hand = robot.chain().ground().part_is_in_hand();
+    let coarse = (0..bodies.links.len()).filter(|link| bodies.is_coarse[*link]);
+    let coarse: Vec<usize> = coarse.collect();
+    let in_hand = if part_is_in_hand { 0..0 } else { of_tool.clone() };
+    let unchecked = coarse
+        .iter()
+        .flat_map(|link| in_hand.clone().map(move |body| [*link, body]));
     let first_carried = of_tool.end;
-    let slabs = bodies.carried.iter().enumerate();
-    let slabs = slabs
-        .filter(|(_, body)| body.is_floor())
-        .map(|(index, _)| first_carried + index);
-    let above = slabs.flat_map(|slab| {
+    let slab = bodies.carried.iter().position(CarriedBody::is_floor);
+    let floor_body = slab.map(|index| first_carried + index);
+    let above = floor_body.into_iter().flat_map(|slab| {
         let near = bodies.links.iter().enumerate();
         let near = near.filter(|(_, body)| is_near_the_ground(body, robot));
         near.map(move |(link, _)| [link, slab])
@@ -73,13 +72,19 @@ pub fn placed_cell(
     if let Some(plane) = &base_from_floor {
         cell = cell.with_floor(Floor::below(FLOOR, plane, robot));
     }
-    let cell = cell.for_clearance(robot, frames.flange_from_tool, bodies.least);
+    let mut cell = cell.for_clearance(robot, frames.flange_from_tool, bodies.least);
+    if part_is_in_hand {
+        cell = cell
+            .apart_from_part(coarse)
+            .with_part_in_hand(robot, frames.base_from_part, bodies.least);
+    }
     AnalysisCell {
         cell: Arc::new(cell),
         carried: bodies.carried.len(),
         still,
         base_from_part: *frames.base_from_part,
         base_from_floor,
+        floor_body,
         least: bodies.least,
     }
 }

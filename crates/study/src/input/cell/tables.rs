@@ -24,7 +24,7 @@ pub struct ObstacleTable {
     /// Unit of the mesh, where its file does not give it.
     pub mesh_unit: Option<MeshUnitName>,
     /// Its position: reference frame of the study to the frame of its coordinates, x, y, z in mm, then rotations about the fixed
-    /// axes x, y, z in degrees.
+    /// axes x, y, z in degrees. With a part in the hand of the robot, relative to its `base_link`.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub base_from_obstacle_mm_deg: Option<[f64; 6]>,
     /// The joint in front of the arm that moves it, such as that of a rail, by name or number; it stands still if left out. Its position is
@@ -48,7 +48,8 @@ pub struct PedestalTable {
     /// Unit of the mesh, where its file does not give it.
     pub mesh_unit: Option<MeshUnitName>,
     /// Its position: reference frame of the study to the frame of its coordinates, x, y, z in mm, then rotations about the fixed
-    /// axes x, y, z in degrees; of a robot on a rail where the rail is at 0.
+    /// axes x, y, z in degrees; of a robot on a rail where the rail is at 0. With a part in the hand of the
+    /// robot, relative to its `base_link`.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub base_from_pedestal_mm_deg: Option<[f64; 6]>,
 }
@@ -57,7 +58,7 @@ pub struct PedestalTable {
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FloorTable {
-    /// Its z in the reference frame of the study.
+    /// Its z in the reference frame of the study; with a part in the hand of the robot, relative to its `base_link`.
     #[schemars(range(min = -1e6, max = 1e6))]
     pub height_mm: f64,
 }

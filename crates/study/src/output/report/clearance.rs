@@ -1,18 +1,30 @@
 //! The chapter on the clearance: the least of each analysis in words, and what is checked.
 
+use armill_core::robot::Robot;
 use armill_report::html::Report;
 
 use crate::answer::StudyAnswer;
 
 /// What is checked, and what is not.
-const CHECKED: [&str; 3] = [
+const CHECKED: [&str; 2] = [
     "Checked at every point: links, tool and what rides with the arm against obstacles, floor and pedestal, spindle and links against the part, and the arm \
      against itself. Distances are those of the bodies as given; capsules are larger than the links that they enclose.",
     "Not checked: links next to each other and bodies in contact in every posture, which touch by design; the cutter against the part; base and first link \
      against floor and pedestal.",
-    "Not part of the cell: cables and hoses, what the study does not contain, and the part as it becomes while it is cut, unless the path has a stock: this is \
-     checked at the points of the path. Moves between the points are checked where a program is written, without the stock.",
 ];
+/// The same where the robot holds the part.
+const CHECKED_IN_HAND: [&str; 2] = [
+    "Checked at every point: the part and links against the tool that stands in the cell, obstacles, floor and pedestal, links against the part, and the arm \
+     against itself. Distances are those of the bodies as given; capsules are larger than the links that they enclose.",
+    "Not checked: links next to each other and bodies in contact in every posture, which touch by design; the cutter against the part, and the last link, \
+     which holds it; base and first link against floor and pedestal.",
+];
+/// What no cell contains.
+const NOT_IN_CELL: &str = "Not part of the cell: cables and hoses, what the study does not contain, and the part as it becomes while it is cut, unless the path has a stock: this is \
+     checked at the points of the path. Moves between the points are checked where a program is written, without the stock.";
+/// The same where the robot holds the part.
+const NOT_IN_CELL_IN_HAND: &str = "Not part of the cell: cables and hoses, what the study does not contain, and the part as it becomes while it is cut. Moves between the points are \
+     checked where a program is written.";
 
 /// The clearance of an analysis.
 struct Given<'a> {
@@ -40,7 +52,7 @@ impl Given<'_> {
 }
 
 /// Adds the chapter, if an analysis has a clearance.
-pub(super) fn add_section(report: Report, answer: &StudyAnswer) -> Report {
+pub(super) fn add_section(report: Report, robot: &Robot, answer: &StudyAnswer) -> Report {
     let maps = answer.maps.iter().map(|map| Given {
         name: &map.name,
         least_mm: map.least_clearance_mm,
@@ -70,6 +82,10 @@ pub(super) fn add_section(report: Report, answer: &StudyAnswer) -> Report {
     if sentences.is_empty() {
         return report;
     }
-    sentences.extend(CHECKED.map(str::to_owned));
+    let (checked, not_in_cell) = match robot.chain().ground().part_is_in_hand() {
+        true => (CHECKED_IN_HAND, NOT_IN_CELL_IN_HAND),
+        false => (CHECKED, NOT_IN_CELL),
+    };
+    sentences.extend(checked.into_iter().chain([not_in_cell]).map(str::to_owned));
     report.section("Clearance").list(&sentences)
 }

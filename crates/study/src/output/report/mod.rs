@@ -66,7 +66,7 @@ pub(super) fn html(
             .section("Volumes")
             .table(&analysis::volume::report::table(&answer.volumes));
     }
-    report = clearance::add_section(report, answer);
+    report = clearance::add_section(report, &study.robot.robot, answer);
     if let Some(given) = &answer.measured {
         report = report.section("Measurement and prediction");
         report = report.paragraph(&crate::output::budget::in_words(given));

@@ -44,6 +44,7 @@ use crate::analysis::path::PathAnalysis;
 use crate::analysis::path::run::PathResult;
 use crate::analysis::point::{PointAnswer, SettingAnswer};
 use crate::input::setting::Setting;
+use crate::joint_order::joint_order;
 use crate::number::without_rounding;
 
 /// A path.
@@ -255,7 +256,7 @@ fn joint_ranges(robot: &Robot, answers: &Answers) -> Vec<[f64; 2]> {
         let [low, high] = positions.fold([f64::MAX, f64::MIN], |[low, high], q| [low.min(q), high.max(q)]);
         (low <= high).then(|| [without_rounding(low), without_rounding(high)])
     };
-    let ranges: Option<Vec<[f64; 2]>> = (0..answers.joint_count).map(range).collect();
+    let ranges: Option<Vec<[f64; 2]>> = joint_order(robot).into_iter().map(range).collect();
     ranges.unwrap_or_default()
 }
 

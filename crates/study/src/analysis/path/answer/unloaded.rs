@@ -8,6 +8,7 @@ use serde::Serialize;
 
 use crate::analysis::path::PathAnalysis;
 use crate::analysis::path::run::PathResult;
+use crate::joint_order::joint_order;
 
 /// Displacements in addition to those by the load; they are included in the deviations of the path.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
@@ -46,7 +47,10 @@ impl UnloadedAnswer {
         };
         let turned_back = reversals(&analysis.track.path, &found.along.answers);
         let model = &analysis.setting.model;
-        let play = model.structure.joints_with_backlash().map(|(joint, backlash)| {
+        let mut with_backlash: Vec<_> = model.structure.joints_with_backlash().collect();
+        let order = joint_order(robot);
+        with_backlash.sort_by_key(|(joint, _)| order.iter().position(|other| other == joint));
+        let play = with_backlash.into_iter().map(|(joint, backlash)| {
             let slides = robot.slides(joint);
             JointBacklash {
                 name: robot.joints()[joint].name.clone(),

@@ -13,6 +13,7 @@ use serde::Serialize;
 use crate::analysis::path::PathAnalysis;
 use crate::analysis::path::run::{PathResult, PointDetail};
 use crate::analysis::point::{PointAnswer, ReachedPoint};
+use crate::joint_order::contributor_names;
 
 /// A point with a large deviation, and why.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -84,7 +85,7 @@ fn cause(
     point: &PointAnswer,
 ) -> String {
     let joints = robot.joints();
-    let names = analysis.setting.model.contributor_names(joints);
+    let names = contributor_names(robot, &analysis.setting.model);
     let largest = point
         .mostly_by(&names)
         .and_then(|(name, part)| Some(format!("{name} {:.0} %", 100.0 * part?)));
