@@ -3287,6 +3287,8 @@ export interface components {
             program: components["schemas"]["ProgramAnswer"] | null;
             /** @description The search for spins of the tool and branches; none without a search. */
             search: components["schemas"]["SearchAnswer"] | null;
+            /** @description What the controller makes of the path; none if the study does not ask for it. */
+            motion: components["schemas"]["MotionAnswer"] | null;
             /** @description Effect of backlash and geometry on the deviations; none if load and gravity alone move the tool. */
             unloaded: components["schemas"]["UnloadedAnswer"] | null;
             /** @description What was skipped or assumed. */
@@ -3849,6 +3851,119 @@ export interface components {
             points: number;
             /** @description Why most spins and branches of the first are not usable. */
             reason: string;
+        };
+        /** @description What the controller makes of a path. */
+        MotionAnswer: {
+            /**
+             * Format: double
+             * @description Duration from the first point to the last, waits and rapids between the cuts included; tool changes and stops of the program are not.
+             */
+            cycle_time_s: number;
+            /**
+             * Format: double
+             * @description Time of the cuts.
+             */
+            cutting_time_s: number;
+            /**
+             * Format: double
+             * @description Time of the cuts at the programmed feed throughout.
+             */
+            programmed_time_s: number;
+            /**
+             * Format: double
+             * @description Time of the rapids between the cuts: the longer of tip and joints, as if the arm moved directly.
+             */
+            rapid_time_s: number;
+            /**
+             * Format: double
+             * @description Time of waits.
+             */
+            wait_time_s: number;
+            /**
+             * Format: double
+             * @description Part of the length of the cuts with at least 98 % of the programmed feed.
+             */
+            length_at_feed_percent: number;
+            /** @description Causes of lost time, the largest first. */
+            lost_time: components["schemas"]["LostTime"][];
+            /** @description Where most time is lost, the worst place first. */
+            places: components["schemas"]["SlowPlace"][];
+            /**
+             * Format: double
+             * @description Largest distance of the commanded path from a programmed point: rounded corners.
+             */
+            largest_blending_um: number;
+            /**
+             * Format: uint32
+             * @description Its line in the program.
+             */
+            largest_blending_line: number;
+            /**
+             * Format: double
+             * @description Largest distance of the path that is followed from the commanded one: joints that follow late.
+             */
+            largest_servo_um: number;
+            /**
+             * Format: double
+             * @description Its standard uncertainty from that of the lag; none if it is not known.
+             */
+            largest_servo_u_um: number | null;
+            /**
+             * Format: uint32
+             * @description Its line in the program.
+             */
+            largest_servo_line: number;
+            /**
+             * Format: double
+             * @description Largest deviation across the tool with both, which the other deviations of the path do not contain.
+             */
+            max_in_plane_with_motion_um: number;
+            /** @description Source of the values of the controller. */
+            source: string | null;
+            /** @description Values that are assumed. */
+            assumed: string[];
+        };
+        /** @description Time that is lost for one cause. */
+        LostTime: {
+            /** @description What limits the speed. */
+            limited_by: string;
+            /**
+             * Format: double
+             * @description Time more than at the programmed feed.
+             */
+            lost_s: number;
+        };
+        /** @description A stretch of the path where the feed is not reached. */
+        SlowPlace: {
+            /**
+             * Format: uint32
+             * @description Line of its slowest point.
+             */
+            line: number;
+            /**
+             * Format: double
+             * @description Distance of it along all cuts.
+             */
+            distance_mm: number;
+            /**
+             * Format: double
+             * @description Speed there.
+             */
+            speed_mm_per_s: number;
+            /**
+             * Format: double
+             * @description Programmed feed there.
+             */
+            programmed_mm_per_s: number;
+            /**
+             * Format: double
+             * @description Time lost on this stretch.
+             */
+            lost_s: number;
+            /** @description What limits the speed. */
+            limited_by: string;
+            /** @description What may help. */
+            advice: string;
         };
         /** @description Displacements in addition to those by the load; they are included in the deviations of the path. */
         UnloadedAnswer: {

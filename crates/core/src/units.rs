@@ -25,6 +25,16 @@ pub fn to_urad<T: Mul<f64>>(radians: T) -> T::Output {
     radians * 1e6
 }
 
+/// s in ms.
+pub fn to_ms(seconds: f64) -> f64 {
+    seconds * 1e3
+}
+
+/// ms in s.
+pub fn from_ms(ms: f64) -> f64 {
+    ms * 1e-3
+}
+
 /// um (or um per any unit) in m.
 pub fn from_um<T: Mul<f64>>(um: T) -> T::Output {
     um * 1e-6

@@ -11,30 +11,39 @@ use crate::document::{Document, Problem};
 pub struct MotionTable {
     /// Greatest acceleration of each joint, base to flange; mm/s^2 for prismatic joints.
     #[schemars(inner(range(min = 0.001, max = 1e6)))]
+    // unit: deg/s^2, mm/s^2
     pub joint_acceleration_deg_per_s2: Option<Vec<f64>>,
     /// Greatest acceleration along the path.
     #[schemars(range(min = 1.0, max = 1e6))]
+    // unit: mm/s^2
     pub path_acceleration_mm_per_s2: Option<f64>,
     /// Standard uncertainty of it.
     #[schemars(range(min = 0.0, max = 1e6))]
+    // unit: mm/s^2
     pub path_acceleration_u_mm_per_s2: Option<f64>,
     /// Window over which the controller averages the command, by which it limits the jerk.
     #[schemars(range(min = 0.0, max = 1000.0))]
+    // unit: ms
     pub smoothing_ms: Option<f64>,
     /// Standard uncertainty of it.
     #[schemars(range(min = 0.0, max = 1000.0))]
+    // unit: ms
     pub smoothing_u_ms: Option<f64>,
     /// Shortest time in which a zone is passed: smaller zones are enlarged to it at the programmed feed.
     #[schemars(range(min = 0.0, max = 1000.0))]
+    // unit: ms
     pub shortest_blending_ms: Option<f64>,
     /// How late each joint follows its command, base to flange; one value stands for all.
     #[schemars(inner(range(min = 0.0, max = 1000.0)))]
+    // unit: ms
     pub lag_ms: Option<Vec<f64>>,
-    /// Standard uncertainty of it, likewise.
+    /// Standard uncertainty of it, one value for each joint or one for all.
     #[schemars(inner(range(min = 0.0, max = 1000.0)))]
+    // unit: ms
     pub lag_u_ms: Option<Vec<f64>>,
     /// Part of the speed that is fed forward: 0 none, 1 complete, where joints are not late at constant speed.
     #[schemars(range(min = 0.0, max = 1.0))]
+    // unit: -
     pub speed_feed_forward: Option<f64>,
     /// Radius of the zone at the end of a move where the program states none; 0: the tool stops there. If left out, zones round corners by
     /// `rounding_um`.
@@ -146,19 +155,21 @@ mod tests {
     fn lists_of_another_length_are_refused_together() {
         let (document, table) =
             read("[motion]\njoint_acceleration_deg_per_s2 = [100]\nlag_ms = [1, 2]\nlag_u_ms = [1]\n");
-        let found: Vec<String> = table
-            .problems(&document, 6)
-            .iter()
-            .map(ToString::to_string)
-            .collect();
-        assert_eq!(found.len(), 2, "{found:?}");
+        let found = table.problems(&document, 6);
+        let shown: Vec<String> = found.iter().map(ToString::to_string).collect();
+        assert_eq!(shown.len(), 2, "{shown:?}");
         assert!(
-            found[0].contains("cell.toml:2") && found[0].contains("has 1 values, but the robot has 6 joints"),
-            "{found:?}"
+            shown[0].contains("cell.toml:2") && shown[0].contains("has 1 values, but the robot has 6 joints"),
+            "{shown:?}"
         );
         assert!(
-            found[1].contains("`lag_ms` has 2 values") && found[1].contains("or one for all"),
-            "{found:?}"
+            shown[1].contains("cell.toml:3") && shown[1].contains("`lag_ms` has 2 values"),
+            "{shown:?}"
+        );
+        let hints: Vec<&str> = found.iter().filter_map(|problem| problem.hint()).collect();
+        assert!(
+            !hints[0].contains("one for all") && hints[1].contains("one for all"),
+            "{hints:?}"
         );
     }
 }

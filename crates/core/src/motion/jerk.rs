@@ -13,7 +13,7 @@
 //! Neither the greatest speed nor the greatest acceleration grows. A trapezoid of speed becomes the profile of seven sections of constant jerk; the motion takes `T`
 //! longer. A stop is passed with a low speed instead, as controllers do where a point is not waited at.
 //!
-//! Source: moving average as a filter of a trajectory, Biagiotti and Melchiorri 2008, section 4.6 [recalled].
+//! Source: moving average as a filter of a trajectory, Biagiotti and Melchiorri 2008, section 4.6 (recalled).
 
 use super::speed::SpeedProfile;
 

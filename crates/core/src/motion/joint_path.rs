@@ -20,7 +20,7 @@ pub struct JointPath {
     stops: Vec<bool>,
     /// `q'` at the beginning of the step after each point, point after point; at the last that of the step before.
     slopes: Vec<f64>,
-    /// `q''`, likewise.
+    /// `q''` there.
     curvatures: Vec<f64>,
 }
 

@@ -13,7 +13,7 @@
 //! At constant speed the joint is `(1 - k) T dq_c/dt` late. On a circle of angular speed `w` the gain is `sqrt(1 + (k w T)^2) / sqrt(1 + (w T)^2)`: without feed-forward
 //! the radius shrinks by about half the square of the angle per time constant.
 //!
-//! Source: second-order terms neglected, Weck, machine tools volume 3 [recalled]; gain by the transfer function.
+//! Source: second-order terms neglected, Weck, machine tools volume 3 (recalled); gain by the transfer function.
 
 /// A first-order lag.
 #[derive(Clone, Copy, Debug, PartialEq)]

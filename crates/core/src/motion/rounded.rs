@@ -14,7 +14,7 @@
 //! Between lines it is a parabola, tangent to both, in its middle `r |d2 - d1| / 4 = r/2 sin(a/2)` from a corner of the angle `a`. The joint positions neglect terms
 //! of the order `r^2` over the reach: some micrometres for a zone of 10 mm.
 //!
-//! Source: blending by a quadratic polynomial, as in Biagiotti and Melchiorri 2008 [recalled]; controllers do not publish theirs.
+//! Source: blending by a quadratic polynomial, as in Biagiotti and Melchiorri 2008 (recalled); controllers do not publish theirs.
 
 use std::ops::Range;
 

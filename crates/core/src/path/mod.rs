@@ -2,7 +2,7 @@
 //!
 //! [`program`]: the moves of a tool path program. [`sampler`]: those moves as points. [`shape`]: circles and lines on a
 //! workpiece plane. [`sampled`]: the points of either. [`placing`] and [`track`]: position in the cell and turn of the
-//! tool; [`spin_curve`]: a turn that changes along the path; `lean`: the tool leans from the programmed axis; `scallop`: what it leaves between passes. [`thinned`](mod@thinned): fewer points of a path. [`clock`]: time at each point. [`stock`], `sweep`, `pass`,
+//! tool; [`spin_curve`]: a turn that changes along the path; `lean`: the tool leans from the programmed axis; `scallop`: what it leaves between passes. [`thinned`](mod@thinned): fewer points of a path. [`clock`]: time at each point; `passage`: how the ends of moves are passed. [`stock`], `sweep`, `pass`,
 //! `strip` and [`engagement`]: engagement of the cutter; [`cutting`], [`drilled`]: its forces. [`remaining`],
 //! [`stock_replay`]: distance of other bodies from the stock. [`feature`]: errors of
 //! the circle, line, plane or hole produced. [`holes`]: single points.

@@ -62,7 +62,12 @@ impl Shape {
             Shape::Polyline(corners) => straight(corners, step),
         };
         SampledPath {
-            ends: corners(&points),
+            // A circle has none.
+            ends: if self.is_closed() {
+                Vec::new()
+            } else {
+                corners(&points)
+            },
             moves: points.last().map_or(0, |point| point.line as usize),
             rapids: vec![Rapids::default(); usize::from(!points.is_empty())],
             points,

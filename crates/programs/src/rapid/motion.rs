@@ -173,7 +173,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// `\Z`, or a zonedata: its first value tells whether the arm stops, its second is the distance of the zone, mm; `fine` and `z10` are predefined.
+    /// `\Z`, or a zonedata: its first value states whether the arm stops, its second is the distance of the zone, mm; `fine` and `z10` are predefined.
     fn passage(&self, zone: Option<&Node>, arguments: &[Argument]) -> Passage {
         let Some(node) = named(arguments, "z").or(zone) else {
             return Passage::Unknown;

@@ -10,6 +10,7 @@ mod hostile;
 mod inform;
 mod krl;
 mod other_makers;
+mod passages;
 mod rapid;
 mod refused_drafts;
 mod rewriting;

@@ -11,7 +11,7 @@
 //! A file is missing where a kind has nothing of its own. [`map`], [`sections`], [`volume`], [`path`], [`holes`]; this
 //! file is the list of them. What they share: [`table`] `[[analysis]]`, [`study_tables`] what the study gives to each,
 //! [`resolve`] the values of the study and those of the analysis, `sheet` a plane with its grid, [`runner`] the question
-//! to the core, [`point`] a point of an answer, [`quantity`] what is known of a point, [`clearance`] their clearance, [`rows`], [`numbers`] and
+//! to the core, [`point`] a point of an answer, [`quantity`] what is known of a point (`quantity_entry`: an entry of that list; `motion_quantity`: those of a motion), [`clearance`] their clearance, [`rows`], [`numbers`] and
 //! [`columns`] the points as a table, [`picture`], [`panels`] and [`arm`] for pictures, [`cells`] for tables of a
 //! report, [`words`] for sentences.
 
@@ -21,13 +21,14 @@ pub mod clearance;
 pub mod columns;
 pub mod holes;
 pub mod map;
-pub mod motion_quantity;
+mod motion_quantity;
 pub mod numbers;
 pub mod panels;
 pub mod path;
 pub mod picture;
 pub mod point;
 pub mod quantity;
+mod quantity_entry;
 pub mod resolve;
 pub mod rows;
 pub mod runner;

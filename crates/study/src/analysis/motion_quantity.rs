@@ -1,6 +1,6 @@
 //! Quantities of a point of a path in motion.
 
-use crate::analysis::quantity::{Origin, Quantity};
+use crate::analysis::quantity_entry::{Origin, Quantity};
 
 /// Where the motion comes from.
 const MOTION: Origin = Origin {
@@ -30,12 +30,15 @@ pub const TIME: Quantity = of_motion(
 /// Actual speed.
 pub const SPEED: Quantity = of_motion("speed_mm_per_s", "mm/s", 3, "speed of the command at the point");
 /// Part of the programmed feed.
-pub const FEED_PART: Quantity = of_motion(
-    "feed_reached_percent",
-    "%",
-    2,
-    "speed of the command over the programmed feed",
-);
+pub const FEED_REACHED: Quantity = Quantity {
+    unit: None,
+    ..of_motion(
+        "feed_reached",
+        "",
+        4,
+        "speed of the command over the programmed feed",
+    )
+};
 /// Rounded corners.
 pub const BLENDING: Quantity = of_motion(
     "blending_um",

@@ -7,35 +7,7 @@
 //! Capitals in a key stand for a name or number: `share_NAME_um` is one column for each contributor.
 
 use crate::analysis::motion_quantity;
-
-/// A quantity of a point.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Quantity {
-    /// Its key in tables and results, which ends in its unit.
-    pub key: &'static str,
-    /// Unit of its values.
-    pub unit: Option<&'static str>,
-    /// Significant decimals in text formats: a nanometre of deviation, a degree of 1e-6 (some 0.02 um at an arm's
-    /// length), a position as given.
-    pub decimals: u8,
-    /// What it is, for people.
-    pub words: &'static str,
-    /// Where it comes from; none of a quantity that is an input.
-    pub origin: Option<Origin>,
-}
-
-/// Where a quantity comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Origin {
-    /// The file that computes it, below `crates/`.
-    pub file: &'static str,
-    /// The function there, behind the name of its type if it has one.
-    pub function: &'static str,
-    /// The page of `docs/theory/` with its equations; none if no page has them yet.
-    pub theory: Option<&'static str>,
-    /// The folder of `validation/` that compares it with the numbers of others; none if nothing does yet.
-    pub validation: Option<&'static str>,
-}
+pub use crate::analysis::quantity_entry::{Origin, Quantity};
 
 /// A deviation, from the sum of all sources.
 const fn deviation(key: &'static str, words: &'static str, origin: Origin) -> Quantity {
@@ -420,7 +392,7 @@ pub const ALL: [&Quantity; 40] = [
     &UNLOADED_AXIAL,
     &motion_quantity::TIME,
     &motion_quantity::SPEED,
-    &motion_quantity::FEED_PART,
+    &motion_quantity::FEED_REACHED,
     &motion_quantity::BLENDING,
     &motion_quantity::SERVO,
     &motion_quantity::WITH_MOTION,

@@ -9,7 +9,7 @@
 use armill_core::motion::{JointLimits, Lag, MotionLimits, MotionModel};
 use armill_core::path::Passage;
 use armill_core::robot::Robot;
-use armill_core::units::{from_mm, from_um, to_deg};
+use armill_core::units::{from_mm, from_ms, from_um, to_deg, to_ms};
 use armill_formats::motion::MotionTable;
 
 use crate::joint_unit::JointUnit;
@@ -60,7 +60,7 @@ impl MotionSetting {
         if given.is_none() {
             assumed.push(format!(
                 "accelerations of the joints: their greatest speed in {:.0} ms, or {:.0} deg/s^2 where no speed is known",
-                TO_FULL_SPEED * 1e3,
+                to_ms(TO_FULL_SPEED),
                 to_deg(JOINT_ACCELERATION)
             ));
         }
@@ -83,15 +83,14 @@ impl MotionSetting {
                 otherwise
             })
         };
-        let seconds = |ms: f64| ms * 1e-3;
         let acceleration = or(
             table.path_acceleration_mm_per_s2.map(from_mm),
             PATH_ACCELERATION,
             "acceleration along the path: 4600 mm/s^2",
         );
-        let smoothing = or(table.smoothing_ms.map(seconds), SMOOTHING, "smoothing: 40 ms");
+        let smoothing = or(table.smoothing_ms.map(from_ms), SMOOTHING, "smoothing: 40 ms");
         let shortest_blending = or(
-            table.shortest_blending_ms.map(seconds),
+            table.shortest_blending_ms.map(from_ms),
             SHORTEST_BLENDING,
             "shortest time in a zone: 8 ms",
         );
@@ -113,7 +112,7 @@ impl MotionSetting {
         };
         let lags = lags.map_or_else(
             || vec![LAG; count],
-            |lags| lags.into_iter().map(seconds).collect(),
+            |lags| lags.into_iter().map(from_ms).collect(),
         );
         let feed_forward = table.speed_feed_forward.unwrap_or(0.0);
         MotionSetting {

@@ -28,8 +28,8 @@ pub fn columns<'a>(analysis: &'a PathAnalysis, found: &'a PathResult) -> Vec<Num
         value(&motion_quantity::SPEED, |motion, index| {
             to_mm(motion.speeds[index])
         }),
-        value(&motion_quantity::FEED_PART, |motion, index| {
-            100.0 * motion.speeds[index] / motion.feeds[index]
+        value(&motion_quantity::FEED_REACHED, |motion, index| {
+            motion.speeds[index] / motion.feeds[index]
         }),
         value(&motion_quantity::BLENDING, |motion, index| {
             to_um(motion.blending[index].norm())
