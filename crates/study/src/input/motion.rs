@@ -2,9 +2,9 @@
 //!
 //! | value | assumed |
 //! |---|---|
-//! | acceleration of a joint | its greatest speed in [`TO_FULL_SPEED`]; without one [`JOINT_ACCELERATION`] |
-//! | others | [`PATH_ACCELERATION`], [`SMOOTHING`], [`SHORTEST_BLENDING`], [`LAG`]: as fitted to a joint log of one large arm (ABB IRB 6640, virtual controller, 500 mm/s with stops) |
-//! | zone at the end of a move | corners are rounded by [`ROUNDING_UM`] at most, as in the programs that are written |
+//! | acceleration of a joint | its greatest speed in `TO_FULL_SPEED`; without one `JOINT_ACCELERATION` |
+//! | others | `PATH_ACCELERATION`, `SMOOTHING`, `SHORTEST_BLENDING`, `LAG`: as fitted to a joint log of one large arm (ABB IRB 6640, virtual controller, 500 mm/s with stops) |
+//! | zone at the end of a move | corners are rounded by `ROUNDING_UM` at most, as in the programs that are written |
 
 use armill_core::motion::{JointLimits, Lag, MotionLimits, MotionModel};
 use armill_core::path::Passage;
