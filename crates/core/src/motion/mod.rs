@@ -2,13 +2,12 @@
 //!
 //! Read in this order: [`along`](mod@along) (a whole path), and its stages: [`rounded`] (corners within zones), [`joint_path`] (joint positions along a path, and their
 //! derivatives), [`limits`], [`speed`] (the fastest speed within the limits), [`jerk`] (the same with limited jerk), [`lag`] (joints that follow late), [`contour`] (the
-//! distance of the path that is followed from the one that is commanded); [`drive`]: joints in steps of time.
+//! distance of the path that is followed from the one that is commanded).
 //!
 //! Lengths in m, angles in rad, times in s.
 
 pub mod along;
 pub mod contour;
-pub mod drive;
 pub mod jerk;
 pub mod joint_path;
 pub mod lag;
@@ -17,7 +16,6 @@ pub mod rounded;
 pub mod speed;
 
 pub use along::{Motion, MotionModel, motion_along};
-pub use drive::{Drive, Segment};
 pub use joint_path::JointPath;
 pub use lag::Lag;
 pub use limits::{JointLimits, Limiting, MotionLimits};
