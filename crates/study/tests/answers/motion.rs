@@ -36,6 +36,15 @@ fn a_square_takes_longer_with_stops_than_with_zones_and_the_values_that_are_assu
         "{zones:?}"
     );
     assert!(zones.length_at_feed_percent > stops.length_at_feed_percent);
+    // Rounded by 1.8 mm: more than any tolerance here, and not part of what is within it.
+    let warned = |keys: &str| {
+        let warnings = with(keys).warnings;
+        warnings.iter().any(|warning| {
+            warning.contains("with the motion the tool deviates")
+                && warning.contains("rounded corners alone by")
+        })
+    };
+    assert!(warned("zone_mm = 5") && !warned("zone_mm = 0"));
     // 5 values, of which each result says so.
     assert_eq!(stops.assumed.len(), 5, "{:?}", stops.assumed);
     assert!(

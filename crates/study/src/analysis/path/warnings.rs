@@ -1,7 +1,8 @@
 //! Warnings of a path: out of reach, outside joint limits, jumps and speeds of joints, points without
 //! force.
 
-use crate::analysis::path::answer::PathAnswer;
+use crate::analysis::path::answer::{MotionAnswer, PathAnswer};
+use crate::analysis::words::micrometres;
 
 /// Stretches without posture that are reported at most.
 const MOST_STRETCHES: usize = 5;
@@ -57,6 +58,7 @@ pub fn warnings(path: &PathAnswer) -> Vec<String> {
             stops.join("; ")
         ));
     }
+    warnings.extend(path.motion.as_ref().and_then(|motion| off_the_path(path, motion)));
     if let Some(search) = &path.search {
         warnings.extend(search.unreachable_stretches.iter().take(MOST_STRETCHES).map(|stretch| {
             format!(
@@ -82,4 +84,31 @@ pub fn warnings(path: &PathAnswer) -> Vec<String> {
         ));
     }
     warnings
+}
+
+/// Rounded corners and joints that follow late are not part of the fraction within the tolerance.
+fn off_the_path(path: &PathAnswer, motion: &MotionAnswer) -> Option<String> {
+    let tolerance = path.setting.tolerance_um;
+    let causes = [
+        (
+            "rounded corners",
+            motion.largest_blending_um,
+            motion.largest_blending_line,
+        ),
+        (
+            "joints that follow late",
+            motion.largest_servo_um,
+            motion.largest_servo_line,
+        ),
+    ];
+    let (cause, largest, line) = causes.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    (motion.max_in_plane_with_motion_um > tolerance && largest > 0.0).then(|| {
+        format!(
+            "{}: with the motion the tool deviates by up to {} µm, more than the tolerance: {cause} alone by {} µm (line {line}). The part of the path \
+             within the tolerance is that of the deviation by loads.",
+            path.name,
+            micrometres(motion.max_in_plane_with_motion_um),
+            micrometres(largest)
+        )
+    })
 }
