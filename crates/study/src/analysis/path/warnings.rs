@@ -1,4 +1,4 @@
-//! Warnings of a path: out of reach, outside joint limits, jumps and speeds of joints, points without
+//! Warnings of a path: out of reach, outside joint limits, jumps and speeds of joints, motions that leave the tolerance, points without
 //! force.
 
 use crate::analysis::path::answer::{MotionAnswer, PathAnswer};
@@ -102,7 +102,9 @@ fn off_the_path(path: &PathAnswer, motion: &MotionAnswer) -> Option<String> {
         ),
     ];
     let (cause, largest, line) = causes.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
-    (motion.max_in_plane_with_motion_um > tolerance && largest > 0.0).then(|| {
+    let already = path.max_in_plane_um.is_some_and(|by_loads| by_loads > tolerance);
+    let with_motion = motion.max_in_plane_with_motion_um > tolerance;
+    (with_motion && (!already || largest > tolerance)).then(|| {
         format!(
             "{}: with the motion the tool deviates by up to {} µm, more than the tolerance: {cause} alone by {} µm (line {line}). The part of the path \
              within the tolerance is that of the deviation by loads.",
