@@ -19,6 +19,8 @@ use super::speed::SpeedProfile;
 
 /// First step in which a time is sought, s.
 const FIRST_STEP: f64 = 1e-3;
+/// Below this speed it may rest, m/s.
+const RESTING: f64 = 1e-6;
 /// Precision of a time, s.
 const PRECISION: f64 = 1e-10;
 
@@ -89,8 +91,11 @@ impl Timed {
             .iter()
             .map(|at| {
                 let early = self.crossing(*at, earliest, |here, at| here < at);
-                let late = self.crossing(*at, early, |here, at| here <= at);
                 earliest = early;
+                if self.at(early).speed > RESTING {
+                    return early;
+                }
+                let late = self.crossing(*at, early, |here, at| here <= at);
                 0.5 * (early + late)
             })
             .collect()

@@ -20,8 +20,8 @@ use std::ops::Range;
 
 use nalgebra::{Point3, Vector3};
 
-/// Pieces of a rounded corner; even.
-const PIECES: usize = 8;
+/// Pieces of a rounded corner that turns by more than each of these angles, rad; even.
+const PIECES: [(f64, usize); 3] = [(0.4, 8), (0.1, 4), (0.0, 2)];
 /// Step of the parameter of a zone for the direction there.
 const NEAR: f64 = 1e-4;
 /// Distance of the first point next to a stop or a zone, m.
@@ -66,6 +66,7 @@ pub struct Rounded {
 struct Zone {
     corner: usize,
     radius: f64,
+    pieces: usize,
 }
 
 impl Programmed<'_> {
@@ -97,7 +98,7 @@ impl Programmed<'_> {
             while next < count && lengths[next] < end + NO_ZONE {
                 let w = 0.5 * (1.0 + (lengths[next] - lengths[zone.corner]) / zone.radius);
                 let w = w.clamp(0.0, 1.0);
-                path.pass_within(first, w);
+                path.pass_within(first, zone.pieces, w);
                 path.errors.push(self.error_within(zone, next, w, &lengths));
                 next += 1;
             }
@@ -117,12 +118,23 @@ impl Programmed<'_> {
             let before = lengths[*corner] - place(k.checked_sub(1).map(|k| &self.zones[k]), 0);
             let after = place(self.zones.get(k + 1), last) - lengths[*corner];
             let radius = radius.min(0.5 * before).min(0.5 * after);
-            (radius > NO_ZONE).then_some(Zone {
+            (radius > NO_ZONE).then(|| Zone {
                 corner: *corner,
                 radius,
+                pieces: self.pieces(*corner),
             })
         });
         fitting.collect()
+    }
+
+    /// Pieces of a rounded corner at a programmed point: more, the more the path turns there.
+    fn pieces(&self, corner: usize) -> usize {
+        let [before, at, after] = [0, 1, 2].map(|k| self.points[corner + k - 1]);
+        let turn = (at - before).angle(&(after - at));
+        PIECES
+            .into_iter()
+            .find(|(least, _)| turn > *least)
+            .map_or(2, |(_, pieces)| pieces)
     }
 
     /// A programmed point that the path passes.
@@ -144,8 +156,8 @@ impl Programmed<'_> {
         let is_there = path.along.last().is_some()
             && (self.at(begin, lengths).0 - path.points[path.points.len() - 1]).norm() < NO_ZONE;
         let first = path.points.len() - usize::from(is_there);
-        for piece in usize::from(is_there)..=PIECES {
-            let w = piece as f64 / PIECES as f64;
+        for piece in usize::from(is_there)..=zone.pieces {
+            let w = piece as f64 / zone.pieces as f64;
             let [before, after] =
                 ways(zone.radius, w).map(|way| self.at(lengths[zone.corner] + way, lengths));
             for (joint, position) in positions.iter_mut().enumerate() {
@@ -154,7 +166,7 @@ impl Programmed<'_> {
             }
             path.add(before.0 + (after.0 - self.points[zone.corner]), &positions);
             let step = if w < 0.5 { zone.corner - 1 } else { zone.corner };
-            path.feeds.push(if piece < PIECES {
+            path.feeds.push(if piece < zone.pieces {
                 self.feeds[step]
             } else {
                 self.feeds[after.1.min(self.feeds.len() - 1)]
@@ -273,10 +285,10 @@ impl Rounded {
         self.positions.extend_from_slice(positions);
     }
 
-    /// Passes a programmed point at the parameter `w` of the zone whose first point has this index.
-    fn pass_within(&mut self, first: usize, w: f64) {
-        let place = w * PIECES as f64;
-        let piece = (place.floor() as usize).min(PIECES - 1);
+    /// Passes a programmed point at the parameter `w` of the zone of these pieces, whose first point has this index.
+    fn pass_within(&mut self, first: usize, pieces: usize, w: f64) {
+        let place = w * pieces as f64;
+        let piece = (place.floor() as usize).min(pieces - 1);
         let [from, to] = [piece, piece + 1].map(|piece| self.along[first + piece]);
         self.passes.push(from + (place - piece as f64) * (to - from));
     }
