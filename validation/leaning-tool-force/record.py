@@ -4,7 +4,7 @@
 
 The material is a layer of the depth ap over the surface z = 0, as wide as the strip that is cut. A pass before this moment
 is made step by step: the heights under the body of the tool are taken away at each step behind its present position. Of the
-kinds "up" and "down" the same tool has passed before beside it, of the others the sides of the strip are walls. Then
+kinds "up" and "down" the same tool has passed before next to it, of the others the sides of the strip are walls. Then
 points of the edges are turned through a revolution; a point cuts where it is below the remaining height. No angle of the
 engagement is computed, and no normal decides where a tooth cuts.
 

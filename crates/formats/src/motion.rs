@@ -17,18 +17,10 @@ pub struct MotionTable {
     #[schemars(range(min = 1.0, max = 1e6))]
     // unit: mm/s^2
     pub path_acceleration_mm_per_s2: Option<f64>,
-    /// Standard uncertainty of it.
-    #[schemars(range(min = 0.0, max = 1e6))]
-    // unit: mm/s^2
-    pub path_acceleration_u_mm_per_s2: Option<f64>,
     /// Window over which the controller averages the command, by which it limits the jerk.
     #[schemars(range(min = 0.0, max = 1000.0))]
     // unit: ms
     pub smoothing_ms: Option<f64>,
-    /// Standard uncertainty of it.
-    #[schemars(range(min = 0.0, max = 1000.0))]
-    // unit: ms
-    pub smoothing_u_ms: Option<f64>,
     /// Shortest time in which a zone is passed: smaller zones are enlarged to it at the programmed feed.
     #[schemars(range(min = 0.0, max = 1000.0))]
     // unit: ms
@@ -64,10 +56,6 @@ impl MotionTable {
     /// These values, with those of `other` where this table has none.
     pub fn or(&self, other: &MotionTable) -> MotionTable {
         let list = |own: &Option<Vec<f64>>, other: &Option<Vec<f64>>| own.clone().or_else(|| other.clone());
-        // An uncertainty belongs to its value.
-        let uncertainty = |own: Option<f64>, value: Option<f64>, other: Option<f64>| {
-            own.or(if value.is_some() { None } else { other })
-        };
         MotionTable {
             joint_acceleration_deg_per_s2: list(
                 &self.joint_acceleration_deg_per_s2,
@@ -76,15 +64,10 @@ impl MotionTable {
             path_acceleration_mm_per_s2: self
                 .path_acceleration_mm_per_s2
                 .or(other.path_acceleration_mm_per_s2),
-            path_acceleration_u_mm_per_s2: uncertainty(
-                self.path_acceleration_u_mm_per_s2,
-                self.path_acceleration_mm_per_s2,
-                other.path_acceleration_u_mm_per_s2,
-            ),
             smoothing_ms: self.smoothing_ms.or(other.smoothing_ms),
-            smoothing_u_ms: uncertainty(self.smoothing_u_ms, self.smoothing_ms, other.smoothing_u_ms),
             shortest_blending_ms: self.shortest_blending_ms.or(other.shortest_blending_ms),
             lag_ms: list(&self.lag_ms, &other.lag_ms),
+            // An uncertainty belongs to its value.
             lag_u_ms: match self.lag_ms {
                 Some(_) => self.lag_u_ms.clone(),
                 None => list(&self.lag_u_ms, &other.lag_u_ms),
@@ -143,12 +126,12 @@ mod tests {
     fn values_of_the_study_replace_those_of_the_robot_file_with_their_uncertainty() {
         let (_, study) = read("[motion]\nsmoothing_ms = 20\nlag_ms = [8]\n");
         let (_, robot) = read(
-            "[motion]\nsmoothing_ms = 40\nsmoothing_u_ms = 3\nlag_ms = [15]\nlag_u_ms = [2]\npath_acceleration_mm_per_s2 = 4600\npath_acceleration_u_mm_per_s2 = 300\n",
+            "[motion]\nsmoothing_ms = 40\nlag_ms = [15]\nlag_u_ms = [2]\npath_acceleration_mm_per_s2 = 4600\n",
         );
         let both = study.or(&robot);
-        assert_eq!((both.smoothing_ms, both.smoothing_u_ms), (Some(20.0), None));
+        assert_eq!(both.smoothing_ms, Some(20.0));
         assert_eq!((both.lag_ms.as_deref(), both.lag_u_ms), (Some(&[8.0][..]), None));
-        assert_eq!(both.path_acceleration_u_mm_per_s2, Some(300.0));
+        assert_eq!(both.path_acceleration_mm_per_s2, Some(4600.0));
     }
 
     #[test]

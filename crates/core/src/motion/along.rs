@@ -21,10 +21,10 @@ use super::rounded::{Programmed, Rounded};
 use super::speed::{fastest, from_rest_to_rest};
 use crate::path::{Command, MoveEnd, Passage, SampledPath};
 
-/// How long after its command a joint is looked for, relative to its lag.
+/// How long after its command a joint is looked for, relative to its lag: `e^-8` of a step remain then.
 const LONGEST: f64 = 8.0;
 
-/// Points in a lag, for joints that follow late.
+/// Points in a lag, for joints that follow late: between them a lag bends by 1/32 of its way at most.
 const PER_LAG: f64 = 4.0;
 /// Pieces of a step at most.
 const MOST_PIECES: usize = 64;

@@ -1,4 +1,4 @@
-//! The path that is followed beside the one that is commanded.
+//! Distance of the path that is followed from the one that is commanded.
 //!
 //! ```text
 //! e_i = p(t) - P_i    at the time t with    (p(t) - P_i) . d_i = 0
