@@ -5,9 +5,9 @@
 //! Read [`predict`] first: it is the main idea in one function. Then, in the order of the computation:
 //! [`frame`] and [`spatial`] (poses, twists, wrenches), [`roundness`] (circles of measured points, without a
 //! robot), [`marching_squares`] (level lines and areas on a grid), [`robot`] (chain, postures), [`compliance`],
-//! [`load`], [`source`] (sources of the deviation), [`workpiece`] and [`path`] (points), [`kernel`] (many
+//! [`load`], [`source`] (sources of the deviation), [`workpiece`] and [`path`] (points), [`motion`] (speed, time, rounded corners), [`kernel`] (many
 //! points at once), [`map`] (planes, sections, volumes, the region within a tolerance),
-//! [`optimize`] (the posture along a path), [`motion`] (speed, time, rounded corners), [`identify`] (joint compliances from load tests), [`calibrate`] (geometry
+//! [`optimize`] (the posture along a path), [`identify`] (joint compliances from load tests), [`calibrate`] (geometry
 //! from measured poses), [`measure`] (circular tests and repeated poses), [`budget`] (the error budget of
 //! a milled circle).
 //!

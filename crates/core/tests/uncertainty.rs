@@ -10,7 +10,7 @@
 mod arms;
 
 use armill_core::frame::Isometry;
-use armill_core::kernel::{BranchChoice, Evaluation, Question, evaluate, evaluate_posture};
+use armill_core::kernel::{BranchChoice, Evaluation, OnPath, Question, evaluate, evaluate_posture};
 use armill_core::load::InputUncertainty;
 use armill_core::measure::pose_accuracy::{Attained, pose_accuracy};
 use armill_core::nalgebra::{Unit, Vector3};
@@ -71,7 +71,11 @@ impl Cell {
             ..Question::unloaded(self.arm(&self.compliance, &self.model, &tool), None)
         };
         let at_pose = evaluate(&question, 1, |_| self.pose(), Watch::NONE).unwrap();
-        let answers = evaluate_posture(&question, at_pose.joints_at(0), Some(&self.link_offsets));
+        let answers = evaluate_posture(
+            &question,
+            at_pose.joints_at(0),
+            OnPath::with_link_offsets(&self.link_offsets),
+        );
         (
             *answers.points[0].as_ref().unwrap(),
             answers.joints_at(0).to_vec(),

@@ -4,7 +4,7 @@
 //! they are in that of the robot, `A1` ... `A6`, and so are their shares. The joints of a positioner come first, from its table back.
 
 use armill_core::robot::Robot;
-use armill_core::source::StiffnessModel;
+use armill_core::source::{MotionDisplacement, StiffnessModel};
 
 use crate::error::StudyError;
 use crate::joint_unit::JointUnit;
@@ -34,9 +34,12 @@ pub fn joint_names(robot: &Robot) -> Vec<String> {
     names.map(|joint| robot.joints()[joint].name.clone()).collect()
 }
 
-/// The names of the contributors to a deviation: the joints, then the others of the model.
-pub fn contributor_names(robot: &Robot, model: &StiffnessModel) -> Vec<String> {
-    in_joint_order(robot, &model.contributor_names(robot.joints()))
+/// The names of the contributors to a deviation: the joints, then the others of the model, then, along a path, those of its motion.
+pub fn contributor_names(robot: &Robot, model: &StiffnessModel, has_motion: bool) -> Vec<String> {
+    let of_motion = MotionDisplacement::CONTRIBUTORS.map(|contributor| contributor.name(robot.joints()));
+    let of_model = in_joint_order(robot, &model.contributor_names(robot.joints()));
+    let of_motion = of_motion.into_iter().filter(|_| has_motion);
+    of_model.into_iter().chain(of_motion).collect()
 }
 
 /// Joint positions in deg (mm) from those of the chain in rad (m).
@@ -105,7 +108,7 @@ mod tests {
             assert!((shown - given).abs() < 1e-12);
         }
         let model = StiffnessModel::DRIVES.clone();
-        assert_eq!(contributor_names(&hand, &model)[..6], names);
+        assert_eq!(contributor_names(&hand, &model, false)[..6], names);
         assert_eq!(
             in_joint_order(&hand, &[1, 2, 3, 4, 5, 6, 7]),
             [6, 5, 4, 3, 2, 1, 7]

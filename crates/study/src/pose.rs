@@ -13,7 +13,7 @@ use armill_core::compliance::{
     by_force, permissible_force_in_worst_direction, principal_compliances, stiffness_at_tool,
 };
 use armill_core::frame::{Isometry, both_across, tool_orientation};
-use armill_core::kernel::AT_LIMIT;
+use armill_core::kernel::{AT_LIMIT, OnPath};
 use armill_core::nalgebra::{DMatrix, Matrix6, Point3, Unit, Vector3};
 use armill_core::predict::{Deviation, predict};
 use armill_core::robot::inverse::{ToolAt, posture_at, postures};
@@ -122,7 +122,7 @@ pub fn answer(described: &RobotDescription, question: &PoseQuestion) -> Result<P
         &PoseContext {
             model: &model,
             normal: None,
-            link_offsets: &|_| None,
+            on_path: &|_| OnPath::default(),
             cell: None,
         },
     )
@@ -140,7 +140,7 @@ pub fn answer_in_study(study: &Study, question: &PoseQuestion) -> Result<PoseAns
         &PoseContext {
             model: &setting.model,
             normal: None,
-            link_offsets: &|_| None,
+            on_path: &|_| OnPath::default(),
             cell: setting.cell.as_ref(),
         },
     )?;
@@ -168,9 +168,8 @@ pub(crate) struct PoseContext<'a> {
     /// Links of joints with backlash are where they move the tool farthest across this direction (base); its axis if
     /// `None`.
     pub normal: Option<Unit<Vector3<f64>>>,
-    /// Offsets of the links within their backlash, kept there by friction, for the posture with these joint positions,
-    /// as along a path, rad (m).
-    pub link_offsets: &'a dyn Fn(&[f64]) -> Option<&'a [f64]>,
+    /// What the way along a path adds in the posture with these joint positions, rad (m).
+    pub on_path: &'a dyn Fn(&[f64]) -> OnPath<'a>,
     /// The bodies of the cell, if there are any.
     pub cell: Option<&'a AnalysisCell>,
 }
@@ -240,7 +239,13 @@ pub(crate) fn answer_in(
             .collect(),
         compliance_assumed: question.caution.is_some(),
         model: parts(robot, model),
-        contributors: contributor_names(robot, model),
+        contributors: contributor_names(
+            robot,
+            model,
+            found
+                .iter()
+                .any(|posture| (situation.on_path)(&posture.joints).motion.is_some()),
+        ),
         postures: found
             .iter()
             .map(|p| {
@@ -310,7 +315,8 @@ fn posture_deflection(
     let Some(wrench) = wrench else { return found };
     let mut positions = vec![0.0; posture.joints.len()];
     let axis = || Unit::new_unchecked(posture.base_from_tool * Vector3::z());
-    let mut links = match (situation.link_offsets)(&posture.joints) {
+    let on_path = (situation.on_path)(&posture.joints);
+    let mut links = match on_path.link_offsets {
         Some(link_offsets) => Links::KeptByFriction(link_offsets),
         None => Links::Farthest(
             both_across(&situation.normal.unwrap_or_else(axis)),
@@ -318,7 +324,10 @@ fn posture_deflection(
         ),
     };
     match predict(arm_state, &wrench, &mut links) {
-        Ok(deviation) => {
+        Ok(mut deviation) => {
+            if let Some(motion) = &on_path.motion {
+                deviation.add_motion(motion);
+            }
             found.deviation = Some(deviation);
             found.loaded_compliance = arm_state.loaded_compliance();
         }

@@ -95,7 +95,15 @@ impl Answers {
     /// Allocates the answers of `question` at this number of points, all unanswered; without shares where these are not
     /// requested.
     pub(super) fn new(question: &Question<'_>, count: usize, detail: AnswerDetail) -> Answers {
-        let mut answers = Answers::with_capacity(question, count, detail);
+        Answers::with_shares(question, count, detail.contributors(question).len())
+    }
+
+    /// The same with this number of shares at each point.
+    pub(super) fn with_shares(question: &Question<'_>, count: usize, share_count: usize) -> Answers {
+        let mut answers = Answers {
+            share_count,
+            ..Answers::with_capacity(question, count, AnswerDetail::DeviationsAlone)
+        };
         answers.grow(count);
         answers
     }
@@ -169,6 +177,15 @@ impl Answers {
                 measured,
             )
             .collect();
+    }
+
+    /// Removes shares and uncertainties: they are those of the load alone.
+    pub(crate) fn remove_shares(&mut self) {
+        self.share_count = 0;
+        self.shares.clear();
+        for evaluation in self.points.iter_mut().flatten() {
+            evaluation.in_plane_uncertainty = None;
+        }
     }
 
     /// Adds a displacement of the tool under each load case (m, base) at point `index`, if it is reachable, split on a

@@ -6,6 +6,7 @@
 use nalgebra::Vector3;
 
 use super::answer::{ALIKE, AnswerDetail, Evaluation};
+use super::on_path::OnPath;
 use super::question::{BranchChoice, Question};
 use crate::clearance::ClearanceCheck;
 use crate::frame::{Isometry, both_across};
@@ -14,7 +15,7 @@ use crate::robot::forward::{Frames, forward_into};
 use crate::robot::inverse::{Finder, InverseSolution, InverseTarget, name_of, tool_on};
 use crate::robot::{Overrun, PostureName, Unreachable};
 use crate::source::arm_state::LoadedPosture;
-use crate::source::{ArmState, Contributor, Links};
+use crate::source::{ArmState, Contributor, Links, MotionDisplacement};
 use crate::spatial::Twist;
 
 /// Buffers for one point, reused from point to point.
@@ -33,6 +34,7 @@ pub(super) struct General<'q> {
     deviations: Vec<Vector3<f64>>,
     shares: Vec<f64>,
     uncertainty_is_known: bool,
+    motion: Option<MotionDisplacement>,
     /// The same three for the best posture so far.
     kept: (Vec<f64>, Vec<Vector3<f64>>, Vec<f64>),
 }
@@ -67,6 +69,7 @@ impl<'q> General<'q> {
             deviations: vec![Vector3::zeros(); cases],
             shares: vec![0.0; contributors.len()],
             uncertainty_is_known: question.arm.has_known_uncertainty(),
+            motion: None,
             kept: (
                 vec![0.0; joints],
                 vec![Vector3::zeros(); cases],
@@ -78,21 +81,27 @@ impl<'q> General<'q> {
         }
     }
 
-    /// The same on a path with known link offsets, rad (m), one per joint.
-    pub(super) fn on_path(
-        question: &Question<'q>,
-        detail: AnswerDetail,
-        link_offsets: &'q [f64],
-    ) -> General<'q> {
-        assert_eq!(
-            link_offsets.len(),
-            question.arm.robot.joints().len(),
-            "one link offset per joint"
-        );
-        General {
-            links: LinkOffsets::Known(link_offsets),
-            ..General::new(question, detail)
+    /// The same with what the way along a path adds.
+    pub(super) fn on_path(question: &Question<'q>, detail: AnswerDetail, on_path: OnPath<'q>) -> General<'q> {
+        let mut general = General::new(question, detail);
+        if let Some(link_offsets) = on_path.link_offsets {
+            let joints = question.arm.robot.joints().len();
+            assert_eq!(link_offsets.len(), joints, "one link offset per joint");
+            general.links = LinkOffsets::Known(link_offsets);
         }
+        general.motion = on_path.motion;
+        if general.motion.is_some() && !general.contributors.is_empty() {
+            general.contributors.extend(MotionDisplacement::CONTRIBUTORS);
+            for shares in [&mut general.shares, &mut general.kept.2] {
+                shares.resize(general.contributors.len(), 0.0);
+            }
+        }
+        general
+    }
+
+    /// Number of contributors whose shares are computed.
+    pub(super) fn share_count(&self) -> usize {
+        self.contributors.len()
     }
 
     /// Why the posture at these joint positions, rad (m), cannot be used: it does not keep the demanded clearance.
@@ -247,7 +256,8 @@ impl<'q> General<'q> {
                 }
             };
             let deviation = deviation_of(&mut self.arm_state, wrench, &mut links);
-            self.deviations[case] = deviation.map_err(unstable)?.linear;
+            let by_motion = self.motion.map_or_else(Vector3::zeros, |motion| motion.total());
+            self.deviations[case] = deviation.map_err(unstable)?.linear + by_motion;
         }
         evaluation.take_envelope(&self.deviations, question.normal);
         if !self.contributors.is_empty() {
@@ -283,15 +293,19 @@ impl<'q> General<'q> {
                 Some(&offsets[case * self.joints.len()..][..self.joints.len()])
             }
         };
+        let (contributors, shares) = (&self.contributors, &mut self.shares);
+        let mut add = |contributor, part: Vector3<f64>, u: Vector3<f64>| {
+            if let Some(share) = contributors.iter().position(|other| *other == contributor) {
+                shares[share] += part.dot(&along);
+            }
+            variance += u.dot(&along).powi(2);
+        };
         if let Some(offsets) = offsets {
-            let (contributors, shares) = (&self.contributors, &mut self.shares);
-            let add = |contributor, part: Twist, u: Vector3<f64>| {
-                if let Some(share) = contributors.iter().position(|other| *other == contributor) {
-                    shares[share] += part.linear.dot(&along);
-                }
-                variance += u.dot(&along).powi(2);
-            };
+            let add = |contributor, part: Twist, u| add(contributor, part.linear, u);
             self.arm_state.each_unloaded(offsets, &question.cases[case], add);
+        }
+        for (contributor, part, u) in self.motion.iter().flat_map(MotionDisplacement::parts) {
+            add(contributor, part, u);
         }
         if !question.uncertainty.is_none() {
             let arm_state = LoadedPosture {

@@ -12,7 +12,7 @@
 //! of threads gives the same bits.
 //!
 //! `question` and `answer`: input and output; `solver`: a block of points, by lanes and by `general`; `loaded`: points
-//! with a load each; `column`: every posture of a few poses under a load; `path_on_part` and `placed`: a path on a part
+//! with a load each; `on_path`: what the way along a path adds; `column`: every posture of a few poses under a load; `path_on_part` and `placed`: a path on a part
 //! with a variable placement.
 
 mod answer;
@@ -23,6 +23,7 @@ mod general;
 #[allow(clippy::needless_range_loop)]
 pub mod lanes;
 mod loaded;
+mod on_path;
 mod path_on_part;
 mod placed;
 mod postures_at;
@@ -33,6 +34,7 @@ pub use answer::{AT_LIMIT, Answers, Evaluation};
 pub use column::{Column, ColumnLoad, Columns, PostureStatus, SLOTS};
 pub use evaluate_at_joints::{EvaluateError, evaluate_at_joints};
 pub use loaded::evaluate_loaded;
+pub use on_path::OnPath;
 pub use path_on_part::{PartPlacement, PathWrenches, PlacedPoint, PostureMargins, WrenchAxes};
 pub use placed::{
     PathTotals, PlacedBranch, PlacedPath, PlacementClearance, PlacementEvaluator, PlacementScreen,
@@ -48,25 +50,20 @@ use answer::AnswerDetail;
 use general::General;
 use solver::{BLOCK, Order, Solver};
 
-/// Answers `question` in the posture at `joints`, rad (m), whatever branch it chooses. With `link_offsets` in the
-/// backlash, rad (m), one per joint, these are used; on a path friction keeps them, see
-/// [`BacklashGeometry`](crate::map::BacklashGeometry). Without, those are used that give the largest in-plane
-/// deviation, as in [`evaluate`]. Backlash, geometry and thermal growth are in deviations, shares and uncertainty.
+/// Answers `question` in the posture at `joints`, rad (m), whatever branch it chooses. Backlash, geometry, thermal growth and what `on_path` adds are in
+/// deviations, shares and uncertainty.
 ///
 /// # Panics
 /// If the question has no load case, or the number of joint positions or link offsets is wrong.
-pub fn evaluate_posture(question: &Question<'_>, joints: &[f64], link_offsets: Option<&[f64]>) -> Answers {
+pub fn evaluate_posture(question: &Question<'_>, joints: &[f64], on_path: OnPath<'_>) -> Answers {
     let dof = question.arm.robot.joints().len();
     assert!(
         !question.cases.is_empty(),
         "a question needs at least one load case"
     );
     assert_eq!(joints.len(), dof, "one position per joint");
-    let mut answers = Answers::new(question, 1, AnswerDetail::Shares);
-    let mut general = match link_offsets {
-        Some(link_offsets) => General::on_path(question, AnswerDetail::Shares, link_offsets),
-        None => General::new(question, AnswerDetail::Shares),
-    };
+    let mut general = General::on_path(question, AnswerDetail::Shares, on_path);
+    let mut answers = Answers::with_shares(question, 1, general.share_count());
     for mut slots in answers.blocks(1) {
         let slot = slots.at(0);
         *slot.point = general

@@ -11,10 +11,13 @@
 
 use std::ops::Range;
 
+use nalgebra::Vector3;
+
 use super::backlash_geometry::{BacklashGeometry, add_backlash_and_geometry};
 use super::turns;
 use crate::kernel::{Answers, BranchChoice, Question, evaluate_in_order, evaluate_loaded};
 use crate::load::{CutsAlong, ForceEquilibrium, PathLoad, Rest, TipCompliance};
+use crate::motion::Motion;
 use crate::path::{LoadedTrack, Track};
 use crate::robot::{Branch, BranchPattern};
 use crate::spatial::Wrench;
@@ -29,8 +32,8 @@ pub struct AlongPath {
     /// The branches used, each from the point with that index on; the first from point 0.
     pub choices: Vec<(usize, BranchChoice)>,
     /// Results at each point; in-plane is across the tool, normal along it. Shares and uncertainties only for a
-    /// constant load, a tool of constant direction, and without backlash and geometry ([`Answers::share_count`] is zero
-    /// otherwise).
+    /// constant load, a tool of constant direction, and without backlash, geometry and motion ([`Answers::share_count`]
+    /// is zero otherwise).
     pub answers: Answers,
     /// The load: for cuts the forces at equilibrium, with the nominal cuts.
     pub load: PathLoad,
@@ -192,6 +195,21 @@ impl Runs<'_> {
 }
 
 impl AlongPath {
+    /// Adds the displacement by `motion` at each point: rounded corners and joints that follow late. Shares and uncertainties of the points are removed;
+    /// [`crate::kernel::evaluate_posture`] has them.
+    ///
+    /// # Panics
+    /// If `motion` has fewer points.
+    pub fn add_motion(&mut self, track: &Track, motion: &Motion) {
+        self.answers.remove_shares();
+        let mut by = vec![Vector3::zeros(); self.answers.case_count];
+        for index in 0..self.answers.points.len() {
+            by.fill(motion.displacement_at(index, 0.0).total());
+            self.answers
+                .add_displacement(index, &by, track.stop(index).normal);
+        }
+    }
+
     /// The branch used at point `index`.
     pub fn choice_at(&self, index: usize) -> BranchChoice {
         let from = self.choices.partition_point(|(first, _)| *first <= index);

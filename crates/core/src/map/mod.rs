@@ -39,7 +39,7 @@ pub use obstacles::{Obstacle, ObstacleKind, TurnsAlong, obstacles, turns_along};
 pub use plane::{Counts, PlaneMap, plane_map};
 pub use point_limits::{PermittedForces, PointLimits};
 pub use radial::{RadialDeviation, radial_deviations};
-pub use radial_parts::{WithoutLoad, radial_uncertainties, radial_without_load};
+pub use radial_parts::{WithoutLoad, radial_motion, radial_uncertainties, radial_without_load};
 pub use region::{Region, region_within};
 pub use spin_map::{MOST_EVALUATED, SpinCell, SpinMap, spin_map};
 pub use stock_clearance::measure_stock_clearances;

@@ -30,6 +30,7 @@ use super::radial::radial_deviations;
 use crate::frame::Isometry;
 use crate::kernel::Question;
 use crate::load::{LoadCases, LoadFrame, PathLoad};
+use crate::motion::Motion;
 use crate::path::Track;
 use crate::robot::forward::{Frames, forward_into};
 use crate::source::arm_state::LoadedPosture;
@@ -115,6 +116,16 @@ fn backlash_uncertainties(
         curves.push(thermal);
     }
     curves
+}
+
+/// Outward displacement (m) at each point by rounded corners, and by joints that follow late.
+pub fn radial_motion(track: &Track, motion: &Motion, centre: Point2<f64>) -> [Vec<f64>; 2] {
+    [&motion.blending, &motion.servo].map(|moved| {
+        let moved = moved.iter().enumerate();
+        moved
+            .map(|(index, by)| by.dot(&outwards(track, index, centre)))
+            .collect()
+    })
 }
 
 /// The unit vector (base) from `centre` to point `index` of the circle.

@@ -2,12 +2,13 @@
 //!
 //! Read in this order: [`along`](mod@along) (a whole path), and its stages: [`rounded`] (corners within zones), [`joint_path`] (joint positions along a path, and their
 //! derivatives), [`limits`], [`speed`] (the fastest speed within the limits), [`jerk`] (the same with limited jerk), [`lag`] (joints that follow late), [`contour`] (the
-//! distance of the path that is followed from the one that is commanded).
+//! distance of the path that is followed from the one that is commanded); [`displacement`]: of the tool by the motion.
 //!
 //! Lengths in m, angles in rad, times in s.
 
 pub mod along;
 pub mod contour;
+pub mod displacement;
 pub mod jerk;
 pub mod joint_path;
 pub mod lag;

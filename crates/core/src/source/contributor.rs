@@ -11,10 +11,14 @@ pub enum Contributor {
     Geometry,
     /// Thermal growth of the links since the calibration.
     Thermal,
+    /// Corners that the controller rounds.
+    Blending,
+    /// Joints that follow their command late.
+    Servo,
 }
 
 impl Contributor {
-    /// Its name: of a joint as its maker calls it, else `base`, `flange`, `tool`, `geometry`, `thermal`.
+    /// Its name: of a joint as its maker calls it, else `base`, `flange`, `tool`, `geometry`, `thermal`, `blending`, `servo`.
     pub fn name(self, joints: &[Joint]) -> String {
         match self {
             Contributor::At(Attachment::Joint(index)) => joints[index].name.clone(),
@@ -23,6 +27,8 @@ impl Contributor {
             Contributor::At(Attachment::Tool) => "tool".to_owned(),
             Contributor::Geometry => "geometry".to_owned(),
             Contributor::Thermal => "thermal".to_owned(),
+            Contributor::Blending => "blending".to_owned(),
+            Contributor::Servo => "servo".to_owned(),
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use nalgebra::Matrix3;
 
+use super::motion_displacement::MotionDisplacement;
 use crate::spatial::Twist;
 
 /// Deviation of the tool from its commanded pose, with the parts of its sources.
@@ -14,4 +15,19 @@ pub struct Deviation {
     pub shares: Vec<Twist>,
     /// Covariance of the displacement, m^2: of compliances, backlash, model error and repeatability.
     pub covariance: Matrix3<f64>,
+}
+
+impl Deviation {
+    /// Adds the displacement by the motion along a path; its parts are the last shares.
+    pub fn add_motion(&mut self, motion: &MotionDisplacement) {
+        for (_, part, u) in motion.parts() {
+            let part = Twist {
+                linear: part,
+                ..Twist::ZERO
+            };
+            self.twist = self.twist + part;
+            self.shares.push(part);
+            self.covariance += u * u.transpose();
+        }
+    }
 }

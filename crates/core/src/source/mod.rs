@@ -7,7 +7,7 @@
 //! controller. [`thermal`]: growth of the links since the calibration. [`repeatability`]: scatter of repeated poses.
 //! [`arm_state`]: one arm in one posture, and the effect of each source there; `predict.rs` adds them.
 //!
-//! `deviation`: the sum of all sources; `contributor`: what it is shared out to; `uncertain_input`: an arm with one input
+//! `motion_displacement`: rounded corners and joints that follow late along a path, computed by [`crate::motion`]. `deviation`: the sum of all sources; `contributor`: what it is shared out to; `uncertain_input`: an arm with one input
 //! changed by its standard uncertainty; `known_uncertainty`: which inputs have one. `linear_system`: small systems of equations in reused memory.
 
 pub mod arm_state;
@@ -20,6 +20,7 @@ pub mod geometric;
 pub mod gravity;
 mod known_uncertainty;
 mod linear_system;
+mod motion_displacement;
 pub mod repeatability;
 pub mod stiffness_model;
 pub mod thermal;
@@ -30,6 +31,7 @@ pub use contributor::Contributor;
 pub use deviation::Deviation;
 pub use equilibrium::Unstable;
 pub use known_uncertainty::InputWithoutUncertainty;
+pub use motion_displacement::MotionDisplacement;
 pub use stiffness_model::{Arm, Gravity, StiffnessModel};
 pub use thermal::ThermalGrowth;
 pub(crate) use uncertain_input::compliance_changes;

@@ -143,7 +143,7 @@ pub fn advise(
             "[[analysis]] kind = \"path\"",
         ));
     };
-    let recommended = StatisticsAnswer::of(analysis, &of_path.along.answers);
+    let recommended = StatisticsAnswer::of(analysis, &of_path.along.answers, of_path.motion.as_ref());
     let compensated = commanded.given.after;
     let steps = steps(
         &placed.answer,
@@ -274,11 +274,12 @@ fn statistics(study: &Study, done: &[AnalysisResult<'_>]) -> StatisticsAnswer {
         outside_joint_limits: 0,
         near_singularity: 0,
         reversals: Vec::new(),
+        cycle_time_s: None,
     };
     done.first()
         .and_then(path_of)
         .map_or(nothing, |(analysis, found)| {
-            StatisticsAnswer::of(analysis, &found.along.answers)
+            StatisticsAnswer::of(analysis, &found.along.answers, found.motion.as_ref())
         })
 }
 

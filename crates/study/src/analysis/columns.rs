@@ -28,7 +28,7 @@ use crate::analysis::numbers::Numbers;
 use crate::analysis::quantity::{self, Quantity};
 use crate::analysis::rows::{MM_DECIMALS, Rows, of_points};
 use crate::error::StudyError;
-use crate::joint_order::{contributor_names, in_joint_order, joint_order};
+use crate::joint_order::{in_joint_order, joint_order};
 use crate::joint_unit::JointUnit;
 
 /// Points whose answers stay in the cache while all columns read them.
@@ -120,7 +120,7 @@ pub fn numbers_of<'a>(
     let Some(rows) = series.first() else {
         return Vec::new();
     };
-    let contributors = contributor_names(robot, &rows.setting.model);
+    let contributors = rows.setting.contributor_names(robot);
     let mut columns = found.own_columns(robot);
     columns.extend(numbers(robot, contributors, rows.answers));
     columns

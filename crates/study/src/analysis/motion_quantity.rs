@@ -53,10 +53,3 @@ pub const SERVO: Quantity = of_motion(
     3,
     "distance of the path that is followed from the commanded one, across it: joints follow late",
 );
-/// All of the deviation.
-pub const WITH_MOTION: Quantity = of_motion(
-    "in_plane_with_motion_um",
-    "um",
-    3,
-    "deviation across the tool of the worst case together with `blending_um` and `servo_um`",
-);

@@ -10,7 +10,6 @@ use armill_report::{AxisLabels, Grid, PointState, ShareBar, ShareBars};
 
 use crate::analysis::point::PointAnswer;
 use crate::input::setting::Setting;
-use crate::joint_order::contributor_names;
 use crate::naming::FLANGE;
 
 /// The quantity of the colours.
@@ -93,7 +92,7 @@ pub fn shares(robot: &Robot, title: &str, setting: &Setting, quantity: &str, bar
         title: title.to_owned(),
         subtitle: subtitle(setting),
         quantity: quantity.to_owned(),
-        parts: contributor_names(robot, &setting.model),
+        parts: setting.contributor_names(robot),
         bars,
     };
     picture.to_svg()

@@ -19,11 +19,10 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::input::setting::Setting;
-use crate::joint_order::{contributor_names, in_joint_order, shown_positions};
+use crate::joint_order::{in_joint_order, shown_positions};
 use crate::model_words::parts;
 use crate::naming::usual_reference;
 use crate::number::without_rounding;
-use crate::uncertainty_words::inputs_without_uncertainty;
 
 /// The common setting of all points of an analysis. Positions are relative to the frame `base`.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -63,7 +62,7 @@ pub struct SettingAnswer {
     /// Active parts of the stiffness model.
     pub model: Vec<String>,
     /// The contributors of `share_um`: the joints; base, flange and tool if springs are attached there;
-    /// geometry with a calibrated robot; thermal growth.
+    /// geometry with a calibrated robot; thermal growth; blending and servo of a motion.
     pub contributors: Vec<String>,
 }
 
@@ -94,10 +93,10 @@ impl SettingAnswer {
             scatter_um: given(setting.model.structure.repeatability).map(to_um),
             model_error_percent: given(setting.model.structure.model_error)
                 .map(|part| without_rounding(part * 100.0)),
-            inputs_without_uncertainty: inputs_without_uncertainty(&setting.arm(robot)),
+            inputs_without_uncertainty: setting.inputs_without_uncertainty(robot),
             tolerance_um: without_rounding(to_um(setting.tolerance)),
             model: parts(robot, &setting.model),
-            contributors: contributor_names(robot, &setting.model),
+            contributors: setting.contributor_names(robot),
         }
     }
 }

@@ -372,7 +372,7 @@ pub const HOLE_Y: Quantity = deviation(
 pub const DEPTH: Quantity = deviation("depth_um", "deviation out of the part: too shallow", IN_HOLE);
 
 /// All quantities, in the order of the tables: of a path, of holes, of every analysis.
-pub const ALL: [&Quantity; 40] = [
+pub const ALL: [&Quantity; 39] = [
     &LINE,
     &DISTANCE,
     &FEED,
@@ -395,7 +395,6 @@ pub const ALL: [&Quantity; 40] = [
     &motion_quantity::FEED_REACHED,
     &motion_quantity::BLENDING,
     &motion_quantity::SERVO,
-    &motion_quantity::WITH_MOTION,
     &HOLE,
     &WRIST_BEND,
     &HOLE_X,

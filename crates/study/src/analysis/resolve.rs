@@ -275,6 +275,7 @@ impl Resolver<'_> {
             home,
             open,
             search,
+            motion: None,
             cell: None,
         })
     }

@@ -15,12 +15,24 @@ pub fn largest_contributor(robot: &Robot, point: &PointAnswer, contributors: &[S
         .mostly_by(contributors)
         .map_or_else(String::new, |(name, part)| {
             let is_joint = robot.joints().iter().any(|joint| joint.name == name);
-            let name = format!("{} {name}", if is_joint { "joint" } else { "the" });
+            let name = match motion_in_words(name) {
+                Some(words) => words.to_owned(),
+                None => format!("{} {name}", if is_joint { "joint" } else { "the" }),
+            };
             match part {
                 Some(part) => format!("{name} ({})", share_in_words(part)),
                 None => name,
             }
         })
+}
+
+/// A contributor of the motion in words; `None` for others.
+pub fn motion_in_words(contributor: &str) -> Option<&'static str> {
+    match contributor {
+        "blending" => Some("rounded corners"),
+        "servo" => Some("joints that follow late"),
+        _ => None,
+    }
 }
 
 /// Points without a result.

@@ -4,13 +4,15 @@
 //! |---|---|---|---|
 //! | deviation under load | load | effect of the load: its mean force, or the mean of the given cases | between these cases |
 //! | predicted | unloaded | without a ball-bar: gravity, backlash and geometry of the study | - |
+//! | rounded corners, joints that follow late | unloaded | without a ball-bar: the motion of the study; u from the lag | - |
 //! | both directions | unloaded | mean of clockwise and anticlockwise runs | - |
 //! | reversal | unloaded | half of the difference of the cutting direction from the other | - |
 //! | repeatability | unloaded | - | of runs of the same direction; without a ball-bar, from the robot file or the study |
 //!
 //! A cut and a measured force have a mean and a greatest force: the mean is the bias, the greatest is reported as the
-//! end of the envelope. Given cases are equally probable. A ball-bar measures gravity, backlash and geometry: if there
-//! is a ball-bar test, their prediction is reported for comparison and is not part of a sum.
+//! end of the envelope. Given cases are equally probable. A ball-bar measures gravity, backlash, geometry and the motion
+//! at its own feed: if there is a ball-bar test, their prediction is not part of a sum; that of the first three is
+//! reported for comparison.
 
 use armill_core::budget::turn::Turn;
 use armill_core::budget::unloaded::known_angles;
@@ -102,6 +104,7 @@ pub fn combine(
     let DeviationParts {
         load,
         without,
+        motion,
         uncertainties,
     } = parts(study, path, found, biased, watch)?;
     let cases: Vec<Vec<f64>> = load.iter().map(|case| turn.of_even(case)).collect();
@@ -124,8 +127,11 @@ pub fn combine(
         measured_scatter = seen.scatter;
         without_load = without.and_then(|(predicted, _)| unloaded_path(&turn, &predicted, &seen, experiment));
         contributions.extend(contributions_of(seen));
-    } else if let Some((bias, u)) = without {
-        contributions.push(of_unloaded("path without load, predicted", bias, u));
+    } else {
+        if let Some((bias, u)) = without {
+            contributions.push(of_unloaded("path without load, predicted", bias, u));
+        }
+        contributions.extend(of_motion(path, motion, &turn, experiment));
     }
     let stated = Some(path.setting.model.structure.repeatability).filter(|given| *given > 0.0);
     let repeatability = measured_scatter.or(stated);
@@ -243,6 +249,25 @@ fn of_unloaded(name: &str, bias: Vec<f64>, u: Option<f64>) -> Contribution {
         bias,
         u,
     }
+}
+
+/// Rounded corners, if there are any, and joints that follow late.
+fn of_motion(
+    path: &PathAnalysis,
+    motion: Option<[Vec<f64>; 2]>,
+    turn: &Turn,
+    experiment: &Experiment,
+) -> Vec<Contribution> {
+    let Some((motion, setting)) = motion.zip(path.setting.motion.as_ref()) else {
+        return Vec::new();
+    };
+    let [blending, servo] = motion;
+    let by_lag: Vec<f64> = servo.iter().map(|by| by * setting.known_lag_u()).collect();
+    let u = uncertainty(&[by_lag], turn, experiment);
+    let late = of_unloaded("joints that follow late", turn.of_even(&servo), u);
+    let is_rounded = blending.iter().any(|by| *by != 0.0);
+    let rounded = is_rounded.then(|| of_unloaded("rounded corners", turn.of_even(&blending), None));
+    rounded.into_iter().chain([late]).collect()
 }
 
 /// Scatter that is the same at all of `count` angles: a standard deviation, m.

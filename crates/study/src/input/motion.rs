@@ -139,6 +139,22 @@ impl MotionSetting {
     }
 }
 
+impl MotionSetting {
+    /// Relative standard uncertainty of the lag; zero where it is not known.
+    pub fn known_lag_u(&self) -> f64 {
+        self.lag_u.unwrap_or(0.0)
+    }
+
+    /// Names of the inputs that have an effect on the deviation, but no uncertainty.
+    pub fn inputs_without_uncertainty(&self) -> Vec<String> {
+        let is_late = self.model.lags.iter().any(|lag| lag.time > 0.0);
+        let lag = (is_late && self.lag_u.is_none()).then(|| "the lag of the joints".to_owned());
+        lag.into_iter()
+            .chain(["the rounding of corners".to_owned()])
+            .collect()
+    }
+}
+
 /// One value for each joint, of a list that may have one for all; `None` without a list, or of another length.
 fn per_joint(list: Option<&[f64]>, count: usize) -> Option<Vec<f64>> {
     match list? {

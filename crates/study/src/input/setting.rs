@@ -3,14 +3,18 @@
 use armill_core::frame::Isometry;
 use armill_core::kernel::BranchChoice;
 use armill_core::load::{InputUncertainty, LoadCases};
+use armill_core::motion::Motion;
 use armill_core::nalgebra::{Matrix6, Point3};
 use armill_core::optimize::{LeastGain, PostureSearch};
 use armill_core::robot::{BranchPattern, Robot};
-use armill_core::source::{Arm, ArmState, StiffnessModel};
+use armill_core::source::{Arm, ArmState, MotionDisplacement, StiffnessModel};
 use armill_core::spatial::Wrench;
 use armill_core::workpiece::Plane;
 
 use crate::input::cell::AnalysisCell;
+use crate::input::motion::MotionSetting;
+use crate::joint_order::contributor_names;
+use crate::uncertainty_words::inputs_without_uncertainty;
 
 /// Everything needed to evaluate a point, SI, base.
 #[derive(Clone, Debug)]
@@ -49,11 +53,38 @@ pub struct Setting {
     pub open: BranchPattern,
     /// Along a path: which turns and branches are tried.
     pub search: Option<PostureSearch>,
+    /// Along a path: how the controller moves the arm, if the motion is requested.
+    pub motion: Option<MotionSetting>,
     /// The bodies of the cell, and the demanded clearance; none where the study has no bodies.
     pub cell: Option<AnalysisCell>,
 }
 
 impl Setting {
+    /// The names of the contributors to a deviation: the joints, the others of the model, those of the motion.
+    pub fn contributor_names(&self, robot: &Robot) -> Vec<String> {
+        contributor_names(robot, &self.model, self.motion.is_some())
+    }
+
+    /// The displacement by the motion at a point; `None` where the study asks for no motion, zero where it is not known.
+    pub fn motion_displacement(&self, motion: Option<&Motion>, index: usize) -> Option<MotionDisplacement> {
+        let lag_u = self.motion.as_ref()?.known_lag_u();
+        Some(motion.map_or_else(MotionDisplacement::default, |motion| {
+            motion.displacement_at(index, lag_u)
+        }))
+    }
+
+    /// Names of the inputs of a prediction that have an effect, but no uncertainty.
+    pub fn inputs_without_uncertainty(&self, robot: &Robot) -> Vec<String> {
+        let of_motion = self
+            .motion
+            .iter()
+            .flat_map(MotionSetting::inputs_without_uncertainty);
+        inputs_without_uncertainty(&self.arm(robot))
+            .into_iter()
+            .chain(of_motion)
+            .collect()
+    }
+
     /// Name of the requested posture: words of a branch, or `best`.
     pub fn branch(&self) -> String {
         match self.choice {

@@ -5,18 +5,19 @@
 //! | spins of the tool that a search found | every posture |
 //! | forces of a cut, in equilibrium with the deflection of the posture followed | every posture |
 //! | positions of redundant joints | every posture |
-//! | backlash and geometry | the posture followed alone: they depend on the motion before |
+//! | backlash, geometry and motion | the posture followed alone: they depend on the way before |
 //!
 //! A path that was not evaluated yet is followed first.
 
 use std::f64::consts::{PI, TAU};
 
-use armill_core::kernel::{Answers, Question, evaluate};
+use armill_core::kernel::{Answers, OnPath, Question, evaluate};
 use armill_core::load::PathLoad;
 use armill_core::nalgebra::{Unit, UnitQuaternion, Vector3};
 use armill_core::optimize::hole_postures;
 use armill_core::path::{LoadedTrack, Track};
 use armill_core::robot::Robot;
+use armill_core::source::MotionDisplacement;
 use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
 
@@ -46,13 +47,24 @@ pub(super) struct AnsweredPose {
     /// Offsets of the links within their backlash, kept there by friction, rad (m), one for each joint; none without
     /// backlash and geometry, and off paths.
     pub link_offsets: Option<Vec<f64>>,
+    /// Displacement by the motion; none where the study asks for no motion, and off paths.
+    pub motion: Option<MotionDisplacement>,
 }
 
 impl AnsweredPose {
-    /// The link offsets of this posture (rad, m): known for the posture in which a path is followed.
-    pub fn link_offsets_in(&self, q: &[f64]) -> Option<&[f64]> {
-        let joints = self.joints.as_ref()?;
-        self.link_offsets.as_deref().filter(|_| is_same(joints, q))
+    /// What the way along the path adds in this posture (rad, m): known for the posture in which the path is followed.
+    pub fn on_path_in(&self, q: &[f64]) -> OnPath<'_> {
+        let is_followed = self.joints.as_ref().is_some_and(|joints| is_same(joints, q));
+        OnPath {
+            link_offsets: self.link_offsets.as_deref().filter(|_| is_followed),
+            motion: (self.motion).map(|motion| {
+                if is_followed {
+                    motion
+                } else {
+                    MotionDisplacement::default()
+                }
+            }),
+        }
     }
 }
 
@@ -123,20 +135,20 @@ pub(super) fn on_path(
     watch: Watch<'_>,
 ) -> Result<ToolTarget, StudyError> {
     let of_now;
-    let (along, searched) = match done.map(|done| &done.found) {
-        Some(AnalysisData::Path(_, found)) => (&found.along, found.searched.as_ref()),
+    let found = match done.map(|done| &done.found) {
+        Some(AnalysisData::Path(_, found)) => found,
         _ => {
-            let runner = Runner::new(&study.robot.robot, watch)?;
-            let (load, _) = runner.pushed(path)?;
-            of_now = runner.follow(path, load)?;
-            (&of_now.along, of_now.searched.as_ref())
+            of_now = Runner::new(&study.robot.robot, watch)?.path(path)?;
+            &of_now
         }
     };
+    let (along, searched) = (&found.along, found.searched.as_ref());
     let answers = &along.answers;
     let unloaded = along.backlash_geometry.as_ref();
     let pose = AnsweredPose {
         joints: joints_at(answers, index),
         link_offsets: unloaded.map(|unloaded| unloaded.link_offsets_at(index, answers.joint_count).to_vec()),
+        motion: path.setting.motion_displacement(found.motion.as_ref(), index),
     };
     let followed = searched.filter(|searched| searched.applied);
     let track = followed.map(|searched| searched.posture.turned(&path.track));
@@ -172,6 +184,7 @@ pub(super) fn at_hole(
     let pose = AnsweredPose {
         joints: joints_at(&found.answers, index),
         link_offsets: None,
+        motion: None,
     };
     Ok(turned(track, load, index, found.spins[index], pose))
 }

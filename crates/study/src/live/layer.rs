@@ -17,7 +17,7 @@ use crate::analysis::{AnalysisData, AnalysisResult};
 use crate::answer::StudyAnswer;
 use crate::error::StudyError;
 use crate::input::setting::Setting;
-use crate::joint_order::{contributor_names, in_joint_order};
+use crate::joint_order::in_joint_order;
 use crate::joint_unit::JointUnit;
 use crate::live::lines::short;
 use crate::live::scale::{checked, levels_around};
@@ -190,7 +190,7 @@ pub(super) fn layer_of(
     Ok(LayerAnswer {
         key,
         names: match (key, setting) {
-            (LayerKey::LargestShare, Some(setting)) => contributor_names(robot, &setting.model),
+            (LayerKey::LargestShare, Some(setting)) => setting.contributor_names(robot),
             _ => Vec::new(),
         },
         lines: answer.maps.iter().zip(&values).map(lines_of).collect(),

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `xyz_mm`, `deviation_um` | the point, and its deviation under the worst case: x, y, z, base |
 //! | `force_n` | size of the force on the tool of the worst case; of a cut as in the table |
-//! | `time_s` | time of cutting before the point, without rapids; only if every cut has a feed |
+//! | `time_s` | time of cutting before the point, without rapids, only if every cut has a feed; with `[motion]` that of the motion |
 //! | `outside_joint_limits` | 1 for a posture outside joint limits, else 0 |
 //! | `in_plane_um`, `limit_margin_deg`, `joint_NAME_deg`, ... | as in the table of the analysis, where it has them |
 //! | `largest_share` | as the layer of that name |
@@ -178,9 +178,11 @@ fn columns<'a>(
         feed: None,
         rapid: Some(f64::INFINITY),
     };
+    // With a motion, the time is a column of the table.
     columns.extend(
         Clock::of(&path.track.path, without_rapids)
             .ok()
+            .filter(|_| found.motion.is_none())
             .map(|clock| PathColumn::new("time_s", Some("s"), move |index| clock.time()[index])),
     );
     let all = numbers_of(robot, data, rows).into_iter();

@@ -8,7 +8,7 @@
 
 use armill_core::compliance::{by_force, permissible_force, permissible_force_in_worst_direction};
 use armill_core::frame::{Isometry, tool_orientation};
-use armill_core::kernel::{BranchChoice, Question, evaluate_posture};
+use armill_core::kernel::{BranchChoice, OnPath, Question, evaluate_posture};
 use armill_core::nalgebra::{Point2, Point3, Rotation3, Unit, Vector3};
 use armill_core::robot::Robot;
 use armill_core::robot::forward::{base_from_ground, forward, joint_axis};
@@ -228,7 +228,7 @@ pub(super) fn postures_of(
         &PoseContext {
             model: &setting.model,
             normal: Some(requested.normal),
-            link_offsets: &|q| requested.pose.as_ref()?.link_offsets_in(q),
+            on_path: &|q| (requested.pose.as_ref()).map_or_else(OnPath::default, |pose| pose.on_path_in(q)),
             cell: setting.cell.as_ref(),
         },
     )?;
@@ -359,7 +359,7 @@ fn deviations(
     let Some(compliance) = robot.compliance() else {
         return vec![None; cases.len()];
     };
-    let link_offsets = requested.pose.as_ref().and_then(|pose| pose.link_offsets_in(q));
+    let on_path = (requested.pose.as_ref()).map_or_else(OnPath::default, |pose| pose.on_path_in(q));
     let arm = Arm {
         robot,
         compliance,
@@ -379,7 +379,7 @@ fn deviations(
             choice: BranchChoice::Best,
             clearance: None,
         };
-        let answers = evaluate_posture(&question, q, link_offsets);
+        let answers = evaluate_posture(&question, q, on_path);
         let evaluation = answers.points[0].as_ref().ok()?;
         // A case that is a moment alone has no direction.
         let along = Unit::try_new(wrench.force, 1e-12)

@@ -36,13 +36,12 @@ fn a_square_takes_longer_with_stops_than_with_zones_and_the_values_that_are_assu
         "{zones:?}"
     );
     assert!(zones.length_at_feed_percent > stops.length_at_feed_percent);
-    // Rounded by 1.8 mm: more than any tolerance here, and not part of what is within it.
+    // Rounded by 1.8 mm: more than any tolerance here.
     let warned = |keys: &str| {
         let warnings = with(keys).warnings;
-        warnings.iter().any(|warning| {
-            warning.contains("with the motion the tool deviates")
-                && warning.contains("rounded corners alone by")
-        })
+        warnings
+            .iter()
+            .any(|warning| warning.contains("rounded corners alone move the tool by up to"))
     };
     assert!(warned("zone_mm = 5") && !warned("zone_mm = 0"));
     // 5 values, of which each result says so.
@@ -61,6 +60,47 @@ fn a_square_takes_longer_with_stops_than_with_zones_and_the_values_that_are_assu
     assert_eq!(given.largest_servo_u_um, None);
     // Without the table there is no motion.
     assert_eq!(answered(&plate_with(SQUARE)).paths[0].motion, None);
+}
+
+#[test]
+fn rounded_corners_and_late_joints_are_part_of_the_deviation_and_have_shares() {
+    let keys = "feed_mm_per_min = 6000\nzone_mm = 2\nlag_ms = [20]\nlag_u_ms = [5]\n";
+    let study = plate_with(&format!("[motion]\n{keys}{SQUARE}"));
+    let without = plate_with(SQUARE);
+    let (moved, plain) = (found(&study), found(&without));
+    let [(analysis, moved), (_, plain)] = [&moved[0].found, &plain[0].found].map(|found| match found {
+        AnalysisData::Path(analysis, path) => (analysis, path),
+        _ => panic!("a path"),
+    });
+    let motion = moved.motion.as_ref().unwrap();
+    for index in 0..analysis.track.len() {
+        let total = motion.blending[index] + motion.servo[index];
+        let cases =
+            (moved.along.answers.deviations_at(index).iter()).zip(plain.along.answers.deviations_at(index));
+        for (with, without) in cases {
+            assert!((with - without - total).norm() < 1e-12, "{index}");
+        }
+    }
+    let answer = answered(&study);
+    let path = &answer.paths[0];
+    let contributors = &path.setting.contributors;
+    assert_eq!(contributors[contributors.len() - 2..], ["blending", "servo"]);
+    let largest = answered(&without).paths[0].max_in_plane_um.unwrap();
+    assert!(path.max_in_plane_um.unwrap() > largest + 500.0);
+    let worst = &path.worst_points[0];
+    let point = &worst.point;
+    assert!((point.joint_share_um.iter().sum::<f64>() - point.in_plane_um).abs() < 1e-6);
+    assert!((point.in_plane_um - path.max_in_plane_um.unwrap()).abs() < 1e-6);
+    // The corner is rounded by 2 mm / 2 sin 45 deg, and that is most of it.
+    assert!(worst.cause.starts_with("rounded corners"), "{}", worst.cause);
+    // A lag known to a quarter.
+    let servo = point.joint_share_um.last().unwrap();
+    assert!(point.in_plane_u_um.unwrap() >= 0.25 * servo.abs());
+    assert!(
+        path.setting
+            .inputs_without_uncertainty
+            .contains(&"the rounding of corners".to_owned())
+    );
 }
 
 #[test]

@@ -5,7 +5,7 @@ use nalgebra::{Point2, Point3};
 use super::*;
 use crate::arms;
 use crate::frame::Isometry;
-use crate::kernel::{BranchChoice, Question, evaluate, evaluate_posture};
+use crate::kernel::{BranchChoice, OnPath, Question, evaluate, evaluate_posture};
 use crate::load::{LoadCases, LoadFrame, PathLoad};
 use crate::map::{AlongPath, along_path};
 use crate::path::{Placing, Shape, Spin};
@@ -212,7 +212,7 @@ fn a_single_point_deviates_as_on_the_path_and_its_shares_add_up() {
             .unwrap()
             .link_offsets_at(index, 6);
         let joints = along.answers.joints_at(index);
-        let alone = evaluate_posture(&requested, joints, Some(link_offsets));
+        let alone = evaluate_posture(&requested, joints, OnPath::with_link_offsets(link_offsets));
         let (evaluation, there) = (alone.points[0].unwrap(), along.answers.points[index].unwrap());
         assert!((evaluation.in_plane - there.in_plane).abs() < 1e-12);
         assert!((alone.shares_at(0).iter().sum::<f64>() - evaluation.in_plane).abs() < 1e-15);
@@ -241,8 +241,79 @@ fn a_single_point_deviates_as_on_the_path_and_its_shares_add_up() {
             },
             ..requested
         };
-        let exact = evaluate_posture(&exact, joints, Some(link_offsets)).points[0].unwrap();
+        let exact =
+            evaluate_posture(&exact, joints, OnPath::with_link_offsets(link_offsets)).points[0].unwrap();
         assert!(evaluation.in_plane_uncertainty.unwrap() > exact.in_plane_uncertainty.unwrap());
+    }
+}
+
+#[test]
+fn the_motion_of_a_single_point_is_that_of_the_path_and_has_shares() {
+    let robot = arms::mh12();
+    let model = model(BacklashSide::Motion, GAP);
+    let load = push([40.0, 10.0, -60.0]);
+    let without = along(&robot, &model, false, load.clone());
+    let track = track(false);
+    let count = track.len();
+    let motion = crate::motion::Motion {
+        blending: vec![Vector3::new(2e-5, 0.0, -1e-5); count],
+        servo: (0..count)
+            .map(|index| Vector3::new(0.0, 1e-7 * index as f64, 3e-5))
+            .collect(),
+        ..crate::motion::Motion::default()
+    };
+    let mut along = without.clone();
+    along.add_motion(&track, &motion);
+    let tool = arms::bent_tool();
+    for index in [3, 200] {
+        let total = motion.blending[index] + motion.servo[index];
+        for (with, without) in along
+            .answers
+            .deviations_at(index)
+            .iter()
+            .zip(without.answers.deviations_at(index))
+        {
+            assert!((with - without - total).norm() < 1e-18);
+        }
+        let stop = track.stop(index);
+        let mut cases = vec![Wrench::ZERO; 2];
+        track.wrenches(&load, index, &mut cases);
+        let requested = Question {
+            cases: &cases,
+            normal: stop.normal,
+            ..question(&robot, &model, &tool)
+        };
+        let offsets = along
+            .backlash_geometry
+            .as_ref()
+            .unwrap()
+            .link_offsets_at(index, 6);
+        let at_point = |motion| {
+            let on_path = OnPath {
+                motion,
+                ..OnPath::with_link_offsets(offsets)
+            };
+            evaluate_posture(&requested, along.answers.joints_at(index), on_path)
+        };
+        let alone = at_point(Some(motion.displacement_at(index, 0.3)));
+        let evaluation = alone.points[0].unwrap();
+        let there = along.answers.points[index].unwrap();
+        assert!((evaluation.in_plane - there.in_plane).abs() < 1e-12);
+        assert_eq!(alone.share_count, at_point(None).share_count + 2);
+        let shares = alone.shares_at(0);
+        assert!((shares.iter().sum::<f64>() - evaluation.in_plane).abs() < 1e-15);
+        let deviation = alone.deviations_at(0)[evaluation.worst_case];
+        let across = (deviation - stop.normal.into_inner() * deviation.dot(&stop.normal)).normalize();
+        let last = &shares[shares.len() - 2..];
+        assert!((last[0] - motion.blending[index].dot(&across)).abs() < 1e-18);
+        assert!((last[1] - motion.servo[index].dot(&across)).abs() < 1e-18);
+        let exact = at_point(Some(motion.displacement_at(index, 0.0))).points[0].unwrap();
+        let by_lag =
+            evaluation.in_plane_uncertainty.unwrap().powi(2) - exact.in_plane_uncertainty.unwrap().powi(2);
+        assert!(
+            (by_lag.sqrt() / (0.3 * last[1].abs()) - 1.0).abs() < 1e-6,
+            "{by_lag}"
+        );
     }
 }
 
@@ -275,7 +346,12 @@ fn a_single_point_uses_the_side_of_the_backlash_with_the_largest_deviation() {
                 }
             };
             let link_offsets: Vec<f64> = (0..6).map(placements).collect();
-            evaluate_posture(&requested, given.joints_at(0), Some(&link_offsets)).points[0]
+            evaluate_posture(
+                &requested,
+                given.joints_at(0),
+                OnPath::with_link_offsets(&link_offsets),
+            )
+            .points[0]
                 .unwrap()
                 .in_plane
         });

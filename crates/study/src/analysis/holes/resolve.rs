@@ -91,7 +91,6 @@ impl Resolver<'_> {
             drill: None,
             forces: None,
             measured: None,
-            motion: None,
             wants_limits: false,
             features: Vec::new(),
             setting,

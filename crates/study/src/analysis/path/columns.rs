@@ -58,7 +58,7 @@ pub fn columns<'a>(analysis: &'a PathAnalysis, found: &'a PathResult) -> Vec<Num
     }
     columns.extend(process(found));
     columns.extend(unloaded(track, found));
-    columns.extend(motion_columns::columns(analysis, found));
+    columns.extend(motion_columns::columns(found));
     columns
 }
 

@@ -53,7 +53,6 @@ use armill_formats::robot::RobotDescription;
 use armill_formats::toolpath::Summary;
 
 use crate::input::memory::{OF_PATH, PointMemory};
-use crate::input::motion::MotionSetting;
 use crate::input::setting::Setting;
 
 /// A path with its load.
@@ -79,8 +78,6 @@ pub struct PathAnalysis {
     pub measured: Option<Box<MeasuredForces>>,
     /// Whether the process limits that meet the tolerance are requested.
     pub wants_limits: bool,
-    /// How the controller moves the arm, if the motion is requested.
-    pub motion: Option<MotionSetting>,
     /// Requested features.
     pub features: Vec<FeatureTable>,
 }

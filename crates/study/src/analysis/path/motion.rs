@@ -10,6 +10,7 @@ use armill_core::path::Track;
 use armill_core::robot::forward::forward;
 
 use crate::analysis::path::PathAnalysis;
+use crate::analysis::path::run::SearchResult;
 use crate::analysis::runner::Runner;
 use crate::error::StudyError;
 use crate::input::motion::MotionSetting;
@@ -18,47 +19,48 @@ use crate::input::setting::Setting;
 /// Where a path without any feed gets one.
 pub const FEED_HINT: &str = "motion.feed_mm_per_min gives the feed of cuts for which the program states none";
 
-/// A path at the feed that is reached.
-pub struct Moved {
-    /// The motion.
-    pub motion: Motion,
-    /// The path under the forces at that feed; none where the load does not depend on the feed.
-    pub along: Option<AlongPath>,
-}
-
 impl Runner<'_> {
-    /// The motion along `track` in the postures found, and the path under the forces at the feed that is reached; `load` is the load at the programmed one. `None`
-    /// where the study does not ask for it.
-    pub fn motion(
+    /// The motion along `track` in the postures of `along`, which then has the forces at the feed that is reached and the displacement by the motion; `load` is the
+    /// load at the programmed feed. `None` where the study does not ask for it.
+    pub fn move_along(
         &self,
         analysis: &PathAnalysis,
         track: &Track,
         load: &PathLoad,
-        along: &AlongPath,
-    ) -> Result<Option<Moved>, StudyError> {
-        let Some(setting) = &analysis.motion else {
+        along: &mut AlongPath,
+    ) -> Result<Option<Motion>, StudyError> {
+        let Some(setting) = &analysis.setting.motion else {
             return Ok(None);
         };
         let motion = self.motion_of(analysis, setting, track, &along.answers)?;
-        let PathLoad::Cuts(cuts) = track.leaning_load(load.clone()) else {
-            return Ok(Some(Moved { motion, along: None }));
+        if let PathLoad::Cuts(cuts) = track.leaning_load(load.clone()) {
+            let factors: Vec<f64> = (motion.speeds.iter().zip(&motion.feeds))
+                .map(|(speed, feed)| (speed / feed).min(1.0))
+                .collect();
+            let slower = PathLoad::Cuts(cuts.at_feeds(&factors));
+            let question = self.question(&analysis.setting);
+            *along = along_postures(&question, track, slower, along.choices.clone(), self.watch)?;
+            self.keep_clear_of_stock(analysis, track, along)?;
+        }
+        along.add_motion(track, &motion);
+        Ok(Some(motion))
+    }
+
+    /// The same along the path that is not followed; `load` is that without the search.
+    pub fn move_along_other(
+        &self,
+        analysis: &PathAnalysis,
+        load: &PathLoad,
+        searched: &mut SearchResult,
+    ) -> Result<(), StudyError> {
+        let other = &mut searched.other;
+        searched.other_motion = if searched.applied {
+            self.move_along(analysis, &analysis.track, load, other)?
+        } else {
+            let turned = searched.posture.turned(&analysis.track);
+            self.move_along(analysis, &turned, &searched.posture.load(load), other)?
         };
-        let factors: Vec<f64> = (motion.speeds.iter().zip(&motion.feeds))
-            .map(|(speed, feed)| (speed / feed).min(1.0))
-            .collect();
-        let slower = PathLoad::Cuts(cuts.at_feeds(&factors));
-        let mut along = along_postures(
-            &self.question(&analysis.setting),
-            track,
-            slower,
-            along.choices.clone(),
-            self.watch,
-        )?;
-        self.keep_clear_of_stock(analysis, track, &mut along)?;
-        Ok(Some(Moved {
-            motion,
-            along: Some(along),
-        }))
+        Ok(())
     }
 
     fn motion_of(

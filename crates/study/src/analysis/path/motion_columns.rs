@@ -8,7 +8,6 @@ use armill_report::{PathPlot, Series};
 use crate::analysis::motion_quantity;
 use crate::analysis::numbers::Numbers;
 use crate::analysis::path::PathAnalysis;
-use crate::analysis::path::answer::motion::with_motion;
 use crate::analysis::path::point_groups::PointGroups;
 use crate::analysis::path::run::PathResult;
 use crate::analysis::picture::Picture;
@@ -16,7 +15,7 @@ use crate::analysis::quantity::Quantity;
 use crate::file_names::slug;
 
 /// Time, speed, and the distances of commanded and followed path; none if the motion was not requested.
-pub fn columns<'a>(analysis: &'a PathAnalysis, found: &'a PathResult) -> Vec<Numbers<'a>> {
+pub fn columns(found: &PathResult) -> Vec<Numbers<'_>> {
     let Some(motion) = &found.motion else {
         return Vec::new();
     };
@@ -37,10 +36,6 @@ pub fn columns<'a>(analysis: &'a PathAnalysis, found: &'a PathResult) -> Vec<Num
         value(&motion_quantity::SERVO, |motion, index| {
             to_um(motion.servo[index].norm())
         }),
-        Numbers::of(&motion_quantity::WITH_MOTION, move |_, index, _| {
-            let parts = analysis.track.parts(index, &with_motion(found, motion, index)?);
-            Some(to_um(parts.along.hypot(parts.cross)))
-        }),
     ]
 }
 
@@ -52,7 +47,7 @@ pub fn pictures(
     analysis: &PathAnalysis,
     found: &PathResult,
 ) -> Vec<Picture> {
-    let Some((motion, setting)) = found.motion.as_ref().zip(analysis.motion.as_ref()) else {
+    let Some((motion, setting)) = found.motion.as_ref().zip(analysis.setting.motion.as_ref()) else {
         return Vec::new();
     };
     let points = &analysis.track.path.points;

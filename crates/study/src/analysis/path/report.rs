@@ -105,7 +105,6 @@ fn motions(paths: &[PathAnswer]) -> Table {
             um(Some(motion.largest_blending_um)),
             um(Some(motion.largest_servo_um)),
             um(motion.largest_servo_u_um),
-            um(Some(motion.max_in_plane_with_motion_um)),
         ]
     };
     without_empty_columns(Table {
@@ -122,7 +121,6 @@ fn motions(paths: &[PathAnswer]) -> Table {
             ("rounded corners", "µm"),
             ("late joints", "µm"),
             ("its standard uncertainty", "µm"),
-            ("largest across the tool with motion", "µm"),
         ]),
         rows: with_motion.map(row).collect(),
     })

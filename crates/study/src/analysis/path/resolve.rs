@@ -88,17 +88,16 @@ impl Resolver<'_> {
             drill: None,
             forces: None,
             measured: None,
-            motion: self
-                .common
-                .motion
-                .zip(robot)
-                .map(|(table, robot)| MotionSetting::of(table, robot, self.common.rapid)),
             wants_limits: table.program.as_ref().is_some_and(|of| of.limits.unwrap_or(true)),
             features: table
                 .program
                 .as_ref()
                 .map_or_else(Vec::new, |of| of.feature.clone()),
-            setting,
+            setting: Setting {
+                motion: (self.common.motion.zip(robot))
+                    .map(|(table, robot)| MotionSetting::of(table, robot, self.common.rapid)),
+                ..setting
+            },
         };
         if let Some(points) = &table.spin_curve_mm_deg {
             let Some(curve) = spin_curve::resolve(log, points, &analysis) else {

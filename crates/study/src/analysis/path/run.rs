@@ -3,7 +3,7 @@
 //! `along_path` or `postures_along`, then `worst_points`, `radial_deviations`, `program_limits` of the core.
 
 use armill_core::frame::Isometry;
-use armill_core::kernel::{Answers, evaluate_posture};
+use armill_core::kernel::{Answers, OnPath, evaluate_posture};
 use armill_core::load::PathLoad;
 use armill_core::map::{
     AlongPath, ProgramLimits, RadialDeviation, along_path, along_postures, measure_stock_clearances,
@@ -55,7 +55,9 @@ pub struct SearchResult {
     /// Whether the path is followed with this result: only where it is a significant improvement.
     pub applied: bool,
     /// The path as it is not followed: without the search where the result is applied, with it where it is not.
-    pub other: Answers,
+    pub other: AlongPath,
+    /// The motion along it, if it was requested.
+    pub other_motion: Option<Motion>,
     /// Number of points with an obstacle without and with the result.
     pub obstacles: [usize; 2],
     /// Gain of the objective by the result.
@@ -84,7 +86,8 @@ pub fn passes(path: &PathAnalysis) -> usize {
         let worst = usize::from(search.objective == Objective::Worst);
         2 + worst + if search.back_price > 0.0 { 3 } else { 0 }
     });
-    let slowed = usize::from(path.motion.is_some() && path.cut.is_some());
+    let tracks = 1 + usize::from(path.setting.search.is_some());
+    let slowed = tracks * usize::from(path.setting.motion.is_some() && path.cut.is_some());
     let replayed = match (path.has_stock(), &path.setting.cell, &path.setting.search) {
         (false, ..) | (_, None, _) => 0,
         (true, Some(_), None) => 1 + slowed,
@@ -147,14 +150,14 @@ pub struct FoundSpins {
 impl Runner<'_> {
     /// The answers along a path, and all that follows from them in the branch that was followed.
     pub fn path(&self, analysis: &PathAnalysis) -> Result<PathResult, StudyError> {
-        let (load, forces) = self.pushed(analysis)?;
+        let (programmed, forces) = self.pushed(analysis)?;
         let question = self.question(&analysis.setting);
         let Followed {
             turned,
             load,
             mut along,
-            searched,
-        } = self.follow(analysis, load)?;
+            mut searched,
+        } = self.follow(analysis, programmed.clone())?;
         let forces = match (&load, &searched) {
             (PathLoad::Cuts(cuts), Some(searched))
                 if searched.applied && searched.posture.leans.is_some() =>
@@ -168,13 +171,10 @@ impl Runner<'_> {
             true => program_limits(&question, track, &along, analysis.setting.tolerance, self.watch)?,
             false => None,
         };
-        let motion = match self.motion(analysis, track, &load, &along)? {
-            Some(moved) => {
-                along = moved.along.unwrap_or(along);
-                Some(moved.motion)
-            }
-            None => None,
-        };
+        let motion = self.move_along(analysis, track, &load, &mut along)?;
+        if let Some(searched) = &mut searched {
+            self.move_along_other(analysis, &programmed, searched)?;
+        }
         if along.answers.clearances.is_empty() {
             along.answers.measure_clearances(&question);
         }
@@ -182,7 +182,7 @@ impl Runner<'_> {
         Ok(PathResult {
             worst: worst
                 .into_iter()
-                .map(|index| self.in_full(analysis, track, &along, index))
+                .map(|index| self.in_full(analysis, track, (&along, motion.as_ref()), index))
                 .collect(),
             radial: match analysis.shape() {
                 Some(Shape::Circle { centre, .. }) => {
@@ -239,8 +239,8 @@ impl Runner<'_> {
         let significant = gain.is_significant(&analysis.setting.least_gain);
         let applied = numbers[1] < numbers[0] || (numbers[1] == numbers[0] && significant);
         let (along, other) = match applied {
-            true => (found, nominal.answers),
-            false => (nominal, found.answers),
+            true => (found, nominal),
+            false => (nominal, found),
         };
         Ok(Followed {
             turned: applied.then_some(turned),
@@ -250,6 +250,7 @@ impl Runner<'_> {
                 posture,
                 applied,
                 other,
+                other_motion: None,
                 obstacles: numbers,
                 gain,
             }),
@@ -316,7 +317,7 @@ impl Runner<'_> {
         &self,
         analysis: &PathAnalysis,
         track: &Track,
-        along: &AlongPath,
+        (along, motion): (&AlongPath, Option<&Motion>),
         index: usize,
     ) -> PointDetail {
         let mut cases = vec![Wrench::ZERO; along.answers.case_count];
@@ -335,10 +336,12 @@ impl Runner<'_> {
             ..analysis.setting.clone()
         };
         let unloaded = along.backlash_geometry.as_ref();
-        let link_offsets =
-            unloaded.map(|unloaded| unloaded.link_offsets_at(index, along.answers.joint_count));
+        let on_path = OnPath {
+            link_offsets: unloaded.map(|unloaded| unloaded.link_offsets_at(index, along.answers.joint_count)),
+            motion: setting.motion_displacement(motion, index),
+        };
         let joints = along.answers.joints_at(index);
-        let answers = evaluate_posture(&self.question(&setting), joints, link_offsets);
+        let answers = evaluate_posture(&self.question(&setting), joints, on_path);
         PointDetail {
             index,
             setting,

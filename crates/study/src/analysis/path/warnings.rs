@@ -86,9 +86,8 @@ pub fn warnings(path: &PathAnswer) -> Vec<String> {
     warnings
 }
 
-/// Rounded corners and joints that follow late are not part of the fraction within the tolerance.
+/// Rounded corners, or joints that follow late, that exceed the tolerance without any load.
 fn off_the_path(path: &PathAnswer, motion: &MotionAnswer) -> Option<String> {
-    let tolerance = path.setting.tolerance_um;
     let causes = [
         (
             "rounded corners",
@@ -102,14 +101,10 @@ fn off_the_path(path: &PathAnswer, motion: &MotionAnswer) -> Option<String> {
         ),
     ];
     let (cause, largest, line) = causes.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
-    let already = path.max_in_plane_um.is_some_and(|by_loads| by_loads > tolerance);
-    let with_motion = motion.max_in_plane_with_motion_um > tolerance;
-    (with_motion && (!already || largest > tolerance)).then(|| {
+    (largest > path.setting.tolerance_um).then(|| {
         format!(
-            "{}: with the motion the tool deviates by up to {} µm, more than the tolerance: {cause} alone by {} µm (line {line}). The part of the path \
-             within the tolerance is that of the deviation by loads.",
+            "{}: {cause} alone move the tool by up to {} µm (line {line}), more than the tolerance.",
             path.name,
-            micrometres(motion.max_in_plane_with_motion_um),
             micrometres(largest)
         )
     })

@@ -8,7 +8,7 @@ use crate::arms;
 use crate::frame::{Isometry, both_across};
 use crate::kernel::answer::AnswerDetail;
 use crate::kernel::general::General;
-use crate::kernel::{BranchChoice, Question, evaluate, evaluate_posture};
+use crate::kernel::{BranchChoice, OnPath, Question, evaluate, evaluate_posture};
 use crate::load::InputUncertainty;
 use crate::numbers::{BLOCK, Backend, planes};
 use crate::predict::deviation_of;
@@ -269,7 +269,7 @@ fn worst_case_shares_and_uncertainty_are_those_of_the_plain_row() {
             let plane = [first, second, normal.into_inner()];
             lanes.answer(&cases, &plane, &UNCERTAIN, &mut found);
             for (i, q) in q.iter().enumerate() {
-                let expected = evaluate_posture(&question, q, None);
+                let expected = evaluate_posture(&question, q, OnPath::default());
                 let evaluation = expected.points[0].unwrap();
                 let close = |a: f64, b: f64, what: &str| {
                     let away = (a - b).abs() / evaluation.full;

@@ -270,7 +270,14 @@ fn notes(analysis: &PathAnalysis, found: &PathResult) -> Vec<String> {
                 .to_owned(),
         );
     }
+    if found.motion.is_some() && found.limits.is_some() {
+        notes.push(
+            "the process limits (limits) are computed for the load at the programmed feed alone: rounded corners and joints that follow late are additional"
+                .to_owned(),
+        );
+    }
     if let Some(motion) = analysis
+        .setting
         .motion
         .as_ref()
         .filter(|motion| !motion.assumed.is_empty())

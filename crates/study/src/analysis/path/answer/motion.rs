@@ -54,8 +54,6 @@ pub struct MotionAnswer {
     pub largest_servo_u_um: Option<f64>,
     /// Its line in the program.
     pub largest_servo_line: u32,
-    /// Largest deviation across the tool with both, which the other deviations of the path do not contain.
-    pub max_in_plane_with_motion_um: f64,
     /// Source of the values of the controller.
     pub source: Option<String>,
     /// Values that are assumed.
@@ -126,7 +124,7 @@ fn advice(robot: &Robot, limiting: Limiting) -> String {
 impl MotionAnswer {
     /// What the controller makes of this path; `None` if that was not requested.
     pub fn of(robot: &Robot, analysis: &PathAnalysis, found: &PathResult) -> Option<MotionAnswer> {
-        let (motion, setting) = (found.motion.as_ref()?, analysis.motion.as_ref()?);
+        let (motion, setting) = (found.motion.as_ref()?, analysis.setting.motion.as_ref()?);
         let points = &analysis.track.path.points;
         let steps = Steps::of(analysis, motion);
         let farthest = |errors: &[Vector3<f64>]| {
@@ -151,27 +149,10 @@ impl MotionAnswer {
             largest_servo_um: to_um(servo),
             largest_servo_u_um: setting.lag_u.filter(|_| lag_is_known).map(|u| u * to_um(servo)),
             largest_servo_line: line(late),
-            max_in_plane_with_motion_um: largest_with_motion(analysis, found, motion),
             source: setting.source.clone(),
             assumed: setting.assumed.clone(),
         })
     }
-}
-
-/// The deviation of the worst case at a point with rounded corners and joints that follow late, base, m.
-pub fn with_motion(found: &PathResult, motion: &Motion, index: usize) -> Option<Vector3<f64>> {
-    let answers = &found.along.answers;
-    let evaluation = answers.points[index].as_ref().ok()?;
-    let deviation = answers.deviations_at(index)[evaluation.worst_case];
-    Some(deviation + motion.blending[index] + motion.servo[index])
-}
-
-fn largest_with_motion(analysis: &PathAnalysis, found: &PathResult, motion: &Motion) -> f64 {
-    let across = |index: usize| {
-        let parts = analysis.track.parts(index, &with_motion(found, motion, index)?);
-        Some(to_um(parts.along.hypot(parts.cross)))
-    };
-    (0..motion.times.len()).filter_map(across).fold(0.0, f64::max)
 }
 
 /// A step of the path with the time that is lost on it.

@@ -4,6 +4,7 @@
 //! inside limits and away from singularities at any spin; the path is evaluated there regardless.
 
 use armill_core::kernel::{Answers, PostureStatus};
+use armill_core::motion::Motion;
 use armill_core::optimize::{Component, Objective, PostureFound, reversals};
 use armill_core::path::{Lean, PathPoint, scallop};
 use armill_core::robot::Robot;
@@ -85,6 +86,8 @@ pub struct StatisticsAnswer {
     pub near_singularity: usize,
     /// Number of reversals of each joint.
     pub reversals: Vec<usize>,
+    /// Duration of the program; none without `[motion]`.
+    pub cycle_time_s: Option<f64>,
 }
 
 /// Consecutive points without a usable posture.
@@ -110,8 +113,8 @@ impl SearchAnswer {
             leans.map(|leans| range(leans.iter().map(of)).map(|angle| without_rounding(to_deg(angle))))
         };
         let points = &analysis.track.path.points;
-        let followed = StatisticsAnswer::of(analysis, &found.along.answers);
-        let other = StatisticsAnswer::of(analysis, &searched.other);
+        let followed = StatisticsAnswer::of(analysis, &found.along.answers, found.motion.as_ref());
+        let other = StatisticsAnswer::of(analysis, &searched.other.answers, searched.other_motion.as_ref());
         let (without, with) = match searched.applied {
             true => (other, followed),
             false => (followed, other),
@@ -158,9 +161,13 @@ impl SearchAnswer {
         };
         let share = |of: &StatisticsAnswer| format!("{:.1} %", 100.0 * of.fraction_within);
         let backs = |of: &StatisticsAnswer| of.reversals.iter().sum::<usize>();
+        let cycle_time = match (self.with.cycle_time_s, self.without.cycle_time_s) {
+            (Some(with), Some(without)) => format!(", {with:.1} s instead of {without:.1} s"),
+            _ => String::new(),
+        };
         if !self.applied {
             return format!(
-                "spin and branch are kept; the best ones found would give {}; largest deviation {} instead of {}, {} reversals of joints instead of {}",
+                "spin and branch are kept; the best ones found would give {}; largest deviation {} instead of {}, {} reversals of joints instead of {}{cycle_time}",
                 self.gain_in_words(),
                 worst(&self.with),
                 worst(&self.without),
@@ -169,7 +176,7 @@ impl SearchAnswer {
             );
         }
         format!(
-            "tool spin of {}{}: {}; largest deviation {} instead of {}; {} of the points are within the tolerance, {} before; {} reversals of joints, {} before",
+            "tool spin of {}{}: {}; largest deviation {} instead of {}; {} of the points are within the tolerance, {} before; {} reversals of joints, {} before{cycle_time}",
             self.turn_in_words(),
             self.freedoms_in_words(),
             self.gain_in_words(),
@@ -260,8 +267,8 @@ fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
 }
 
 impl StatisticsAnswer {
-    /// The statistics of these answers along this path.
-    pub fn of(analysis: &PathAnalysis, answers: &Answers) -> StatisticsAnswer {
+    /// The statistics of these answers along this path, with its motion if it was requested.
+    pub fn of(analysis: &PathAnalysis, answers: &Answers, motion: Option<&Motion>) -> StatisticsAnswer {
         let evaluation = || answers.evaluations().map(|(_, evaluation)| evaluation);
         let count = evaluation().count();
         let within = evaluation()
@@ -281,6 +288,7 @@ impl StatisticsAnswer {
                 .filter(|evaluation| evaluation.singularity.is_some())
                 .count(),
             reversals: reversals(&analysis.track.path, answers),
+            cycle_time_s: motion.map(Motion::duration),
         }
     }
 }

@@ -13,7 +13,7 @@ use serde::Serialize;
 use crate::analysis::path::PathAnalysis;
 use crate::analysis::path::run::{PathResult, PointDetail};
 use crate::analysis::point::{PointAnswer, ReachedPoint};
-use crate::joint_order::contributor_names;
+use crate::analysis::words::motion_in_words;
 
 /// A point with a large deviation, and why.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -85,10 +85,11 @@ fn cause(
     point: &PointAnswer,
 ) -> String {
     let joints = robot.joints();
-    let names = contributor_names(robot, &analysis.setting.model);
-    let largest = point
-        .mostly_by(&names)
-        .and_then(|(name, part)| Some(format!("{name} {:.0} %", 100.0 * part?)));
+    let names = analysis.setting.contributor_names(robot);
+    let largest = point.mostly_by(&names).and_then(|(name, part)| {
+        let name = motion_in_words(name).unwrap_or(name);
+        Some(format!("{name} {:.0} %", 100.0 * part?))
+    });
     let mut parts: Vec<String> = largest.into_iter().collect();
     if let Some(singularity) = evaluation.singularity {
         parts.push(format!("near the {singularity}"));
