@@ -420,3 +420,45 @@ fn harmonics_of_negligible_amplitude_have_neither_phase_nor_share() {
     );
     assert!(waves[1]["explained_percent"].is_number());
 }
+
+#[test]
+fn joints_that_follow_late_are_a_contribution_where_no_ball_bar_measured_them() {
+    let (folder, _) = experiment([0.0, 0.0], "", (0.0, 1.0));
+    let at = folder.path();
+    let plain = reported(at);
+    let study = std::fs::read_to_string(at.join("study.toml")).unwrap();
+    let motion = "[motion]\nfeed_mm_per_min = 6000\nlag_ms = [20]\nlag_u_ms = [5]\n";
+    let (bare, _) = study.split_once("[measured]").unwrap();
+    let named = |given: &Value| -> Vec<String> {
+        let all = given["contributions"].as_array().unwrap().iter();
+        all.map(|one| one["name"].as_str().unwrap().to_owned()).collect()
+    };
+    // A ball-bar has them in what it measured.
+    std::fs::write(
+        at.join("study.toml"),
+        study.replace("[measured]", &format!("{motion}[measured]")),
+    )
+    .unwrap();
+    let with_ballbar = reported(at);
+    assert_eq!(named(&with_ballbar), named(&plain));
+    let without = format!("{bare}{motion}[measured]\npart = \"cmm.csv\"\n");
+    std::fs::write(at.join("study.toml"), without).unwrap();
+    let alone = reported(at);
+    assert_eq!(
+        named(&alone)[..2],
+        ["deviation under load", "joints that follow late"]
+    );
+    for given in [&with_ballbar, &alone] {
+        let rms = |given: &Value| number(given, "/contributions/0/rms_um");
+        assert!((rms(given) - rms(&plain)).abs() < 0.02, "{given}");
+    }
+    // The radius shrinks by half the square of the angle per time constant: 100 mm/s, 100 mm, 20 ms.
+    let shrunk = number(&alone, "/contributions/1/radius_um");
+    let expected = 100e3 * (1.0 / 0.02f64.hypot(1.0) - 1.0);
+    assert!((shrunk / expected - 1.0).abs() < 0.2, "{shrunk}");
+    let (rms, u) = (
+        number(&alone, "/contributions/1/rms_um"),
+        number(&alone, "/contributions/1/bias_u_um"),
+    );
+    assert!((u / (0.25 * rms) - 1.0).abs() < 1e-6, "{u} {rms}");
+}
