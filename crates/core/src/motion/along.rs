@@ -11,6 +11,7 @@
 use std::ops::Range;
 
 use nalgebra::{Point3, Vector3};
+use rayon::prelude::*;
 
 use super::contour::contour_errors;
 use super::jerk::Timed;
@@ -23,6 +24,9 @@ use crate::path::{Command, MoveEnd, Passage, SampledPath};
 
 /// How long after its command a joint is looked for, relative to its lag: `e^-8` of a step remain then.
 const LONGEST: f64 = 8.0;
+
+/// Points that a thread computes at once.
+const AT_ONCE: usize = 1024;
 
 /// Points in a lag, for joints that follow late: between them a lag bends by 1/32 of its way at most.
 const PER_LAG: f64 = 4.0;
@@ -62,7 +66,7 @@ pub struct Postures<'a> {
     /// Whether the arm has to stop at a point because a joint jumps on the way to it.
     pub jumps: &'a dyn Fn(usize) -> bool,
     /// The tip in the base at joint positions, rad (m).
-    pub tip: &'a dyn Fn(&[f64]) -> Point3<f64>,
+    pub tip: &'a (dyn Fn(&[f64]) -> Point3<f64> + Sync),
 }
 
 /// The motion along a path. Values of points without posture are not numbers, or zero displacements.
@@ -323,27 +327,32 @@ impl Builder<'_> {
             return vec![Vector3::zeros(); path.points.len()];
         }
         let fine = Fine::of(path, times, longest / PER_LAG);
-        let late: Vec<Vec<f64>> = (self.model.lags.iter().enumerate())
+        let (tip, joints) = (self.postures.tip, self.joints);
+        let late: Vec<Vec<f64>> = (self.model.lags.par_iter().enumerate())
             .map(|(joint, lag)| {
                 let of_joint: Vec<f64> = fine
                     .positions
                     .iter()
                     .skip(joint)
-                    .step_by(self.joints)
+                    .step_by(joints)
                     .copied()
                     .collect();
                 lag.followed(&fine.times, &of_joint)
             })
             .collect();
-        let mut here = vec![0.0; self.joints];
-        let followed = fine.points.iter().enumerate().map(|(index, at)| {
-            let there = &fine.positions[index * self.joints..][..self.joints];
-            for (joint, position) in here.iter_mut().enumerate() {
-                *position = late[joint][index];
-            }
-            at + ((self.postures.tip)(&here) - (self.postures.tip)(there))
-        });
+        let followed = fine.points.par_iter().with_min_len(AT_ONCE).enumerate();
+        let followed = followed.map_init(
+            || vec![0.0; joints],
+            |here, (index, at)| {
+                let there = &fine.positions[index * joints..][..joints];
+                for (position, late) in here.iter_mut().zip(&late) {
+                    *position = late[index];
+                }
+                at + (tip(here) - tip(there))
+            },
+        );
         let followed: Vec<Point3<f64>> = followed.collect();
+        drop(late);
         let errors = contour_errors(&fine.points, &followed, &fine.times, longest * LONGEST);
         fine.given.iter().map(|index| errors[*index]).collect()
     }

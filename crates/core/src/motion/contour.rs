@@ -13,6 +13,10 @@
 //! That the tip is late along the path is no error of the part: the same points are passed later.
 
 use nalgebra::{Point3, Vector3};
+use rayon::prelude::*;
+
+/// Points that a thread computes at once.
+const AT_ONCE: usize = 1024;
 
 /// Points nearer to each other than this have no direction, m.
 const SAME: f64 = 1e-12;
@@ -71,7 +75,11 @@ pub fn contour_errors(
         }
         nearest
     };
-    (0..commanded.len()).map(error).collect()
+    (0..commanded.len())
+        .into_par_iter()
+        .with_min_len(AT_ONCE)
+        .map(error)
+        .collect()
 }
 
 #[cfg(test)]

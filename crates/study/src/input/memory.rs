@@ -57,6 +57,9 @@ pub const OF_PATH: ExtraBytes = ExtraBytes {
     joint_or_share: 16,
     case: 112 + 48,
 };
+/// The motion along a path, a point of it: the path with its rounded corners and the joints that follow late. Measured with 10^6 points: 250 on a smooth
+/// path, 1640 where every point is a corner.
+const OF_MOTION: usize = 1700;
 /// Names, descriptions and buffers of the columns of one load case, independent of the points; measured 13 kB.
 const BYTES_PER_CASE: usize = 16 << 10;
 
@@ -86,7 +89,8 @@ impl PointMemory<'_> {
         let point = Answers::bytes_per_point(joints, shares, cases)
             + extra.point
             + extra.joint_or_share * (joints + shares)
-            + extra.case * cases;
+            + extra.case * cases
+            + if self.setting.motion.is_some() { OF_MOTION } else { 0 };
         self.points * point as f64 + (cases * BYTES_PER_CASE) as f64
     }
 
