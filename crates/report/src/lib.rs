@@ -13,6 +13,7 @@
 //! | how large is it along the path, how round is a circle, predicted or measured? | [`PathPlot`], [`PolarPlot`] |
 //! | what does a ball-bar test show, by direction of travel? | [`BallbarPlot`] |
 //! | where on a tool path, seen from above? | [`TrackMap`] |
+//! | what becomes of a corner of a path? | [`PathDetail`] |
 //! | what is the deviation of each hole? | [`HoleMap`] |
 //! | what depth and feed meet the tolerance? | [`ProcessMap`] |
 //! | how may the tool be turned along the path; what is around a place? | [`CellMap`] |
@@ -43,6 +44,7 @@ mod region;
 
 mod ballbar_plot;
 mod force_plot;
+mod path_detail;
 mod path_plot;
 mod polar_plot;
 mod process_map;
@@ -102,6 +104,7 @@ pub use hole_map::{HoleMap, HoleMark};
 pub use map::{DeviationMap, Overlay};
 pub use map_series::{MapSeries, Panel};
 pub use marker::{Marker, MarkerKind};
+pub use path_detail::{NamedLine, PathDetail};
 pub use path_plot::{PathPlot, Series};
 pub use plane::{AxisLabels, Growth};
 pub use polar_plot::{PolarPlot, RadialReference, RadialSeries};

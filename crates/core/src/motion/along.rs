@@ -11,27 +11,16 @@
 use std::ops::Range;
 
 use nalgebra::{Point3, Vector3};
-use rayon::prelude::*;
 
-use super::contour::contour_errors;
+use super::detail::MotionDetail;
 use super::jerk::Timed;
 use super::joint_path::JointPath;
 use super::lag::Lag;
+use super::late_path::LatePath;
 use super::limits::{Limiting, MotionLimits};
 use super::rounded::{Programmed, Rounded};
 use super::speed::{fastest, from_rest_to_rest};
 use crate::path::{Command, MoveEnd, Passage, SampledPath};
-
-/// How long after its command a joint is looked for, relative to its lag: `e^-8` of a step remain then.
-const LONGEST: f64 = 8.0;
-
-/// Points that a thread computes at once.
-const AT_ONCE: usize = 1024;
-
-/// Points in a lag, for joints that follow late: between them a lag bends by 1/32 of its way at most.
-const PER_LAG: f64 = 4.0;
-/// Pieces of a step at most.
-const MOST_PIECES: usize = 64;
 
 /// How a controller moves an arm.
 #[derive(Clone, Debug, PartialEq)]
@@ -84,6 +73,8 @@ pub struct Motion {
     pub blending: Vec<Vector3<f64>>,
     /// Distance of the path that is followed from the commanded one, m, base: joints that follow late.
     pub servo: Vec<Vector3<f64>>,
+    /// Both paths next to the point that the followed one is farthest from; `None` if no point is left.
+    pub largest: Option<MotionDetail>,
     /// Time of the cuts, s.
     pub cutting: f64,
     /// Time of the rapids between them, s.
@@ -105,6 +96,7 @@ pub struct NoFeed {
 impl Motion {
     /// Keeps the values of this many points.
     pub fn truncate(&mut self, count: usize) {
+        self.largest.take_if(|detail| detail.index >= count);
         self.times.truncate(count);
         self.speeds.truncate(count);
         self.feeds.truncate(count);
@@ -290,7 +282,8 @@ impl Builder<'_> {
         );
         let timed = Timed::of(&profile, &path.along, self.model.smoothing);
         let times = timed.times_at(&path.along);
-        let servo = self.servo(&path, &times);
+        let late = LatePath::of(&path, &times, &self.model.lags, self.postures.tip);
+        let servo = &late.errors;
         let start = self.found.duration();
         for (offset, at) in path.passes.iter().enumerate() {
             let index = points.start + offset;
@@ -309,6 +302,7 @@ impl Builder<'_> {
             self.found.blending[index] = path.errors[offset];
             self.found.servo[index] = servo[k - 1].lerp(&servo[k], part);
         }
+        self.keep_largest(points.clone(), &path, &late);
         self.found.cutting += timed.duration();
         let lengths = self.postures.points[points]
             .windows(2)
@@ -320,41 +314,30 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// Distance of the path that is followed from the commanded points, m.
-    fn servo(&self, path: &Rounded, times: &[f64]) -> Vec<Vector3<f64>> {
-        let longest = self.model.lags.iter().map(|lag| lag.time).fold(0.0, f64::max);
-        if longest <= 0.0 {
-            return vec![Vector3::zeros(); path.points.len()];
+    /// Keeps the detail of the point from which the followed path is farthest.
+    fn keep_largest(&mut self, points: Range<usize>, path: &Rounded, late: &LatePath) {
+        let distance = |index: usize| (self.found.blending[index] + self.found.servo[index]).norm();
+        let Some(index) = points
+            .clone()
+            .max_by(|a, b| distance(*a).total_cmp(&distance(*b)))
+        else {
+            return;
+        };
+        let largest = distance(index);
+        let before = self.found.largest.as_ref().map_or(0.0, |detail| detail.distance);
+        if largest > before {
+            let at = path.passes[index - points.start];
+            let passed = path
+                .along
+                .partition_point(|along| *along < at)
+                .min(path.along.len() - 1);
+            self.found.largest = Some(MotionDetail::of(
+                (index, self.postures.points[index]),
+                largest,
+                late.commanded.given[passed],
+                [&late.commanded.points, &late.followed],
+            ));
         }
-        let fine = Fine::of(path, times, longest / PER_LAG);
-        let (tip, joints) = (self.postures.tip, self.joints);
-        let late: Vec<Vec<f64>> = (self.model.lags.par_iter().enumerate())
-            .map(|(joint, lag)| {
-                let of_joint: Vec<f64> = fine
-                    .positions
-                    .iter()
-                    .skip(joint)
-                    .step_by(joints)
-                    .copied()
-                    .collect();
-                lag.followed(&fine.times, &of_joint)
-            })
-            .collect();
-        let followed = fine.points.par_iter().with_min_len(AT_ONCE).enumerate();
-        let followed = followed.map_init(
-            || vec![0.0; joints],
-            |here, (index, at)| {
-                let there = &fine.positions[index * joints..][..joints];
-                for (position, late) in here.iter_mut().zip(&late) {
-                    *position = late[index];
-                }
-                at + (tip(here) - tip(there))
-            },
-        );
-        let followed: Vec<Point3<f64>> = followed.collect();
-        drop(late);
-        let errors = contour_errors(&fine.points, &followed, &fine.times, longest * LONGEST);
-        fine.given.iter().map(|index| errors[*index]).collect()
     }
 
     /// The time from a point at rest to another one by a rapid of this length.
@@ -379,44 +362,6 @@ impl Builder<'_> {
         if longest > 0.0 {
             self.found.rapids += longest + self.model.smoothing;
         }
-    }
-}
-
-/// A commanded path in time with points so near in time that joints that follow late move evenly between them.
-#[derive(Default)]
-struct Fine {
-    points: Vec<Point3<f64>>,
-    positions: Vec<f64>,
-    times: Vec<f64>,
-    /// Index of each point of the path among these.
-    given: Vec<usize>,
-}
-
-impl Fine {
-    fn of(path: &Rounded, times: &[f64], step: f64) -> Fine {
-        let joints = path.positions.len() / path.points.len();
-        let at = |index: usize| &path.positions[index * joints..][..joints];
-        let mut fine = Fine::default();
-        for index in 0..path.points.len() {
-            if let Some(before) = index.checked_sub(1) {
-                let time = times[index] - times[before];
-                let pieces = ((time / step).ceil() as usize).clamp(1, MOST_PIECES);
-                for piece in 1..pieces {
-                    let part = piece as f64 / pieces as f64;
-                    fine.times.push(times[before] + time * part);
-                    fine.points
-                        .push(path.points[before] + (path.points[index] - path.points[before]) * part);
-                    let both = at(before).iter().zip(at(index));
-                    fine.positions
-                        .extend(both.map(|(from, to)| from + (to - from) * part));
-                }
-            }
-            fine.given.push(fine.times.len());
-            fine.times.push(times[index]);
-            fine.points.push(path.points[index]);
-            fine.positions.extend_from_slice(at(index));
-        }
-        fine
     }
 }
 

@@ -90,7 +90,11 @@ impl PointMemory<'_> {
             + extra.point
             + extra.joint_or_share * (joints + shares)
             + extra.case * cases
-            + if self.setting.motion.is_some() { OF_MOTION } else { 0 };
+            + if self.setting.motion.is_some() {
+                OF_MOTION
+            } else {
+                0
+            };
         self.points * point as f64 + (cases * BYTES_PER_CASE) as f64
     }
 

@@ -113,7 +113,15 @@ fn a_zone_keeps_more_of_the_feed_than_a_stop_and_leaves_the_corner() {
             ..slides(2.5)
         };
         let found = motion(&path, &model).unwrap();
-        (found.speeds[200], found.blending[200].norm(), found.duration())
+        // The detail is that of the corner, and no joint is late.
+        let duration = found.duration();
+        let detail = found.largest.unwrap();
+        assert_eq!((detail.index, detail.distance), (200, found.blending[200].norm()));
+        assert_eq!(detail.commanded, detail.followed);
+        let corner = Point3::new(0.2, 0.0, 0.0);
+        let nearest = detail.commanded.iter().map(|at| (at - corner).norm());
+        assert!((nearest.fold(1.0, f64::min) - detail.distance).abs() < 1e-12);
+        (found.speeds[200], found.blending[200].norm(), duration)
     };
     // With a stop 4.08 s; without a corner 4.04 s.
     let (mut slower, mut longer) = (0.0, 4.075);

@@ -8,11 +8,12 @@
 //! `shape` and [`program`] (its keys [`program_table`], its file `program_file`, then `machine_program` or
 //! [`robot_program`]) give its points, [`feature`] marks stretches of them; `load` puts on the load: given cases, a [`cut`], a [`drill`], or [`measured`] forces; `shape_tables`: the tables of
 //! shapes; `spin_curve`: a spin that changes along the path. [`resolve`](mod@resolve) joins these, [`run`] evaluates the path, [`motion`] what the controller makes of it. [`answer`], [`sentence`], [`warnings`] are
-//! its answer; [`columns`], [`pictures`] (with `track_views`, [`point_groups`], `turns`, [`process_limits`], `motion_columns`) and [`report`] its files. [`process_loads`]:
+//! its answer; [`columns`], [`pictures`] (with `track_views`, [`point_groups`], `turns`, [`process_limits`], `motion_columns`, `corner_picture`) and [`report`] its files. [`process_loads`]:
 //! what the cut asks of tool and spindle.
 
 pub mod answer;
 pub mod columns;
+mod corner_picture;
 pub mod cut;
 pub mod drill;
 pub mod feature;

@@ -10,6 +10,7 @@
 //! | `turns` | deviation over path and spin of the tool, with the chosen spin | a search |
 //! | `process` | largest deviation over depth and feed per tooth | a cut |
 //! | `speed`, `joint-speeds` | feed and speed, speeds of the joints relative to their greatest | a motion |
+//! | `corner` | programmed, commanded and followed path where the motion moves the tool most | a motion |
 //! | `forces` | the record before and after treatment | measured forces |
 //! | `arm` | the arm at the worst point, faintly elsewhere | a path that is reached |
 
@@ -70,6 +71,7 @@ pub fn pictures(
         analysis,
         found,
     ));
+    pictures.extend(super::corner_picture::picture(&given.name, analysis, found));
     pictures.extend(super::process_limits::picture(
         &given.name,
         drawing.subtitle(),
