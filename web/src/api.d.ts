@@ -3133,7 +3133,7 @@ export interface components {
             model: string[];
             /**
              * @description The contributors of `share_um`: the joints; base, flange and tool if springs are attached there;
-             *     geometry with a calibrated robot; thermal growth.
+             *     geometry with a calibrated robot; thermal growth; blending and servo of a motion.
              */
             contributors: string[];
         };
@@ -3831,6 +3831,11 @@ export interface components {
             near_singularity: number;
             /** @description Number of reversals of each joint. */
             reversals: number[];
+            /**
+             * Format: double
+             * @description Duration of the program; none without `[motion]`.
+             */
+            cycle_time_s: number | null;
         };
         /** @description Consecutive points without a usable posture. */
         UnreachableStretch: {
@@ -3913,11 +3918,6 @@ export interface components {
              * @description Its line in the program.
              */
             largest_servo_line: number;
-            /**
-             * Format: double
-             * @description Largest deviation across the tool with both, which the other deviations of the path do not contain.
-             */
-            max_in_plane_with_motion_um: number;
             /** @description Source of the values of the controller. */
             source: string | null;
             /** @description Values that are assumed. */

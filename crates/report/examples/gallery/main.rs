@@ -4,6 +4,7 @@
 
 mod arms;
 mod budget;
+mod corner;
 mod fields;
 mod paths;
 
@@ -21,6 +22,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let pictures: Vec<(&str, String)> = fields::pictures()
         .into_iter()
         .chain(paths::pictures())
+        .chain(corner::pictures())
         .chain(budget::pictures())
         .chain(arms::pictures())
         .collect();
