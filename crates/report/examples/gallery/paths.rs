@@ -2,9 +2,9 @@
 
 use armill_report::{
     Arrow, ArrowCase, AxisLabels, BallbarPlot, BallbarTrace, Cell, CellMap, ColourScale, ComparedCell,
-    Comparison, Envelope, ForcePlot, ForceTrace, Growth, HoleMap, HoleMark, Marker, MarkerKind, NamedLine,
-    PathDetail, PathPlot, PolarPlot, ProcessMap, RadialReference, RadialSeries, Sense, Series, ShareBar,
-    ShareBars, StiffnessEllipse, Stretch, TrackMap, VectorField,
+    Comparison, Envelope, ForcePlot, ForceTrace, Growth, HoleMap, HoleMark, Marker, MarkerKind, PathPlot,
+    PolarPlot, ProcessMap, RadialReference, RadialSeries, Sense, Series, ShareBar, ShareBars,
+    StiffnessEllipse, Stretch, TrackMap, VectorField,
 };
 
 /// Load cases by the direction of the feed.
