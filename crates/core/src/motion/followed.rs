@@ -116,7 +116,10 @@ mod tests {
         // 0.5 / 0.5 + 0.5 / 4 + 0.04, twice.
         assert!((found.duration - 2.0 * 1.165).abs() < 1e-6, "{}", found.duration);
         let middle = found.times.iter().position(|time| *time >= 0.58).unwrap();
-        assert!((found.positions[2 * middle] - 0.25).abs() < 1e-3, "half way after half of the time");
+        assert!(
+            (found.positions[2 * middle] - 0.25).abs() < 1e-3,
+            "half way after half of the time"
+        );
         assert!((found.positions[found.positions.len() - 2] - 0.5).abs() < 1e-12);
     }
 

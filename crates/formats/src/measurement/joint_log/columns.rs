@@ -193,12 +193,7 @@ impl Columns {
             problems.push(header.problem(path, whole.clone(), "no column gives the time", HINT));
         }
         if roles.iter().all(|(_, numbers)| numbers.is_empty()) {
-            problems.push(header.problem(
-                path,
-                whole.clone(),
-                "no column is the position of a joint",
-                HINT,
-            ));
+            problems.push(header.problem(path, whole.clone(), "no column is the position of a joint", HINT));
         }
         for (role, numbers) in &roles {
             let range = numbers.first().zip(numbers.last());

@@ -144,7 +144,11 @@ pub fn read(
         return Err(Problem::of_file(path, message, HINT).into());
     }
     if repeated > 0 {
-        let rows = if repeated == 1 { "row repeats" } else { "rows repeat" };
+        let rows = if repeated == 1 {
+            "row repeats"
+        } else {
+            "rows repeat"
+        };
         log.notes
             .push(format!("{repeated} {rows} the time of the row before: left out"));
     }
@@ -172,9 +176,7 @@ impl JointLog {
                 self.positions.extend(row.actual);
             }
             // A log of one of them.
-            None => self
-                .positions
-                .extend(row.actual.into_iter().chain(row.commanded)),
+            None => self.positions.extend(row.actual.into_iter().chain(row.commanded)),
         }
         if let Some((moves, number)) = self.moves.as_mut().zip(row.number) {
             moves.push(number);
@@ -240,7 +242,14 @@ fn row(path: &str, line: &Line, separator: char, columns: &Columns) -> Result<Ro
     let mut row = Row {
         time: 0.0,
         time_cell: 0..0,
-        actual: vec![0.0; if columns.has(Meaning::Actual(0)) { columns.joints } else { 0 }],
+        actual: vec![
+            0.0;
+            if columns.has(Meaning::Actual(0)) {
+                columns.joints
+            } else {
+                0
+            }
+        ],
         commanded: vec![
             0.0;
             if columns.has(Meaning::Commanded(0)) {

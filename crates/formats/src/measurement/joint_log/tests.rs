@@ -46,7 +46,11 @@ fn commanded_positions_and_moves_are_read_next_to_the_actual_ones() {
     assert_eq!(found.commanded.as_deref(), Some(&[1.0, 1.1][..]));
     assert_eq!(found.moves.as_deref(), Some(&[-1, 2][..]));
     assert_eq!(found.unused, ["target_qd_0"]);
-    assert!(found.notes[0].contains("no unit of time is given: s"), "{:?}", found.notes);
+    assert!(
+        found.notes[0].contains("no unit of time is given: s"),
+        "{:?}",
+        found.notes
+    );
     let rsi = log("IPOC,ASPos.A1,AIPos.A1\n4,2,1\n8,3,2\n", 1);
     assert_eq!(rsi.positions, [from_deg(1.0), from_deg(2.0)]);
     let alone = log("time_s,target_q_0\n0,0.1\n0.008,0.2\n", 1);
@@ -59,7 +63,10 @@ fn a_unit_is_concluded_only_where_one_is_possible() {
     assert!((found.positions[0] + 87f64.to_radians()).abs() < 1e-12);
     assert_eq!(found.notes.len(), 2, "{:?}", found.notes);
     let both = refused("timestamp,J1\n0,1\n0.5,2\n", 1);
-    assert!(both.contains("no unit of time is given, and a step of 0.5 fits none"), "{both}");
+    assert!(
+        both.contains("no unit of time is given, and a step of 0.5 fits none"),
+        "{both}"
+    );
     assert!(both.contains("2 may be degrees or rad"), "{both}");
     let given = LogReadOptions {
         time: Some(TimeUnit::Second),
@@ -77,7 +84,11 @@ fn repeated_times_are_left_out_and_gaps_are_named() {
     }
     let found = log(&text, 1);
     assert_eq!(found.times.len(), 7);
-    assert!(found.notes[0].contains("1 row repeats the time"), "{:?}", found.notes);
+    assert!(
+        found.notes[0].contains("1 row repeats the time"),
+        "{:?}",
+        found.notes
+    );
     assert!(
         found.notes[1].contains("1 gap") && found.notes[1].contains("84.0 ms before line 8"),
         "{:?}",
@@ -87,7 +98,10 @@ fn repeated_times_are_left_out_and_gaps_are_named() {
 
 #[test]
 fn all_problems_are_reported_with_their_positions() {
-    let found = refused("time_s,J1_deg,J2_deg\n0,1,x\n0.1,NaN,2\n0.2,1\n0.3,1,2\n0.25,1,2\n0.4,1e30,2\n", 2);
+    let found = refused(
+        "time_s,J1_deg,J2_deg\n0,1,x\n0.1,NaN,2\n0.2,1\n0.3,1,2\n0.25,1,2\n0.4,1e30,2\n",
+        2,
+    );
     for said in [
         "log.csv:2:5: `x` is not a finite number",
         "log.csv:3:5: `NaN` is not a finite number",
@@ -102,16 +116,34 @@ fn all_problems_are_reported_with_their_positions() {
         ("time_s,J1_deg\n", "a log of 0 instants"),
         ("J1_deg\n1\n", "no column gives the time"),
         ("time_s,x\n1,2\n", "no column is the position of a joint"),
-        ("time_s,J1_deg,J2_deg\n0,1,2\n", "positions of the joints 1, 2, but the robot has 1 joints"),
-        ("time_s,J2_deg\n0,1\n", "positions of the joints 2, but the robot has 1 joints"),
-        ("time_s,J1_deg,j1_deg\n0,1,2\n", "1:15: `j1_deg` repeats an earlier column"),
-        ("time_s,J1_deg,cmd_j1_rad\n0,1,2\n", "has another unit than the joints before it"),
-        ("time_s,J1_rad,move\n0,1,1.5\n1,1,1\n", "`1.5` is not the number of a move"),
+        (
+            "time_s,J1_deg,J2_deg\n0,1,2\n",
+            "positions of the joints 1, 2, but the robot has 1 joints",
+        ),
+        (
+            "time_s,J2_deg\n0,1\n",
+            "positions of the joints 2, but the robot has 1 joints",
+        ),
+        (
+            "time_s,J1_deg,j1_deg\n0,1,2\n",
+            "1:15: `j1_deg` repeats an earlier column",
+        ),
+        (
+            "time_s,J1_deg,cmd_j1_rad\n0,1,2\n",
+            "has another unit than the joints before it",
+        ),
+        (
+            "time_s,J1_rad,move\n0,1,1.5\n1,1,1\n",
+            "`1.5` is not the number of a move",
+        ),
         ("time_s,J1_rad\n0,1\n1,1e6\n", "exceeds 200 rad"),
         ("time_s,J1_rad\n0,1\n1e9,1\n", "exceeds 1000000 s"),
     ] {
         let given = refused(text, 1);
-        assert!(given.contains(said) && given.contains("help: "), "{said}: {given}");
+        assert!(
+            given.contains(said) && given.contains("help: "),
+            "{said}: {given}"
+        );
     }
 }
 

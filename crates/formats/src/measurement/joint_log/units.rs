@@ -115,7 +115,10 @@ pub(super) fn convert(
         .or_else(|| concluded_time(log))
         .ok_or_else(|| {
             refuse(
-                format!("no unit of time is given, and a step of {} fits none", log.usual_step()),
+                format!(
+                    "no unit of time is given, and a step of {} fits none",
+                    log.usual_step()
+                ),
                 "name the column `time_s`, `time_ms`, `time_us` or `time_ns`, or give the option --time-unit",
             )
         });
