@@ -157,7 +157,7 @@ fn move_text(part: &MoveAnswer) -> String {
 fn joint_text(joint: &JointAnswer) -> String {
     let noise = joint
         .acceleration_noise_deg_per_s2
-        .map_or(String::new(), |noise| format!(" (noise {noise:.0})"));
+        .map_or(String::new(), |noise| format!(" (noise {noise:.1})"));
     let lag = joint
         .delay_ms
         .zip(joint.lag_ms)
@@ -191,6 +191,13 @@ fn compared_text(compared: &ComparedAnswer) -> Vec<String> {
         lines.push(format!(
             "{:<59} {:>10.2} %",
             "  feed, rms", stretch.feed_rms_percent
+        ));
+        lines.push(format!(
+            "{:<36} {:>7.3} mm {:>7.3} mm {:>9.3} mm",
+            "  largest distance from the lines",
+            stretch.off_line_mm,
+            stretch.predicted_off_line_mm,
+            stretch.predicted_off_line_mm - stretch.off_line_mm
         ));
         lines.extend(stretch.corners.iter().map(corner_text));
     }

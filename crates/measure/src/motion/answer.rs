@@ -17,6 +17,8 @@ use super::stretches::HALF_WINDOW;
 
 /// Digits of the numbers.
 const DIGITS: i32 = 5;
+/// A coordinate of the tip that is less certain is said to be, m.
+const KNOWN: f64 = 5e-3;
 /// Window and lag are not told apart where their correlation is beyond this.
 const NOT_APART: f64 = 0.9;
 
@@ -141,6 +143,10 @@ pub struct StretchAnswer {
     pub cycle_time_error_percent: Option<f64>,
     /// Root mean square of predicted less logged speed, per cent of the feed.
     pub feed_rms_percent: f64,
+    /// Largest distance of the tip from the lines, away from corners that are passed.
+    pub off_line_mm: f64,
+    /// The same, predicted.
+    pub predicted_off_line_mm: f64,
     /// Its corners.
     pub corners: Vec<CornerAnswer>,
 }
@@ -356,6 +362,8 @@ fn stretch_answer(stretch: &ComparedStretch) -> StretchAnswer {
             .zip(predicted)
             .map(|(logged, predicted)| number(100.0 * (predicted - logged) / logged)),
         feed_rms_percent: number(100.0 * stretch.feed_rms / stretch.feed),
+        off_line_mm: number(to_mm(stretch.off_line[0])),
+        predicted_off_line_mm: number(to_mm(stretch.off_line[1])),
         corners: corners.collect(),
     }
 }
@@ -368,7 +376,12 @@ fn notes(learned: &Learned, others: &[Compared]) -> Vec<String> {
         .map(|note| format!("{}: {note}", learned.file))
         .collect();
     for other in others {
-        notes.extend(other.notes.iter().map(|note| format!("{}: {note}", other.file)));
+        // What is concluded of all logs alike is said once.
+        let new = other
+            .notes
+            .iter()
+            .filter(|note| !learned.log.notes.contains(note));
+        notes.extend(new.map(|note| format!("{}: {note}", other.file)));
         if other.stretches.is_empty() {
             notes.push(format!(
                 "{}: no straight moves between rests: not compared",
@@ -376,8 +389,15 @@ fn notes(learned: &Learned, others: &[Compared]) -> Vec<String> {
             ));
         }
     }
-    if learned.tool.fitted.is_some() {
+    if let Some((u, _)) = learned.tool.fitted {
         notes.push("the tip is fitted: it is the point of the flange whose moves are straightest".to_owned());
+        let largest = u.iter().copied().fold(0.0, f64::max);
+        if largest > KNOWN {
+            notes.push(format!(
+                "a coordinate of the tip is known to {:.0} mm only, as the moves hardly turn the tool about it: lengths and speeds depend on it; give --tool-mm",
+                to_mm(largest)
+            ));
+        }
     }
     let [acceleration, ..] = learned.fitted.values;
     let [acceleration_u, smoothing_u, lag_u] = learned.fitted.u;

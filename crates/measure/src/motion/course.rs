@@ -27,8 +27,10 @@ const STRAIGHT: f64 = 1e-3;
 const STRAIGHT_AT_LEAST: f64 = 1e-4;
 /// A shorter stretch has no moves, m.
 const SHORTEST: f64 = 0.01;
-/// Degree of the joint positions along a line.
-const DEGREE: usize = 7;
+/// Degrees of the joint positions along a line.
+const DEGREES: (usize, usize) = (3, 7);
+/// A degree is as good as a higher one whose variance is this part of its own at least.
+const AS_GOOD: f64 = 1.2;
 /// Step of the programmed points, m.
 const STEP: f64 = 1e-3;
 /// Points of a move at most.
@@ -237,7 +239,9 @@ impl Course {
                 let after = fits.get(vertex).map(|fit| at(fit, -1.0));
                 match (before, after) {
                     (Some(a), Some(b)) => a.iter().zip(&b).map(|(a, b)| 0.5 * (a + b)).collect(),
-                    (a, b) => a.or(b).unwrap_or_default(),
+                    // Where it rests.
+                    (None, _) => positions[range.start * joints..][..joints].to_vec(),
+                    (_, None) => positions[(range.end - 1) * joints..][..joints].to_vec(),
                 }
             })
             .collect();
@@ -348,20 +352,32 @@ fn polynomials(
         .map(|index| (index, 2.0 * (line.along(&tips[index]) - from) / length - 1.0))
         .filter(|(_, w)| w.abs() <= 1.0)
         .collect();
-    if used.len() < 4 * DEGREE {
+    if used.len() < 4 * DEGREES.1 {
         return None;
     }
-    let basis = DMatrix::from_fn(used.len(), DEGREE + 1, |row, k| chebyshev(k, used[row].1));
-    let svd = basis.svd(true, true);
-    (0..joints)
+    let values: Vec<DVector<f64>> = (0..joints)
         .map(|joint| {
-            let values = DVector::from_iterator(
-                used.len(),
-                used.iter().map(|(index, _)| positions[index * joints + joint]),
-            );
-            svd.solve(&values, 1e-10).ok()
+            let column = used.iter().map(|(index, _)| positions[index * joints + joint]);
+            DVector::from_iterator(used.len(), column)
         })
-        .collect()
+        .collect();
+    let fit = |degree: usize| -> Option<(Vec<DVector<f64>>, f64)> {
+        let basis = DMatrix::from_fn(used.len(), degree + 1, |row, k| chebyshev(k, used[row].1));
+        let svd = basis.clone().svd(true, true);
+        let fitted: Vec<DVector<f64>> = (values.iter())
+            .map(|values| svd.solve(values, 1e-10).ok())
+            .collect::<Option<_>>()?;
+        let pairs = fitted.iter().zip(&values);
+        let squares: f64 = pairs
+            .map(|(fit, values)| (&basis * fit - values).norm_squared())
+            .sum();
+        Some((fitted, squares / (used.len() - degree - 1) as f64))
+    };
+    // The lowest degree that is about as good as the highest: ends beyond the instants used are sought.
+    let (highest, least) = fit(DEGREES.1)?;
+    let lower = (DEGREES.0..DEGREES.1)
+        .find_map(|degree| fit(degree).filter(|(_, variance)| *variance < AS_GOOD * least));
+    Some(lower.map_or(highest, |(fitted, _)| fitted))
 }
 
 fn value(coefficients: &DVector<f64>, w: f64) -> f64 {

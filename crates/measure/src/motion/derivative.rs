@@ -17,6 +17,7 @@ const FEWEST: usize = 5;
 #[derive(Clone, Debug)]
 pub(super) struct Differentiator {
     windows: Vec<Range<usize>>,
+    values: Vec<Vec<f64>>,
     slopes: Vec<Vec<f64>>,
     curvatures: Vec<Vec<f64>>,
 }
@@ -27,6 +28,7 @@ impl Differentiator {
         let count = times.len();
         let mut found = Differentiator {
             windows: Vec::with_capacity(count),
+            values: Vec::with_capacity(count),
             slopes: Vec::with_capacity(count),
             curvatures: Vec::with_capacity(count),
         };
@@ -51,12 +53,18 @@ impl Differentiator {
             let inverse = normal.try_inverse().unwrap_or_else(Matrix3::zeros);
             let weights: Vec<Vector3<f64>> = window.iter().map(|time| inverse * row(time)).collect();
             found.windows.push(first..end);
+            found.values.push(weights.iter().map(|w| w.x).collect());
             found.slopes.push(weights.iter().map(|w| w.y / widest).collect());
             found
                 .curvatures
                 .push(weights.iter().map(|w| 2.0 * w.z / (widest * widest)).collect());
         }
         found
+    }
+
+    /// The parabolas themselves at their instants: smoothed values.
+    pub(super) fn values(&self, values: &[f64], columns: usize) -> Vec<f64> {
+        self.apply(&self.values, values, columns)
     }
 
     /// First derivatives of `values`, `columns` of them a sample, sample after sample.
@@ -97,10 +105,12 @@ mod tests {
             .collect();
         let by = Differentiator::new(&times, 0.014);
         let (slopes, curvatures) = (by.slopes(&values, 2), by.curvatures(&values, 2));
+        let smoothed = by.values(&values, 2);
         for (index, t) in times.iter().enumerate() {
             assert!((slopes[2 * index] - (3.0 - 4.0 * t)).abs() < 1e-9);
             assert!((curvatures[2 * index] + 4.0).abs() < 1e-6);
             assert!(slopes[2 * index + 1].abs() < 1e-9);
+            assert!((smoothed[2 * index] - values[2 * index]).abs() < 1e-9);
         }
     }
 

@@ -1,7 +1,7 @@
 //! What a log says: its moves, the tip, the values of the motion, and how they predict other logs.
 
 use armill_core::motion::MotionModel;
-use armill_core::nalgebra::Point3;
+use armill_core::nalgebra::{Point3, Vector3};
 use armill_core::robot::Robot;
 use armill_core::units::{to_deg, to_mm, to_ms};
 use armill_formats::measurement::joint_log::JointLog;
@@ -12,13 +12,14 @@ use armill_study::input::motion::MotionSetting;
 use armill_study::number::digits;
 
 use super::course::{MovePart, Shape, moves};
+use super::derivative::Differentiator;
 use super::fit::{LearntModel, fit};
 use super::lag::{JointLag, lags};
 use super::observed::Observed;
 use super::question::{NamedLog, Question};
 use super::reached::{JointReached, reached};
 use super::simulate::{Arm, predicted, zones};
-use super::stretches::{Stretch, joint_speeds, stretches};
+use super::stretches::{HALF_WINDOW, Stretch, joint_speeds, stretches};
 use super::tool::{Tool, flanges, straight_tool, tips};
 
 /// A value with a larger relative standard uncertainty is not determined.
@@ -78,6 +79,8 @@ pub(super) struct ComparedStretch {
     pub feed: f64,
     pub cycle: [Option<f64>; 2],
     pub feed_rms: f64,
+    /// Largest distance from the lines away from passed corners, m: logged and predicted.
+    pub off_line: [f64; 2],
     pub corners: Vec<ComparedCorner>,
 }
 
@@ -115,7 +118,6 @@ pub fn learn(found: &RobotDescription, named: NamedLog, question: &Question) -> 
         .map(|(_, observed)| observed)
         .filter(|observed| observed.stops_only())
         .collect();
-    if std::env::var_os("DBG").is_some() { eprintln!("tool {:?}", tool); for (s, m) in divided.stretches.iter().zip(&divided.moves) { eprintln!("{s:?} {:?}..{:?}", log.times[s.moving.start], log.times[s.moving.end-1]); for p in m { eprintln!("   {p:?} {:?}", log.times[p.range.start]); } } for (k, o) in &divided.observed { eprintln!("{k} {:?} {:?} feed {}", o.corners, o.course.vertices, o.feed); } }
     if usable.is_empty() {
         return Err(StudyError::value(
             format!("{file}: no straight moves from a rest to a rest with stops at their corners"),
@@ -170,7 +172,7 @@ fn tool_of(file: &str, robot: &Robot, log: &JointLog, found: &[Stretch]) -> Resu
             }
             // Corners of the tip are corners of the flange.
             None => {
-                let origins = tips(&flanges, Default::default());
+                let origins = smoothed(log, &tips(&flanges, Vector3::zeros()));
                 parts.extend(
                     moves(&origins, &stretch.moving)
                         .into_iter()
@@ -195,6 +197,7 @@ pub(super) fn divide(
     tool: &Tool,
 ) -> Divided {
     let tips = tips(&flanges(robot, &log.positions), tool.tip);
+    let smoothed = smoothed(log, &tips);
     let moves: Vec<Vec<MovePart>> = stretches
         .iter()
         .map(|stretch| match stretch.is_joint_move {
@@ -202,7 +205,7 @@ pub(super) fn divide(
                 shape: Shape::JointMove,
                 ..whole(&tips, stretch)
             }],
-            false => moves(&tips, &stretch.moving),
+            false => moves(&smoothed, &stretch.moving),
         })
         .collect();
     let observed = stretches
@@ -217,6 +220,17 @@ pub(super) fn divide(
         speeds,
         tips,
     }
+}
+
+/// The tip without the noise of single instants, in which corners are sought.
+fn smoothed(log: &JointLog, tips: &[Point3<f64>]) -> Vec<Point3<f64>> {
+    let by_time = Differentiator::new(&log.times, HALF_WINDOW * log.usual_step());
+    let flat: Vec<f64> = tips.iter().flat_map(|tip| [tip.x, tip.y, tip.z]).collect();
+    let values = by_time.values(&flat, 3);
+    values
+        .chunks_exact(3)
+        .map(|tip| Point3::new(tip[0], tip[1], tip[2]))
+        .collect()
 }
 
 fn whole(tips: &[Point3<f64>], stretch: &Stretch) -> MovePart {
@@ -323,6 +337,7 @@ pub(super) fn compared(
         feed: observed.feed,
         cycle: [observed.cycle(), found.cycle(observed)],
         feed_rms: found.feed_rms(observed),
+        off_line: [&observed.tips, &found.tips].map(|tips| observed.off_line(tips)),
         corners: corners.collect(),
     }
 }

@@ -99,6 +99,20 @@ impl Observed {
         cycle(&self.times, &self.tips, &self.course)
     }
 
+    /// Largest distance of tips from the lines, m, as the median of three neighbours, away from corners that are passed.
+    pub(super) fn off_line(&self, tips: &[Point3<f64>]) -> f64 {
+        let vertices = &self.course.vertices;
+        let passed: Vec<Point3<f64>> = (self.corners.iter().zip(&vertices[1..]))
+            .filter(|(corner, _)| !corner.is_stop)
+            .map(|(_, at)| *at)
+            .collect();
+        let away = tips
+            .iter()
+            .filter(|tip| passed.iter().all(|at| (*tip - at).norm() > NEAR.0));
+        let distances: Vec<f64> = away.map(|tip| closest(vertices, tip)).collect();
+        largest_of_three(&distances)
+    }
+
     fn corner(&self, vertex: usize, parts: &[MovePart], first: usize) -> PassedCorner {
         let [before, at, after] = [0, 1, 2].map(|k| self.course.vertices[vertex + k - 1]);
         let shorter = (at - before).norm().min((after - at).norm());

@@ -58,8 +58,9 @@ pub fn read(path: &Path, robot: &Robot, question: &Question) -> Result<NamedLog,
     let spikes = without_spikes(&mut log);
     if spikes > 0 {
         let instants = if spikes == 1 { "instant" } else { "instants" };
-        log.notes
-            .push(format!("{spikes} {instants} whose joint positions do not belong together: left out"));
+        log.notes.push(format!(
+            "{spikes} {instants} whose joint positions do not belong together: left out"
+        ));
     }
     Ok(NamedLog { file, log })
 }

@@ -36,11 +36,16 @@ pub(super) fn without_spikes(log: &mut JointLog) -> usize {
     let mut kept = (0..count).filter(|index| !is_spike[*index]);
     let kept: Vec<usize> = kept.by_ref().collect();
     let rows = |values: &[f64]| -> Vec<f64> {
-        kept.iter().flat_map(|index| values[index * joints..][..joints].iter().copied()).collect()
+        kept.iter()
+            .flat_map(|index| values[index * joints..][..joints].iter().copied())
+            .collect()
     };
     log.positions = rows(&log.positions);
     log.commanded = log.commanded.as_deref().map(rows);
-    log.moves = log.moves.as_ref().map(|moves| kept.iter().map(|index| moves[*index]).collect());
+    log.moves = log
+        .moves
+        .as_ref()
+        .map(|moves| kept.iter().map(|index| moves[*index]).collect());
     log.times = kept.iter().map(|index| log.times[*index]).collect();
     log.lines = kept.iter().map(|index| log.lines[*index]).collect();
     count - kept.len()
@@ -50,7 +55,10 @@ pub(super) fn without_spikes(log: &mut JointLog) -> usize {
 fn off(times: &[f64], q: &impl Fn(usize) -> f64, index: usize) -> f64 {
     let first = index.saturating_sub(NEIGHBOURS);
     let end = (index + NEIGHBOURS + 1).min(times.len());
-    let (at, reach) = (times[index], (times[end - 1] - times[first]).max(f64::MIN_POSITIVE));
+    let (at, reach) = (
+        times[index],
+        (times[end - 1] - times[first]).max(f64::MIN_POSITIVE),
+    );
     let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
     for neighbour in (first..end).filter(|neighbour| *neighbour != index) {
         let u = (times[neighbour] - at) / reach;
@@ -58,7 +66,9 @@ fn off(times: &[f64], q: &impl Fn(usize) -> f64, index: usize) -> f64 {
         normal += row * row.transpose();
         right += row * q(neighbour);
     }
-    normal.try_inverse().map_or(0.0, |inverse| ((inverse * right).x - q(index)).abs())
+    normal
+        .try_inverse()
+        .map_or(0.0, |inverse| ((inverse * right).x - q(index)).abs())
 }
 
 #[cfg(test)]
@@ -68,10 +78,16 @@ mod tests {
     #[test]
     fn a_joint_of_the_sample_before_is_left_out_and_starts_and_stops_are_not() {
         // From rest to a speed of 0.5 rad/s in 0.1 s, with a step of the clock that varies.
-        let times: Vec<f64> = (0..200).map(|i| 0.008 * f64::from(i) + 0.0005 * f64::from(i * 7 % 3)).collect();
+        let times: Vec<f64> = (0..200)
+            .map(|i| 0.008 * f64::from(i) + 0.0005 * f64::from(i * 7 % 3))
+            .collect();
         let at = |t: f64| {
             let t = (t - 0.4).max(0.0);
-            if t < 0.1 { 2.5 * t * t } else { 0.025 + 0.5 * (t - 0.1) }
+            if t < 0.1 {
+                2.5 * t * t
+            } else {
+                0.025 + 0.5 * (t - 0.1)
+            }
         };
         let mut log = JointLog {
             joints: 2,

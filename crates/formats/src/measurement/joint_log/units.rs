@@ -178,7 +178,7 @@ fn concluded_time(log: &mut JointLog) -> Option<TimeUnit> {
     let fits = |unit: &TimeUnit| (STEPS[0]..STEPS[1]).contains(&(step * unit.factor()));
     let unit = TimeUnit::ALL.into_iter().find(fits)?;
     log.notes.push(format!(
-        "no unit of time is given: {}, as the usual step is {step:.6} (otherwise give --time-unit)",
+        "no unit of time is given: {}, as the usual step fits no other (otherwise give --time-unit)",
         unit.symbol()
     ));
     Some(unit)
@@ -186,10 +186,8 @@ fn concluded_time(log: &mut JointLog) -> Option<TimeUnit> {
 
 fn concluded_angle(largest: f64, log: &mut JointLog) -> Option<AngleUnit> {
     (largest > FARTHEST_RAD).then(|| {
-        log.notes.push(format!(
-            "no unit of the joint positions is given: degrees, as {largest} rad would be {:.0} turns (otherwise give --angle-unit)",
-            largest / TAU
-        ));
+        let note = "no unit of the joint positions is given: degrees, as in rad a joint would make more than two turns (otherwise give --angle-unit)";
+        log.notes.push(note.to_owned());
         AngleUnit::Degree
     })
 }
