@@ -328,13 +328,11 @@ pub fn traces() -> Vec<Vec<u8>> {
     ])
 }
 
-/// Joint logs with names of ours, of RTDE, of RSI and of EGM.
+/// Joint logs with names of ours and of RTDE.
 pub fn joint_logs() -> Vec<Vec<u8>> {
     seeds(&[
         "timestamp, cmd_num, J1, J2\n0, -1, 10, 87\n0.004, -1, 10.1, 87\n0.008, 2, 10.2, 86\n",
         "timestamp actual_q_0 actual_q_1 target_q_0 target_q_1\n1 0.1 0.2 0.1 0.2\n1.002 0.1 0.2 0.1 0.2\n",
-        "IPOC;AIPos.A1;AIPos.A2;ASPos.A1;ASPos.A2\r\n4;1,5;2;1;2\r\n8;1;2;1;2\r\n",
-        "time_us\tfb_j1\tfb_j2\n0\t1\t2\n4000\t1\t2\n",
     ])
 }
 

@@ -2,6 +2,7 @@
 
 use armill_formats::measurement::joint_log::JointLog;
 use armill_formats::robot::{RobotDescription, armill};
+use armill_measure::motion::answer::StretchAnswer;
 use armill_measure::motion::{MotionAnswer, NamedLog, Question, answer, learn};
 use nalgebra::Vector3;
 
@@ -135,7 +136,7 @@ pub fn checks() -> Vec<Check> {
     let found = learnt();
     let value =
         |of: &dyn Fn(&MotionAnswer) -> Option<f64>| found.as_ref().and_then(of).unwrap_or(f64::INFINITY);
-    let slow = |of: &dyn Fn(&armill_measure::motion::answer::StretchAnswer) -> Option<f64>| {
+    let slow = |of: &dyn Fn(&StretchAnswer) -> Option<f64>| {
         value(&|answer| of(answer.compared.get(1)?.stretches.first()?))
     };
     let check = |what: &str, worst: f64, tolerance: f64, unit: &'static str| {

@@ -1,6 +1,5 @@
 use std::path::{Path, PathBuf};
 
-use armill_measure::motion::answer::StretchAnswer;
 use armill_measure::motion::read;
 
 use super::*;

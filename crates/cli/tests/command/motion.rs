@@ -50,11 +50,11 @@ fn trapezoid(time: f64, length: f64, speed: f64, acceleration: f64) -> f64 {
 
 /// A log of two lines with a stop between, mm and s: averaged over a window, and joints with a lag.
 fn log(speed: f64, acceleration: f64, window: f64, lag: f64) -> String {
-    let corners = [[700.0, -200.0], [700.0, 200.0], [450.0, 300.0]];
+    let corners: [[f64; 2]; 3] = [[700.0, -200.0], [700.0, 200.0], [450.0, 300.0]];
     let mut command = vec![corners[0]; 4000];
     for pair in corners.windows(2) {
         let [from, to] = [pair[0], pair[1]];
-        let length = (to[0] - from[0]).hypot(to[1] - from[1]);
+        let length: f64 = (to[0] - from[0]).hypot(to[1] - from[1]);
         let time = length / speed + speed / acceleration + window;
         let steps = (time / STEP) as usize + 1;
         let way: Vec<f64> = (0..steps)

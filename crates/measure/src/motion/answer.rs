@@ -19,7 +19,7 @@ use super::stretches::HALF_WINDOW;
 const DIGITS: i32 = 5;
 /// A coordinate of the tip that is less certain is said to be, m.
 const KNOWN: f64 = 5e-3;
-/// Window and lag are not told apart where their correlation is beyond this.
+/// Window and lag are hardly distinguished where their correlation is beyond this.
 const NOT_APART: f64 = 0.9;
 
 /// What logs say of the motion of an arm.
@@ -414,7 +414,7 @@ fn notes(learned: &Learned, others: &[Compared]) -> Vec<String> {
             to_ms(lag_u)
         ));
     } else if learned.fitted.window_and_lag.abs() > NOT_APART {
-        notes.push("window and lag can hardly be told apart: only their sum is known well".to_owned());
+        notes.push("window and lag can hardly be distinguished: only their sum is known well".to_owned());
     }
     notes.push("accelerations of the joints are those that were reached: lower bounds, no limits".to_owned());
     if learned.lags.is_empty() {

@@ -27,21 +27,15 @@ pub(super) fn without_spikes(log: &mut JointLog) -> usize {
             let mut sorted = near.to_vec();
             sorted.sort_by(f64::total_cmp);
             let usual = sorted[sorted.len() / 2].max(DIGITS);
-            let beside = &off[index.saturating_sub(NEIGHBOURS)..(index + NEIGHBOURS + 1).min(count)];
-            if off[index] > OFF * usual && beside.iter().all(|other| *other <= off[index]) {
+            let next = &off[index.saturating_sub(NEIGHBOURS)..(index + NEIGHBOURS + 1).min(count)];
+            if off[index] > OFF * usual && next.iter().all(|other| *other <= off[index]) {
                 is_spike[index] = true;
             }
         }
     }
-    let mut kept = (0..count).filter(|index| !is_spike[*index]);
-    let kept: Vec<usize> = kept.by_ref().collect();
-    let rows = |values: &[f64]| -> Vec<f64> {
-        kept.iter()
-            .flat_map(|index| values[index * joints..][..joints].iter().copied())
-            .collect()
-    };
-    log.positions = rows(&log.positions);
-    log.commanded = log.commanded.as_deref().map(rows);
+    let kept: Vec<usize> = (0..count).filter(|index| !is_spike[*index]).collect();
+    log.positions = rows(&kept, &log.positions, joints);
+    log.commanded = log.commanded.as_ref().map(|values| rows(&kept, values, joints));
     log.moves = log
         .moves
         .as_ref()
@@ -49,6 +43,12 @@ pub(super) fn without_spikes(log: &mut JointLog) -> usize {
     log.times = kept.iter().map(|index| log.times[*index]).collect();
     log.lines = kept.iter().map(|index| log.lines[*index]).collect();
     count - kept.len()
+}
+
+/// The rows with these indices.
+fn rows(kept: &[usize], values: &[f64], joints: usize) -> Vec<f64> {
+    let rows = kept.iter().map(|index| &values[index * joints..][..joints]);
+    rows.flatten().copied().collect()
 }
 
 /// Distance of a position from the parabola through its neighbours, rad.

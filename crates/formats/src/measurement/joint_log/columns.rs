@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use super::HINT;
-use super::units::{AngleUnit, TimeUnit};
+use super::log::HINT;
+use super::unit::{AngleUnit, TimeUnit};
 use crate::document::lines::Line;
 use crate::document::{Problem, Problems};
 use crate::table::sheet::Cell;

@@ -1,4 +1,4 @@
-//! Units of time and position, and what the values say of units that neither header nor options give.
+//! Units that neither header nor options give, from the values, and the log in SI.
 //!
 //! | quantity | concluded |
 //! |---|---|
@@ -6,12 +6,12 @@
 //! | position | degrees, where a position in rad would be more than two turns; otherwise it is refused |
 
 use std::f64::consts::TAU;
-use std::str::FromStr;
 
 use armill_core::units::from_deg;
 
 use super::columns::Columns;
-use super::{JointLog, LogReadOptions};
+use super::log::{JointLog, LogReadOptions};
+use super::unit::{AngleUnit, TimeUnit};
 use crate::document::Problems;
 use crate::document::lines::Line;
 
@@ -23,78 +23,6 @@ const FARTHEST_RAD: f64 = 2.0 * TAU;
 const FARTHEST: f64 = 200.0;
 /// Longest log, s.
 const LONGEST: f64 = 1e6;
-
-/// Unit of time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TimeUnit {
-    /// s
-    Second,
-    /// ms
-    Millisecond,
-    /// us
-    Microsecond,
-    /// ns
-    Nanosecond,
-}
-
-impl TimeUnit {
-    const ALL: [TimeUnit; 4] = [
-        TimeUnit::Second,
-        TimeUnit::Millisecond,
-        TimeUnit::Microsecond,
-        TimeUnit::Nanosecond,
-    ];
-
-    /// s in one unit.
-    pub fn factor(self) -> f64 {
-        match self {
-            TimeUnit::Second => 1.0,
-            TimeUnit::Millisecond => 1e-3,
-            TimeUnit::Microsecond => 1e-6,
-            TimeUnit::Nanosecond => 1e-9,
-        }
-    }
-
-    /// Its symbol.
-    pub fn symbol(self) -> &'static str {
-        match self {
-            TimeUnit::Second => "s",
-            TimeUnit::Millisecond => "ms",
-            TimeUnit::Microsecond => "us",
-            TimeUnit::Nanosecond => "ns",
-        }
-    }
-}
-
-impl FromStr for TimeUnit {
-    type Err = ();
-
-    fn from_str(text: &str) -> Result<TimeUnit, ()> {
-        let found = TimeUnit::ALL.into_iter().find(|unit| unit.symbol() == text);
-        found.or((text == "sec").then_some(TimeUnit::Second)).ok_or(())
-    }
-}
-
-/// Unit of a joint position.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum AngleUnit {
-    /// deg
-    Degree,
-    /// rad
-    Radian,
-}
-
-impl FromStr for AngleUnit {
-    type Err = ();
-
-    fn from_str(text: &str) -> Result<AngleUnit, ()> {
-        match text {
-            "deg" | "grad" | "\u{b0}" => Ok(AngleUnit::Degree),
-            "rad" => Ok(AngleUnit::Radian),
-            _ => Err(()),
-        }
-    }
-}
 
 /// Converts a log in the units of its file to s from its first instant, and rad.
 ///
