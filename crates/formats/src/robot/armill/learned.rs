@@ -73,7 +73,7 @@ mod tests {
     use super::*;
 
     const ARM: &str = "format = 1\nname = \"Arm\"\n[chain]\nsource = \"own\"\nmotions = [{ about = \"z\", joint = \"A1\" }, { along = \"x\", length_mm = 500 }]\n\
-        [[joint]]\nname = \"A1\"\n[motion]\nshortest_blending_ms = 4\nsmoothing_ms = 10\n[sources.own]\nwhat = \"a\"\nwhere = \"b\"\nlicence = \"c\"\n";
+        [[joint]]\nname = \"A1\"\nsign = 1\nsource = \"own\"\n[motion]\nshortest_blending_ms = 4\nsmoothing_ms = 10\n[sources.own]\nwhat = \"a\"\nwhere = \"b\"\nlicence = \"c\"\n";
 
     fn learned(lag_ms: Vec<f64>) -> LearnedMotion {
         LearnedMotion {
