@@ -87,7 +87,7 @@ fn predictions(folder: &Path, kind: &str) -> (MotionAnswer, Vec<(String, Stretch
 #[test]
 fn cycle_time_and_feed_of_the_other_logs_are_predicted_and_corners_as_far_as_the_page_says() {
     let Some(folder) = folder() else { return };
-    for (kind, corner_mm) in [("virtual", 1.0), ("real", 0.75)] {
+    for (kind, corner_mm) in [("virtual", 1.0), ("real", 0.8)] {
         let (given, stretches) = predictions(&folder, kind);
         println!(
             "{kind}: {:?} {:?} {:?}",
@@ -111,7 +111,7 @@ fn cycle_time_and_feed_of_the_other_logs_are_predicted_and_corners_as_far_as_the
                 "{kind} {name}"
             );
             assert!(stretch.feed_rms_percent < 10.0, "{kind} {name}");
-            // What was reached: 0.3 mm is not met by all.
+            // What the page says was reached; 0.3 mm is not met by all.
             assert!(
                 corner.distance_error_mm.abs() < corner_mm,
                 "{kind} {name}: {corner:?}"

@@ -5,7 +5,7 @@
 use armill_core::robot::Robot;
 use armill_core::units::{to_deg, to_mm, to_ms};
 use armill_study::StudyError;
-use armill_study::number::digits;
+use armill_study::number::decimals;
 use serde::Serialize;
 
 use super::course::Shape;
@@ -15,8 +15,8 @@ use super::question::{NamedLog, Question};
 use super::reached::HALF_OF_ACCELERATION;
 use super::stretches::HALF_WINDOW;
 
-/// Digits of the numbers.
-const DIGITS: i32 = 5;
+/// Decimals of the numbers.
+const DECIMALS: i32 = 4;
 /// A coordinate of the tip that is less certain is said to be, m.
 const KNOWN: f64 = 5e-3;
 /// Window and lag are hardly distinguished where their correlation is beyond this.
@@ -252,7 +252,7 @@ pub fn answer(
 }
 
 fn number(value: f64) -> f64 {
-    digits(value, DIGITS)
+    decimals(value, DECIMALS)
 }
 
 fn value(value: f64, u: f64) -> ValueAnswer {

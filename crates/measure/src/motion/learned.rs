@@ -9,7 +9,7 @@ use armill_formats::motion::MotionTable;
 use armill_formats::robot::RobotDescription;
 use armill_study::StudyError;
 use armill_study::input::motion::MotionSetting;
-use armill_study::number::digits;
+use armill_study::number::{digits, without_rounding};
 
 use super::course::{MovePart, Shape, moves};
 use super::derivative::Differentiator;
@@ -248,7 +248,7 @@ fn whole(tips: &[Point3<f64>], stretch: &Stretch) -> MovePart {
 fn table(fitted: &LearntModel, reached: &[JointReached], lags: &[Option<JointLag>]) -> MotionTable {
     let [acceleration, smoothing, lag] = fitted.values;
     let [acceleration_u, _, lag_u] = fitted.u;
-    let round = |value: f64| digits(value, DIGITS);
+    let round = |value: f64| without_rounding(digits(value, DIGITS));
     // Commanded and actual positions say more of the lag than starts and stops.
     let by_command: Option<Vec<JointLag>> = lags
         .iter()
