@@ -184,6 +184,10 @@ pub const POSES: &[&str] = &[
 #[rustfmt::skip]
 pub const TRACE: &[&str] = &["run", "x_mm", "y_um", "z_in", "x_m", ";", "\t", "# ", "\n0,0,0\n", "nan", "1e308", "1e-300"];
 
+/// Names of a joint log.
+#[rustfmt::skip]
+pub const JOINT_LOG: &[&str] = &["time_s", "timestamp", "IPOC", "J1_deg", "J2", "A1", "actual_q_0", "target_q_1", "AIPos.A1", "ASPos.A2", "fb_j1", "planned_j2", "cmd_num", "[rad]", ";", "\t", " ", "nan", "1e308"];
+
 /// Keys of a material file.
 #[rustfmt::skip]
 pub const MATERIAL: &[&str] = &[

@@ -1,4 +1,4 @@
-//! Requirements on all measurements of a tracker: poses and paths.
+//! Requirements on measured poses and paths of a tracker, and on joint logs.
 
 use std::sync::OnceLock;
 
@@ -6,7 +6,7 @@ use armill_core::calibrate;
 use armill_core::frame::Isometry;
 use armill_core::measure::path_accuracy::path_accuracy;
 use armill_core::robot::Robot;
-use armill_formats::measurement::{poses, trace};
+use armill_formats::measurement::{joint_log, poses, trace};
 use armill_study::library;
 
 use crate::verdicts::refused;
@@ -57,4 +57,17 @@ pub fn trace(bytes: &[u8]) {
                 .all(|point| point.repeatability.is_none_or(f64::is_finite))
         );
     }
+}
+
+/// Joint logs of an arm with two joints.
+pub fn joint_log(bytes: &[u8]) {
+    let found = match joint_log::read("log.csv", bytes, 2, joint_log::LogReadOptions::default()) {
+        Err(problems) => return refused(&problems),
+        Ok(found) => found,
+    };
+    assert!(found.times.is_sorted_by(|a, b| a < b));
+    assert!(found.positions.len() == 2 * found.times.len() && found.lines.len() == found.times.len());
+    assert!(found.positions.iter().chain(found.commanded.iter().flatten()).all(|q| q.is_finite()));
+    assert!(found.commanded.is_none_or(|commanded| commanded.len() == found.positions.len()));
+    assert!(found.moves.is_none_or(|moves| moves.len() == found.times.len()));
 }

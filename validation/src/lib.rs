@@ -36,6 +36,8 @@ mod fanuc_rows;
 mod force_to_deflection;
 #[path = "../inverse-vs-opw/case.rs"]
 mod inverse_vs_opw;
+#[path = "../irb6640-logs/case.rs"]
+mod irb6640_logs;
 #[path = "../jacobian-differences/case.rs"]
 mod jacobian_differences;
 #[path = "../joint-backlash-closed-forms/case.rs"]
@@ -127,6 +129,10 @@ pub const CASES: &[Case] = &[
     Case {
         folder: "path-accuracy",
         checks: path_accuracy::checks,
+    },
+    Case {
+        folder: "irb6640-logs",
+        checks: irb6640_logs::checks,
     },
     Case {
         folder: "inverse-vs-opw",

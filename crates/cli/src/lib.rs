@@ -94,6 +94,7 @@ fn run(command: &Command) -> Result<Outcome, StudyError> {
         Command::PoseAccuracy(pose_accuracy) => command::pose_accuracy::run(pose_accuracy),
         Command::Backlash(backlash) => command::backlash::run(backlash),
         Command::PathAccuracy(path_accuracy) => command::path_accuracy::run(path_accuracy),
+        Command::Motion(motion) => command::motion::run(motion),
         Command::Budget(budget) => command::budget::run(budget),
         Command::Serve(serve) => command::serve::run(serve),
         Command::Completions(completions) => command::completions::run(completions),

@@ -13,6 +13,10 @@ pub struct MotionTable {
     #[schemars(inner(range(min = 0.001, max = 1e6)))]
     // unit: deg/s^2, mm/s^2
     pub joint_acceleration_deg_per_s2: Option<Vec<f64>>,
+    /// Acceleration that each joint reached in a log, base to flange: its greatest acceleration is at least this; used where that is not given.
+    #[schemars(inner(range(min = 0.0, max = 1e6)))]
+    // unit: deg/s^2, mm/s^2
+    pub joint_acceleration_reached_deg_per_s2: Option<Vec<f64>>,
     /// Greatest acceleration along the path.
     #[schemars(range(min = 1.0, max = 1e6))]
     // unit: mm/s^2
@@ -61,6 +65,10 @@ impl MotionTable {
                 &self.joint_acceleration_deg_per_s2,
                 &other.joint_acceleration_deg_per_s2,
             ),
+            joint_acceleration_reached_deg_per_s2: list(
+                &self.joint_acceleration_reached_deg_per_s2,
+                &other.joint_acceleration_reached_deg_per_s2,
+            ),
             path_acceleration_mm_per_s2: self
                 .path_acceleration_mm_per_s2
                 .or(other.path_acceleration_mm_per_s2),
@@ -86,6 +94,11 @@ impl MotionTable {
             (
                 "joint_acceleration_deg_per_s2",
                 &self.joint_acceleration_deg_per_s2,
+                false,
+            ),
+            (
+                "joint_acceleration_reached_deg_per_s2",
+                &self.joint_acceleration_reached_deg_per_s2,
                 false,
             ),
             ("lag_ms", &self.lag_ms, true),

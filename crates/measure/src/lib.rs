@@ -3,7 +3,7 @@
 //! [`identify`] determines joint compliances from load tests, [`calibrate`] the geometry from measured poses,
 //! [`backlash`] the backlash of the joints from circular tests. [`ballbar`] evaluates circular tests, [`roundness`]
 //! round profiles, [`forces`] records of a dynamometer, [`pose_accuracy`] and [`path_accuracy`] measured poses and
-//! paths. [`data_check`] searches slips in the data of each: signs, order of columns, zeros, units.
+//! paths, [`motion`] joint logs. [`data_check`] searches slips in the data of each: signs, order of columns, zeros, units.
 
 pub mod backlash;
 pub mod ballbar;
@@ -11,6 +11,7 @@ pub mod calibrate;
 pub mod data_check;
 pub mod forces;
 pub mod identify;
+pub mod motion;
 pub mod path_accuracy;
 pub mod pose_accuracy;
 pub mod roundness;

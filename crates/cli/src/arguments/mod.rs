@@ -1,7 +1,7 @@
 //! Arguments of `armill`: one file per command, with the same name as in `command`.
 //!
 //! `run`, `check`, `compare`, `new`, `robots`, `materials`, `pose`, `posture`, `place`, `advise`, `compensate`,
-//! `identify`, `calibrate`, `forces`, `roundness`, `ballbar`, `backlash`, `budget`, `pose_accuracy`, `path_accuracy`,
+//! `identify`, `calibrate`, `forces`, `roundness`, `ballbar`, `backlash`, `budget`, `pose_accuracy`, `path_accuracy`, `motion`,
 //! `serve`, `completions`, `man`; `poses` and `program` are used by two of them each, `writing` by all that write
 //! files.
 //!
@@ -25,6 +25,7 @@ mod forces;
 mod identify;
 mod man;
 mod materials;
+mod motion;
 mod new;
 pub(crate) mod numbers;
 mod path_accuracy;
@@ -53,6 +54,7 @@ pub(crate) use forces::ForcesArguments;
 pub(crate) use identify::{IdentifyArguments, PointsArgument, PriorArgument};
 pub(crate) use man::ManArguments;
 pub(crate) use materials::MaterialsArguments;
+pub(crate) use motion::{AngleUnitArgument, MotionArguments, TimeUnitArgument};
 pub(crate) use new::NewArguments;
 pub(crate) use path_accuracy::PathAccuracyArguments;
 pub(crate) use place::{PlaceArguments, PlaceOptions};
@@ -125,6 +127,8 @@ pub(crate) enum Command {
     PoseAccuracy(Box<PoseAccuracyArguments>),
     /// Evaluate path accuracy and repeatability from laser tracker data
     PathAccuracy(PathAccuracyArguments),
+    /// Learn from joint logs how a controller moves an arm: accelerations, smoothing, lag, zones
+    Motion(MotionArguments),
     /// Compare the measured error of a circle with its predicted contributions
     Budget(BudgetArguments),
     /// Serve the live page of a study to the browser on this machine
@@ -163,6 +167,7 @@ impl Command {
             Command::Backlash(a) => a.json,
             Command::PoseAccuracy(a) => a.json,
             Command::PathAccuracy(a) => a.json,
+            Command::Motion(a) => a.json,
             Command::Budget(a) => a.json,
             Command::Serve(_) | Command::Completions(_) | Command::Man(_) => false,
         }

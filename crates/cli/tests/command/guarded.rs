@@ -472,6 +472,7 @@ fn help_of_every_writing_command_describes_force() {
         &["ballbar"],
         &["backlash"],
         &["path-accuracy"],
+        &["motion"],
         &["budget"],
         &["pose"],
         &["robots"],

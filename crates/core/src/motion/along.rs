@@ -41,6 +41,13 @@ pub struct MotionModel {
     pub rapid: f64,
 }
 
+impl MotionModel {
+    /// Radius of the smallest zone that is passed at a feed, m/s, in m: its way takes the shortest blending time.
+    pub fn least_zone(&self, feed: f64) -> f64 {
+        0.5 * self.shortest_blending * feed
+    }
+}
+
 /// A path with the postures along it.
 #[derive(Clone, Copy)]
 pub struct Postures<'a> {
@@ -264,8 +271,8 @@ impl Builder<'_> {
                     }
                     Passage::Stop | Passage::Unknown => return (step, 0.0),
                 };
-                let shortest = 0.5 * self.model.shortest_blending * feeds[step - 1].max(feeds[step]);
-                (step, radius.max(shortest))
+                let least = self.model.least_zone(feeds[step - 1].max(feeds[step]));
+                (step, radius.max(least))
             })
             .collect();
         let path = Programmed {

@@ -2,7 +2,7 @@
 //!
 //! | value | assumed |
 //! |---|---|
-//! | acceleration of a joint | its greatest speed in `TO_FULL_SPEED`; without one `JOINT_ACCELERATION` |
+//! | acceleration of a joint | its greatest speed in `TO_FULL_SPEED`; without one `JOINT_ACCELERATION`; at least what it reached in a log |
 //! | others | `PATH_ACCELERATION`, `SMOOTHING`, `SHORTEST_BLENDING`, `LAG`: as fitted to a joint log of one large arm (ABB IRB 6640, virtual controller, 500 mm/s with stops) |
 //! | zone at the end of a move | corners are rounded by `ROUNDING_UM` at most, as in the programs that are written |
 
@@ -57,13 +57,19 @@ impl MotionSetting {
             .joint_acceleration_deg_per_s2
             .as_ref()
             .filter(|list| list.len() == count);
+        let reached = table
+            .joint_acceleration_reached_deg_per_s2
+            .as_ref()
+            .filter(|list| list.len() == count);
         if given.is_none() {
             assumed.push(format!(
-                "accelerations of the joints: their greatest speed in {:.0} ms, or {:.0} deg/s^2 where no speed is known",
+                "accelerations of the joints: their greatest speed in {:.0} ms, or {:.0} deg/s^2 where no speed is known{}",
                 to_ms(TO_FULL_SPEED),
-                to_deg(JOINT_ACCELERATION)
+                to_deg(JOINT_ACCELERATION),
+                if reached.is_some() { ", at least what they reached in a log" } else { "" }
             ));
         }
+        let in_si = |list: &[f64], index: usize| list[index] / JointUnit::of(robot, index).scale;
         let limits = robot.joints().iter().enumerate().map(|(index, joint)| {
             let otherwise = if robot.slides(index) {
                 SLIDE_ACCELERATION
@@ -73,7 +79,11 @@ impl MotionSetting {
             let assumed = joint.max_speed.map_or(otherwise, |speed| speed / TO_FULL_SPEED);
             JointLimits {
                 speed: joint.max_speed.unwrap_or(f64::INFINITY),
-                acceleration: given.map_or(assumed, |list| list[index] / JointUnit::of(robot, index).scale),
+                acceleration: match (given, reached) {
+                    (Some(list), _) => in_si(list, index),
+                    (None, Some(list)) => in_si(list, index).max(assumed),
+                    (None, None) => assumed,
+                },
             }
         });
         let joints: Vec<JointLimits> = limits.collect();

@@ -7,7 +7,16 @@ a table as a data frame, an Arrow table or arrays by column name. ``armill.comma
 
 from armill._commands._call import command_help
 from armill._commands.libraries import materials, pose, robots
-from armill._commands.measurements import ballbar, calibrate, forces, identify, path_accuracy, pose_accuracy, roundness
+from armill._commands.measurements import (
+    ballbar,
+    calibrate,
+    forces,
+    identify,
+    motion,
+    path_accuracy,
+    pose_accuracy,
+    roundness,
+)
 from armill._commands.studies import advise, backlash, budget, compare, compensate, place, posture
 
 __all__ = [
@@ -22,6 +31,7 @@ __all__ = [
     "forces",
     "identify",
     "materials",
+    "motion",
     "path_accuracy",
     "place",
     "pose",

@@ -165,3 +165,22 @@ def path_accuracy(
 ) -> Answer:
     """measured paths -> Answer: path accuracy and path repeatability (ISO 9283)."""
     return call("path-accuracy", files, locals())
+
+
+@command
+def motion(
+    log: TableLike,
+    *,
+    robot: RobotLike,
+    tool_mm: npt.ArrayLike | None = None,
+    compare: Sequence[TableLike] | None = None,
+    zone_mm: npt.ArrayLike | None = None,
+    time_unit: Literal["s", "ms", "us", "ns"] | None = None,
+    angle_unit: Literal["deg", "rad"] | None = None,
+    out: Path | None = None,
+    force: bool = False,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> Answer:
+    """joint logs -> Answer: how a controller moves an arm: accelerations, smoothing, lag, zones."""
+    return call("motion", [log], locals())

@@ -6,7 +6,7 @@
 //!
 //! In reading order: `file` (the tables as written), `checks` (what no schema can say, and SI), `structure`, `bodies`; `spelling`,
 //! `write_bodies`, `write` (a robot of another format as such a file), `identified` (such a file with compliances that were identified),
-//! `calibrated` (with small motions that were).
+//! `calibrated` (with small motions that were), `learned` (with values of `[motion]` from joint logs).
 //!
 //! ```text
 //! format = 1
@@ -25,6 +25,7 @@ mod calibrated;
 mod checks;
 mod file;
 mod identified;
+mod learned;
 mod spelling;
 mod structure;
 mod write;
@@ -46,6 +47,7 @@ use crate::sources;
 
 pub use self::calibrated::{Geometry, with_geometry};
 pub use self::identified::{Identified, IdentifiedSpring, with_given_springs, with_springs};
+pub use self::learned::{LearnedMotion, with_motion};
 
 /// The robot of this file; `path` is what errors show, `id` the robot's name in results.
 ///

@@ -1,0 +1,146 @@
+//! Joint positions over time as an arm follows a path: the command of each way from stop to stop, and joints that follow late.
+//!
+//! [`motion_along`](super::motion_along) gives the motion at the points of a path; this gives it at even times, as a controller logs it.
+
+use super::along::MotionModel;
+use super::jerk::Timed;
+use super::joint_path::JointPath;
+use super::rounded::Programmed;
+use super::speed::fastest;
+
+/// Joint positions at even times.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Followed {
+    /// s, from the start of the first way.
+    pub times: Vec<f64>,
+    /// Actual joint positions, rad (m), instant after instant.
+    pub positions: Vec<f64>,
+    /// Time at which the command is at the end, s.
+    pub duration: f64,
+}
+
+/// The motion of an arm along `ways`, one after the other, with a stop after each, every `step` seconds until `rest` seconds after the command ends.
+///
+/// Zones are not enlarged to the shortest blending time: see [`MotionModel::least_zone`].
+///
+/// # Panics
+/// As [`Programmed::rounded`]; if the numbers of joints differ.
+pub fn followed(ways: &[Programmed<'_>], model: &MotionModel, step: f64, rest: f64) -> Followed {
+    let joints = model.limits.joints.len();
+    let mut found = Followed::default();
+    let mut commanded: Vec<Vec<f64>> = vec![Vec::new(); joints];
+    for way in ways {
+        let path = way.rounded();
+        let joint_path = JointPath::new(joints, &path.positions, path.along.clone(), |_| false);
+        let profile = fastest(&joint_path, &model.limits, &path.feeds);
+        let timed = Timed::of(&profile, &path.along, model.smoothing);
+        let end = found.duration + timed.duration();
+        // Even times continue across the stop.
+        while found.times.len() as f64 * step < end {
+            let time = found.times.len() as f64 * step;
+            let along = timed.at(time - found.duration).along;
+            let k = path
+                .along
+                .partition_point(|at| *at <= along)
+                .clamp(1, path.along.len() - 1);
+            let part = (along - path.along[k - 1]) / (path.along[k] - path.along[k - 1]);
+            for (joint, positions) in commanded.iter_mut().enumerate() {
+                let [from, to] = [k - 1, k].map(|k| path.positions[k * joints + joint]);
+                positions.push(from + part.clamp(0.0, 1.0) * (to - from));
+            }
+            found.times.push(time);
+        }
+        found.duration = end;
+    }
+    let last: Vec<f64> = ways.last().map_or_else(Vec::new, |way| {
+        way.positions[way.positions.len() - joints..].to_vec()
+    });
+    while (found.times.len() as f64) * step < found.duration + rest && !last.is_empty() {
+        found.times.push(found.times.len() as f64 * step);
+        for (positions, last) in commanded.iter_mut().zip(&last) {
+            positions.push(*last);
+        }
+    }
+    let actual: Vec<Vec<f64>> = (model.lags.iter().zip(&commanded))
+        .map(|(lag, commanded)| lag.followed(&found.times, commanded))
+        .collect();
+    found.positions = (0..found.times.len())
+        .flat_map(|index| actual.iter().map(move |joint| joint[index]))
+        .collect();
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Point3;
+
+    use super::*;
+    use crate::motion::{JointLimits, Lag, MotionLimits};
+    use crate::path::Passage;
+
+    fn model(smoothing: f64, lag: f64) -> MotionModel {
+        let limit = JointLimits {
+            speed: f64::INFINITY,
+            acceleration: f64::INFINITY,
+        };
+        MotionModel {
+            limits: MotionLimits {
+                joints: vec![limit; 2],
+                acceleration: 4.0,
+            },
+            smoothing,
+            shortest_blending: 0.01,
+            lags: vec![
+                Lag {
+                    time: lag,
+                    feed_forward: 0.0
+                };
+                2
+            ],
+            passage: Passage::Stop,
+            feed: None,
+            rapid: 1.0,
+        }
+    }
+
+    #[test]
+    fn a_way_takes_length_over_speed_speed_over_acceleration_and_the_window() {
+        let points = [Point3::new(0.0, 0.0, 0.0), Point3::new(0.5, 0.0, 0.0)];
+        let way = Programmed {
+            points: &points,
+            positions: &[0.0, 0.0, 0.5, 0.0],
+            feeds: &[0.5],
+            zones: &[],
+        };
+        let found = followed(&[way, way], &model(0.04, 0.0), 1e-3, 0.1);
+        // 0.5 / 0.5 + 0.5 / 4 + 0.04, twice.
+        assert!((found.duration - 2.0 * 1.165).abs() < 1e-6, "{}", found.duration);
+        let middle = found.times.iter().position(|time| *time >= 0.58).unwrap();
+        assert!(
+            (found.positions[2 * middle] - 0.25).abs() < 1e-3,
+            "half way after half of the time"
+        );
+        assert!((found.positions[found.positions.len() - 2] - 0.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_joint_is_late_by_its_time_constant() {
+        let points = [Point3::new(0.0, 0.0, 0.0), Point3::new(0.5, 0.0, 0.0)];
+        let way = Programmed {
+            points: &points,
+            positions: &[0.0, 0.0, 0.5, 0.0],
+            feeds: &[0.5],
+            zones: &[],
+        };
+        let at = |lag: f64| {
+            let found = followed(&[way], &model(0.0, lag), 1e-3, 0.2);
+            found.positions[2 * 600]
+        };
+        assert!((at(0.0) - at(0.02) - 0.5 * 0.02).abs() < 1e-9);
+    }
+
+    #[test]
+    fn the_least_zone_is_half_of_the_way_in_the_shortest_blending_time() {
+        assert!((model(0.0, 0.0).least_zone(0.5) - 0.0025).abs() < 1e-15);
+    }
+}

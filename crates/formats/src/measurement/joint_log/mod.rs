@@ -1,0 +1,228 @@
+//! Joint logs: joint positions over time, as a controller or its interface for external control records them.
+//!
+//! | column | names, in any case | unit |
+//! |---|---|---|
+//! | time | `t`, `time`, `timestamp`, `IPOC` | `_s`, `_ms`, `_us`, `_ns`; `IPOC` (RSI) ms |
+//! | actual position | `J1`, `A1`, `q1`, `joint_1`; `actual_q_0` (RTDE); `AIPos.A1` (RSI); `fb_j1` (EGM) | `_deg`, `_rad`; RTDE rad, RSI and EGM deg |
+//! | commanded position | `target_q_0` (RTDE); `ASPos.A1` (RSI); `planned_j1` (EGM); `cmd_j1`, `set_j1` | the same |
+//! | move | `cmd_num`, `move`, `segment` | whole number |
+//!
+//! One row per instant. Cells are separated by `;`, tab, `,` or blanks. Units may also be in brackets: `J1 [deg]`. Joints are numbered
+//! from 0 or from 1. A unit that the header does not give is taken from [`LogReadOptions`], or from the values where only one unit is possible; the
+//! [notes](JointLog::notes) say so. Other columns are ignored and listed. Times are returned in s, positions in rad.
+//!
+//! `unit`: units. `log`: the log. `columns`: meaning of the names. `convert`: units that the header does not give, and SI.
+
+use std::io::BufRead;
+
+use crate::document::lines::{Line, Lines};
+use crate::document::{MOST_PROBLEMS, Problem, Problems};
+use crate::table::sheet::{Cell, cells, is_blank_row, number, separator_of};
+
+mod columns;
+mod convert;
+mod log;
+mod unit;
+
+pub use log::{JointLog, LogReadOptions};
+pub use unit::{AngleUnit, TimeUnit};
+
+use columns::{Columns, Meaning};
+use log::HINT;
+
+/// Maximum number of instants.
+const MOST_ROWS: usize = 2_000_000;
+/// Maximum absolute value of a cell, in its own unit.
+const LARGEST: f64 = 1e19;
+
+/// Reads the log in `reader` of an arm with `joints` joints. `path` is the file name shown in problems.
+///
+/// # Errors
+/// All problems of the file, at most 200: missing or duplicate columns, units that are not known, cells that are not finite numbers, rows of
+/// another length, times that go back.
+pub fn read(
+    path: &str,
+    reader: impl BufRead,
+    joints: usize,
+    given: LogReadOptions,
+) -> Result<JointLog, Problems> {
+    let mut lines = Lines::new(path, reader);
+    let Some(header) = lines.next_row()? else {
+        return Err(Problem::of_file(path, "the file has no instants", HINT).into());
+    };
+    let separator = separator(&header.text);
+    let columns = Columns::of(path, &header, split(&header.text, separator), joints)?;
+    let mut log = JointLog {
+        joints,
+        unused: columns.unused.clone(),
+        commanded: columns.has_both().then(Vec::new),
+        moves: columns.has(Meaning::Move).then(Vec::new),
+        ..JointLog::default()
+    };
+    let (mut problems, mut repeated) = (Vec::new(), 0_usize);
+    while problems.len() < MOST_PROBLEMS {
+        let line = match lines.next_row() {
+            Ok(None) => break,
+            Ok(Some(line)) => line,
+            Err(wrong) => {
+                problems.extend(wrong);
+                break;
+            }
+        };
+        if is_blank_row(&line.text, separator) {
+            continue;
+        }
+        if log.times.len() == MOST_ROWS {
+            let hint = "divide the log";
+            let whole = 0..line.text.len();
+            problems.push(line.problem(path, whole, format!("more than {MOST_ROWS} instants"), hint));
+            break;
+        }
+        let row = match row(path, &line, separator, &columns) {
+            Ok(row) => row,
+            Err(wrong) => {
+                problems.extend(wrong);
+                continue;
+            }
+        };
+        match log.times.last() {
+            Some(before) if row.time < *before => {
+                let message = format!("time goes back: {} after {before}", row.time);
+                let hint = "sort the rows by time, or divide the log where the clock was reset";
+                problems.push(line.problem(path, row.time_cell, message, hint));
+            }
+            Some(before) if row.time == *before => repeated += 1,
+            _ => log.take(row, line.number),
+        }
+    }
+    Problems::from(problems).into_result()?;
+    if log.times.len() < 2 {
+        let message = format!("a log of {} instants", log.times.len());
+        return Err(Problem::of_file(path, message, HINT).into());
+    }
+    if repeated > 0 {
+        let rows = if repeated == 1 {
+            "row repeats"
+        } else {
+            "rows repeat"
+        };
+        log.notes
+            .push(format!("{repeated} {rows} the time of the row before: left out"));
+    }
+    convert::convert(path, &header, &columns, given, &mut log)?;
+    log.note_gaps();
+    Ok(log)
+}
+
+/// What is read of a row, in the units of the file.
+struct Row {
+    time: f64,
+    time_cell: std::ops::Range<usize>,
+    actual: Vec<f64>,
+    commanded: Vec<f64>,
+    number: Option<i64>,
+}
+
+impl JointLog {
+    fn take(&mut self, row: Row, line: usize) {
+        self.times.push(row.time);
+        self.lines.push(line);
+        match &mut self.commanded {
+            Some(commanded) => {
+                commanded.extend(row.commanded);
+                self.positions.extend(row.actual);
+            }
+            // A log of one of them.
+            None => self.positions.extend(row.actual.into_iter().chain(row.commanded)),
+        }
+        if let Some((moves, number)) = self.moves.as_mut().zip(row.number) {
+            moves.push(number);
+        }
+    }
+}
+
+/// The separator of a table with this header: a blank where it contains no other.
+fn separator(header: &str) -> char {
+    match separator_of(header) {
+        ',' if !header.contains(',') => ' ',
+        other => other,
+    }
+}
+
+/// The cells of a line; any number of blanks separates as one.
+fn split(line: &str, separator: char) -> Vec<Cell<'_>> {
+    if separator != ' ' {
+        return cells(line, separator);
+    }
+    let words = line.split_ascii_whitespace();
+    words
+        .map(|word| {
+            let start = word.as_ptr() as usize - line.as_ptr() as usize;
+            Cell {
+                text: word.into(),
+                span: start..start + word.len(),
+            }
+        })
+        .collect()
+}
+
+fn row(path: &str, line: &Line, separator: char, columns: &Columns) -> Result<Row, Problems> {
+    let found = split(&line.text, separator);
+    if found.len() != columns.meanings.len() {
+        let message = format!(
+            "{} cells, but the table has {} columns",
+            found.len(),
+            columns.meanings.len()
+        );
+        let hint = "every row needs one cell per column";
+        return Err(line.problem(path, 0..line.text.len(), message, hint).into());
+    }
+    let mut row = Row {
+        time: 0.0,
+        time_cell: 0..0,
+        actual: vec![
+            0.0;
+            if columns.has(Meaning::Actual(0)) {
+                columns.joints
+            } else {
+                0
+            }
+        ],
+        commanded: vec![
+            0.0;
+            if columns.has(Meaning::Commanded(0)) {
+                columns.joints
+            } else {
+                0
+            }
+        ],
+        number: None,
+    };
+    let mut problems = Vec::new();
+    for (cell, meaning) in found.iter().zip(&columns.meanings) {
+        let Some(meaning) = meaning else { continue };
+        let value = number(&cell.text, separator);
+        let Some(value) = value.filter(|value| value.abs() <= LARGEST) else {
+            let message = format!("`{}` is not a finite number", cell.text);
+            let hint = "remove rows that were not recorded completely";
+            problems.push(line.problem(path, cell.span.clone(), message, hint));
+            continue;
+        };
+        match meaning {
+            Meaning::Time => (row.time, row.time_cell) = (value, cell.span.clone()),
+            Meaning::Actual(joint) => row.actual[*joint] = value,
+            Meaning::Commanded(joint) => row.commanded[*joint] = value,
+            Meaning::Move if value.fract() == 0.0 && value.abs() < 1e15 => row.number = Some(value as i64),
+            Meaning::Move => {
+                let message = format!("`{}` is not the number of a move", cell.text);
+                let hint = "a whole number is required";
+                problems.push(line.problem(path, cell.span.clone(), message, hint));
+            }
+        }
+    }
+    Problems::from(problems).into_result()?;
+    Ok(row)
+}
+
+#[cfg(test)]
+mod tests;
