@@ -15,7 +15,7 @@
 //! | whole turns | a joint that turns more than once stays within its range over a whole cut |
 //! | external axis | limited per metre of the path, or still within a cut; its speed limit |
 //! | turn and lean of the tool | limited per metre of the path, in steps; then smoothed, at most half a step away. Where a smoothed turn is nearer to a limit than the margin, or a body nearer to another than demanded, the search is repeated with a greater margin or clearance |
-//! | clearance | a posture in which two bodies are nearer than demanded is not usable |
+//! | clearance | a posture in which two bodies, or a body and the stock as it is at the point, are nearer than demanded is not usable |
 //!
 //! Where a joint reverses, its backlash leaves a mark on the part. With a price on reversals
 //! ([`PostureSearch::back_price`]) a second chain with fewer reversals is computed. The one with the lower sum of
@@ -27,17 +27,17 @@
 
 use super::freedoms::MOST_MOVING;
 use super::lost::Lost;
-use super::posture_search::{PostureFound, PostureSearch};
+use super::posture_search::{PostureFound, PostureSearch, SearchedPath};
 use super::refined::refined;
 use crate::kernel::{AT_LIMIT, Question};
-use crate::map::{along_postures, obstacles};
+use crate::map::{along_postures, measure_stock_clearances, obstacles};
 use crate::path::LoadedTrack;
 use crate::watch::{Cancelled, Watch};
 
 /// Least increase of a clearance that was not kept after smoothing, m.
 const LEAST_MORE: f64 = 1e-3;
 
-/// The best postures along `path` for these settings. Cases, normal, uncertainty and choice of `question`
+/// The best postures along `path`, a [`LoadedTrack`] or a [`SearchedPath`] with its stock, for these settings. Cases, normal, uncertainty and choice of `question`
 /// are not used.
 ///
 /// Memory: one byte for each point x spin x posture, and a hundred times that for each of about a hundred points; with
@@ -49,13 +49,14 @@ const LEAST_MORE: f64 = 1e-3;
 /// # Panics
 /// If the load does not [cover](crate::load::PathLoad::covers) the points of the track, there is no spin, or more
 /// than [`MOST_MOVING`] external axes move.
-pub fn postures_along(
+pub fn postures_along<'p>(
     question: &Question<'_>,
-    path: LoadedTrack<'_>,
+    path: impl Into<SearchedPath<'p>>,
     search: &PostureSearch,
     watch: Watch<'_>,
 ) -> Result<PostureFound, Cancelled> {
-    let LoadedTrack { track, load } = path;
+    let path: SearchedPath<'_> = path.into();
+    let LoadedTrack { track, load } = path.loaded;
     assert!(load.covers(track.len()), "a load for each point of the track");
     assert!(search.spins.count > 0, "at least one spin");
     assert!(search.axes.len() <= MOST_MOVING, "too many external axes");
@@ -67,11 +68,18 @@ pub fn postures_along(
     } else {
         3
     };
+    let quiet = Watch {
+        finished: &|_| (),
+        ..watch
+    };
     let mut best: Option<(usize, PostureFound)> = None;
     for _ in 0..rounds {
         let found = refined(&of_lattice, path, &search, watch)?;
         let turned = found.turned(track);
-        let along = along_postures(question, &turned, found.load(load), found.choices(), watch)?;
+        let mut along = along_postures(question, &turned, found.load(load), found.choices(), watch)?;
+        if let Some(stock) = path.stock {
+            measure_stock_clearances(question, stock, &mut along, quiet)?;
+        }
         let rooms = along
             .answers
             .evaluations()

@@ -8,7 +8,7 @@ use super::steps::Steps;
 use crate::frame::both_across;
 use crate::kernel::{BranchChoice, PostureStatus};
 use crate::load::PathLoad;
-use crate::path::{Lean, RoundedEnd, Track};
+use crate::path::{CutStock, Lean, LoadedTrack, RoundedEnd, Track};
 use crate::robot::{Branch, BranchPattern};
 
 /// Component of the deviation.
@@ -89,6 +89,21 @@ impl PostureSearch {
             axis.positions = axis.positions.halved();
         }
         self
+    }
+}
+
+/// The path that a search follows.
+#[derive(Clone, Copy, Debug)]
+pub struct SearchedPath<'a> {
+    /// The path under its load.
+    pub loaded: LoadedTrack<'a>,
+    /// The stock that it cuts, if the demanded clearance is to be kept from it.
+    pub stock: Option<&'a CutStock<'a>>,
+}
+
+impl<'a> From<LoadedTrack<'a>> for SearchedPath<'a> {
+    fn from(loaded: LoadedTrack<'a>) -> SearchedPath<'a> {
+        SearchedPath { loaded, stock: None }
     }
 }
 

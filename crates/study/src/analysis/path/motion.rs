@@ -54,7 +54,7 @@ impl Runner<'_> {
             along.choices.clone(),
             self.watch,
         )?;
-        self.keep_clear_of_stock(analysis, track, &mut along)?;
+        self.keep_clear_of_stock(analysis, &mut along)?;
         Ok(Some(Moved {
             motion,
             along: Some(along),
