@@ -183,8 +183,7 @@ impl<'a> CellState<'a> {
             ),
         };
         let ArmBody {
-            attachment, shape,
-            ..
+            attachment, shape, ..
         } = &self.cell.arm[body];
         let is_apart = matches!(check, Check::Part(_)) && !self.cell.meets_part(body);
         if *attachment == Attachment::Base || is_apart {

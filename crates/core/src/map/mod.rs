@@ -31,8 +31,8 @@ pub mod volume;
 mod worst;
 
 pub(crate) use along::one_branch;
-pub(crate) use arm_near_stock::ArmNearStock;
 pub use along::{AlongPath, EquilibriumSummary, along_path, along_postures};
+pub(crate) use arm_near_stock::ArmNearStock;
 pub use backlash_geometry::BacklashGeometry;
 pub use certainty::{COVERAGE, Certainty, probability_within};
 pub use depth_by_feed::DepthByFeed;

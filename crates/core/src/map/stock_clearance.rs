@@ -10,7 +10,6 @@ use nalgebra::Vector3;
 
 use super::along::AlongPath;
 use super::arm_near_stock::ArmNearStock;
-use crate::clearance::{Clearance, DemandedClearance};
 use crate::kernel::{Answers, Question};
 use crate::path::CutStock;
 use crate::robot::Unreachable;
@@ -36,7 +35,7 @@ pub fn measure_stock_clearances(
     };
     let answers = &mut along.answers;
     answers.measure_clearances(question);
-    let mut arm = ArmNearStock::new(question, demanded, stock.placing());
+    let mut arm = ArmNearStock::new(question, demanded, stock);
     let mut replay = stock.replay();
     for index in 0..answers.points.len() {
         if index % POINTS_A_LOOK == 0 {
@@ -51,28 +50,29 @@ pub fn measure_stock_clearances(
         if answers.points[index].is_err() {
             continue;
         }
-        let of_cell = answers.clearances[index];
-        let limit = of_cell.map_or(f64::INFINITY, |found| found.nearest.distance);
         arm.set_joints(answers.joints_at(index));
-        if let Some(found) = arm.nearest(remaining, limit) {
-            take(answers, index, found, &demanded);
+        for (is_near_by_design, least) in [(false, demanded.least), (true, 0.0)] {
+            let so_far = answers.clearances[index];
+            let limit = so_far.map_or(f64::INFINITY, |found| found.nearest.distance);
+            let found = arm.nearest(remaining, limit, is_near_by_design);
+            let Some(found) = found.filter(|_| answers.points[index].is_ok()) else {
+                continue;
+            };
+            let distance = found.nearest.distance;
+            if distance >= least && distance > 0.0 {
+                answers.clearances[index] = Some(found);
+            } else {
+                lose(answers, index, found.bodies, demanded.least - distance);
+            }
         }
     }
     Ok(())
 }
 
-/// Sets the clearance of a point, and removes its answer if that is less than demanded.
-fn take(answers: &mut Answers, index: usize, found: Clearance, demanded: &DemandedClearance<'_>) {
-    let distance = found.nearest.distance;
-    if distance >= demanded.least && distance > 0.0 {
-        answers.clearances[index] = Some(found);
-        return;
-    }
+/// Removes the answer of a point where this much of the clearance of two bodies is missing, m.
+fn lose(answers: &mut Answers, index: usize, bodies: [usize; 2], missing: f64) {
     answers.clearances[index] = None;
-    answers.points[index] = Err(Unreachable::InCollision {
-        missing: demanded.least - distance,
-        bodies: found.bodies,
-    });
+    answers.points[index] = Err(Unreachable::InCollision { missing, bodies });
     let (joints, cases, shares) = (answers.joint_count, answers.case_count, answers.share_count);
     answers.joints[index * joints..][..joints].fill(0.0);
     answers.deviations[index * cases..][..cases].fill(Vector3::zeros());

@@ -53,9 +53,11 @@ impl<'a> ClearOfStock<'a> {
         demanded: DemandedClearance<'a>,
         stock: &'a CutStock<'a>,
     ) -> ClearOfStock<'a> {
-        let arm = ArmNearStock::new(question, demanded, stock.placing());
-        let is_of_tool = |body: &usize| matches!(arm.body(*body).attachment, Attachment::Flange | Attachment::Tool);
-        let (of_tool, links): (Vec<usize>, Vec<usize>) = arm.bodies().iter().partition(|body| is_of_tool(body));
+        let arm = ArmNearStock::new(question, demanded, stock);
+        let is_of_tool =
+            |body: &usize| matches!(arm.body(*body).attachment, Attachment::Flange | Attachment::Tool);
+        let (of_tool, links): (Vec<usize>, Vec<usize>) =
+            arm.bodies().iter().partition(|body| is_of_tool(body));
         let tool_from_flange = question.arm.flange_from_tool.inverse();
         let is_round = |body: &usize| is_round(arm.body(*body), &tool_from_flange);
         let (round, of_tool) = of_tool.into_iter().partition(is_round);

@@ -9,6 +9,7 @@ use super::placing::Placing;
 use super::remaining::RemainingStock;
 use super::sampled::SampledPath;
 use super::stock::Stock;
+use crate::clearance::Bounds;
 use crate::load::EndMillBody;
 
 /// A stock, and the path that cuts it as programmed: with the axes of the program, whatever lean or spin a search finds.
@@ -59,6 +60,11 @@ impl<'a> CutStock<'a> {
         self.placing
     }
 
+    /// The box of the uncut stock, frame of the path, m.
+    pub fn extent(&self) -> Bounds {
+        Bounds::of(self.stock.corners())
+    }
+
     /// Number of cells of the height map.
     pub fn cell_count(&self) -> usize {
         self.stock.heights().len()
@@ -97,7 +103,10 @@ impl StockReplay<'_> {
         } = self.of;
         let index = self.passed;
         let point = path.points.get(index)?;
-        while cutters.get(self.cutter + 1).is_some_and(|(first, _)| *first <= index) {
+        while cutters
+            .get(self.cutter + 1)
+            .is_some_and(|(first, _)| *first <= index)
+        {
             self.cutter += 1;
         }
         if is_upright(&placing.path_spindle(point)) {

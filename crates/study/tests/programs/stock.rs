@@ -120,7 +120,9 @@ const EDGE: &str = "G21 G90 G17\nS9000 M3\nG0 X38 Y-60 Z10\nG0 Z-6\nG1 Y60 F600\
 fn along_the_edge(bodies: &str, spin_deg: f64, search: &str) -> armill_study::answer::PathAnswer {
     const POSTURE: &str = "posture = { branch = \"front elbow-up no-flip\" }\n";
     const TOOL: &str = "tool = { flange_from_tool_mm_deg = [0, 0, 150, 0, 0, 0] }\n";
-    let cell = CELL.replace(TOOL, "least_clearance_mm = 1\n").replace(POSTURE, "");
+    let cell = CELL
+        .replace(TOOL, "least_clearance_mm = 1\n")
+        .replace(POSTURE, "");
     let rest = format!(
         "[posture]\nbranch = \"front elbow-up no-flip\"\n{search}\n[tool]\nflange_from_tool_mm_deg = [0, 0, 150, 0, 0, 0]\n{bodies}"
     );
@@ -132,9 +134,8 @@ fn along_the_edge(bodies: &str, spin_deg: f64, search: &str) -> armill_study::an
 #[test]
 fn a_search_finds_spins_at_which_the_arm_is_clear_of_the_stock_where_the_programmed_spin_is_not() {
     // A nozzle next to the cutter, 20 mm from its axis, which ends 3 mm above the tip: 3 mm below the top of the block.
-    const NOZZLE: &str =
-        "[[tool.body]]\nname = \"nozzle\"\ncylinder_mm = { from = [20, 0, 100], to = [20, 0, 147], diameter = 5 }\n";
-    let [fixed, searched] = ["", "search = { turns_deg = { step = 15 } }"].map(|search| {
+    const NOZZLE: &str = "[[tool.body]]\nname = \"nozzle\"\ncylinder_mm = { from = [20, 0, 100], to = [20, 0, 147], diameter = 5 }\n";
+    let [fixed, searched] = ["", "search = { step_deg = 15 }"].map(|search| {
         let spins = [0.0, 90.0, 180.0, 270.0];
         spins.map(|spin| along_the_edge(NOZZLE, spin, search))
     });
@@ -162,8 +163,7 @@ fn a_search_finds_spins_at_which_the_arm_is_clear_of_the_stock_where_the_program
 #[test]
 fn where_every_spin_is_in_the_stock_the_body_and_what_is_missing_are_reported() {
     // A holder that is round about the axis, 20 mm wide, half a millimetre above the top of the block.
-    const HOLDER: &str =
-        "[[tool.body]]\nname = \"holder\"\ncylinder_mm = { from = [0, 0, 100], to = [0, 0, 143.5], diameter = 20 }\n";
+    const HOLDER: &str = "[[tool.body]]\nname = \"holder\"\ncylinder_mm = { from = [0, 0, 100], to = [0, 0, 143.5], diameter = 20 }\n";
     let path = along_the_edge(HOLDER, 0.0, "search = {}");
     let search = path.search.as_ref().unwrap();
     assert_eq!(search.unreachable_stretches[0].reason, "in_collision");

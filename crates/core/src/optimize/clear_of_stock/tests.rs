@@ -63,7 +63,12 @@ fn bodies() -> Vec<ArmBody> {
     // The axis of the tool is along x of the flange, 0.15 m from it: this is on one side of it.
     let spindle = Bounds::of([[-0.08, -0.02, 0.02], [0.05, 0.02, 0.135]].map(Point3::from));
     vec![
-        body("forearm", Attachment::Joint(3), Shape::Capsule(forearm), Role::Link),
+        body(
+            "forearm",
+            Attachment::Joint(3),
+            Shape::Capsule(forearm),
+            Role::Link,
+        ),
         body("spindle", Attachment::Flange, Shape::Box(spindle), Role::Holder),
         body(
             "holder",
@@ -147,7 +152,13 @@ impl Edge {
         let forces = LeaningForces::of(&self.load);
         let mut fill = |index: usize| {
             let mut column = Column::default();
-            fill((&mut maker, &forces), self.loaded(), index, (search, window), &mut column);
+            fill(
+                (&mut maker, &forces),
+                self.loaded(),
+                index,
+                (search, window),
+                &mut column,
+            );
             column
         };
         (0..self.track.len()).map(&mut fill).collect()
@@ -165,12 +176,20 @@ impl Edge {
             let is_cut = (x - ACROSS).hypot(y - passed) < RADIUS;
             let top = if is_cut { 0.0 } else { self.top };
             let corner = |by: f64, z: f64| Point3::new(x + by, y + by, z);
-            Shape::Box(Bounds::of([corner(-SIDE / 2.0, -20.0 * MM), corner(SIDE / 2.0, top)]))
+            Shape::Box(Bounds::of([
+                corner(-SIDE / 2.0, -20.0 * MM),
+                corner(SIDE / 2.0, top),
+            ]))
         };
         cells.map(column).collect()
     }
 
-    fn found(&self, search: &PostureSearch, least: Option<f64>, stock: Option<&CutStock<'_>>) -> PostureFound {
+    fn found(
+        &self,
+        search: &PostureSearch,
+        least: Option<f64>,
+        stock: Option<&CutStock<'_>>,
+    ) -> PostureFound {
         let path = SearchedPath {
             loaded: self.loaded(),
             stock,
@@ -231,7 +250,10 @@ fn free_postures_are_those_of_which_every_body_is_measured_against_every_column(
         let before = edge.columns(&search, &window);
         let points: Vec<usize> = (0..before.len()).collect();
         let decided = |threads: usize| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let pool = rayon::ThreadPoolBuilder::new()
+                .num_threads(threads)
+                .build()
+                .unwrap();
             pool.install(|| {
                 let mut columns = before.clone();
                 let mut clear = ClearOfStock::new(&question, demanded, &stock);
@@ -259,7 +281,10 @@ fn free_postures_are_those_of_which_every_body_is_measured_against_every_column(
                 let is_free = (0..3).all(|body| {
                     let frame = path_from_base * state.base_from_body()[body];
                     let own = edge.cell.arm()[body].shape.placed(&frame);
-                    let is_near = |other| own.nearest(other, LEAST).is_some_and(|found| found.distance < LEAST);
+                    let is_near = |other| {
+                        own.nearest(other, LEAST)
+                            .is_some_and(|found| found.distance < LEAST)
+                    };
                     !boxes.iter().any(is_near)
                 });
                 let expected = match is_free {
@@ -333,7 +358,10 @@ fn a_stock_that_is_far_away_or_no_demanded_clearance_changes_nothing() {
             let [without, with] = found;
             assert_eq!(with.spins, without.spins);
             assert_eq!(with.branches, without.branches);
-            assert_eq!(with.leans.map(|leans| leans.0), without.leans.map(|leans| leans.0));
+            assert_eq!(
+                with.leans.map(|leans| leans.0),
+                without.leans.map(|leans| leans.0)
+            );
             assert_eq!(with.reached, without.reached);
             assert_eq!(with.lattice.deviations, without.lattice.deviations);
         };
@@ -375,42 +403,81 @@ fn it_stops_when_cancelled() {
 fn timing() {
     let robot = arms::mh12();
     let mut edge = Edge::new(5.0 * MM);
-    let rows: Vec<Point2<f64>> = (0..50).flat_map(|i| {
-        let x = (-95.0 + 190.0 * f64::from(i) / 49.0) * MM;
-        let ends = if i % 2 == 0 { [-100.0, 100.0] } else { [100.0, -100.0] };
-        ends.map(|y| Point2::new(x, y * MM))
-    }).collect();
+    let rows: Vec<Point2<f64>> = (0..50)
+        .flat_map(|i| {
+            let x = (-95.0 + 190.0 * f64::from(i) / 49.0) * MM;
+            let ends = if i % 2 == 0 {
+                [-100.0, 100.0]
+            } else {
+                [100.0, -100.0]
+            };
+            ends.map(|y| Point2::new(x, y * MM))
+        })
+        .collect();
     let path = PathShape::Polyline(rows).sampled(1.0 * MM);
-    let corners = [[-HALF, -HALF, -20.0 * MM], [HALF, HALF, 5.0*MM]].map(Point3::from);
-    edge.stock = Stock::new(corners, 0.5*MM).unwrap();
+    let corners = [[-HALF, -HALF, -20.0 * MM], [HALF, HALF, 5.0 * MM]].map(Point3::from);
+    edge.stock = Stock::new(corners, 0.5 * MM).unwrap();
     edge.track = track(path, Point3::new(0.85, 0.0, 0.3));
     drop(robot);
-    let stock = edge.cut_stock();
     eprintln!("{} points", edge.track.len());
-    for objective in [Objective::Mean, Objective::Worst] {
-    let mut search = search(objective);
-    search.spins = Steps { first: -PI, step: PI / 36.0, count: 72 };
-    for (least, stock) in [(None, None), (Some(2.0*MM), None), (Some(2.0*MM), Some(&stock)), (Some(30.0*MM), Some(&stock))] {
-        let start = std::time::Instant::now();
-        let found = edge.found(&search, least, stock);
-        let t = start.elapsed().as_secs_f64();
-        eprintln!("{objective:?} {least:?} {}: {t:.2} s, {} unreachable {} breaks", stock.is_some(), found.unreachable.len(), found.breaks.len());
-        let window = Window::all(&search);
-        if stock.is_some() {
-            let mut columns = edge.columns(&search, &window);
-            let usable = |columns: &[Column]| columns.iter().flat_map(|c| &c.statuses).filter(|s| **s == PostureStatus::Usable).count();
-            let n = usable(&columns);
-            let q = edge.question(least);
-            let mut clear = ClearOfStock::new(&q, q.clearance.unwrap(), stock.unwrap());
-            let points: Vec<usize> = (0..columns.len()).collect();
+    for (objective, top) in [
+        (Objective::Mean, 5.0),
+        (Objective::Mean, 48.0),
+        (Objective::Worst, 48.0),
+    ] {
+        edge.stock = Stock::new(
+            [[-HALF, -HALF, -20.0 * MM], [HALF, HALF, top * MM]].map(Point3::from),
+            0.5 * MM,
+        )
+        .unwrap();
+        let stock = edge.cut_stock();
+        let mut search = search(objective);
+        search.spins = Steps {
+            first: -PI,
+            step: PI / 36.0,
+            count: 72,
+        };
+        for (least, stock) in [
+            (None, None),
+            (Some(2.0 * MM), None),
+            (Some(1.5 * MM), Some(&stock)),
+            (Some(5.0 * MM), Some(&stock)),
+        ] {
             let start = std::time::Instant::now();
-            clear.exclude(&points, &mut columns, 72, Watch::NONE).unwrap();
-            eprintln!("   decisions alone {:.2} s: {n} usable, {} after", start.elapsed().as_secs_f64(), usable(&columns));
-            let start = std::time::Instant::now();
-            let mut r = stock.unwrap().replay();
-            while r.next_point().is_some() {}
-            eprintln!("   replay alone {:.2} s", start.elapsed().as_secs_f64());
+            let found = edge.found(&search, least, stock);
+            let t = start.elapsed().as_secs_f64();
+            eprintln!(
+                "{objective:?} {least:?} {}: {t:.2} s, {} unreachable {} breaks",
+                stock.is_some(),
+                found.unreachable.len(),
+                found.breaks.len()
+            );
+            let window = Window::all(&search);
+            if stock.is_some() {
+                let mut columns = edge.columns(&search, &window);
+                let usable = |columns: &[Column]| {
+                    columns
+                        .iter()
+                        .flat_map(|c| &c.statuses)
+                        .filter(|s| **s == PostureStatus::Usable)
+                        .count()
+                };
+                let n = usable(&columns);
+                let q = edge.question(least);
+                let mut clear = ClearOfStock::new(&q, q.clearance.unwrap(), stock.unwrap());
+                let points: Vec<usize> = (0..columns.len()).collect();
+                let start = std::time::Instant::now();
+                clear.exclude(&points, &mut columns, 72, Watch::NONE).unwrap();
+                eprintln!(
+                    "   decisions alone {:.2} s: {n} usable, {} after",
+                    start.elapsed().as_secs_f64(),
+                    usable(&columns)
+                );
+                let start = std::time::Instant::now();
+                let mut r = stock.unwrap().replay();
+                while r.next_point().is_some() {}
+                eprintln!("   replay alone {:.2} s", start.elapsed().as_secs_f64());
+            }
         }
-    }
     }
 }

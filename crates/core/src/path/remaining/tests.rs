@@ -144,7 +144,13 @@ fn the_nearest_column_is_that_of_all_columns_for_bodies_of_every_shape() {
             }
             // Columns nearer than demanded: those of all columns decide, from any first column.
             let beyond = if all.is_finite() { all } else { MM };
-            for least in [0.0, 0.5 * beyond, beyond * (1.0 - 1e-9), beyond * (1.0 + 1e-9), 2.0 * beyond] {
+            for least in [
+                0.0,
+                0.5 * beyond,
+                beyond * (1.0 - 1e-9),
+                beyond * (1.0 + 1e-9),
+                2.0 * beyond,
+            ] {
                 for likely in [None, Some([0, 0]), Some([20, 15])] {
                     let found = remaining.conflict(&body, least, likely);
                     let is_expected = all < least || all == 0.0;

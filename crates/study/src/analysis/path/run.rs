@@ -12,8 +12,7 @@ use armill_core::map::{
 use armill_core::motion::Motion;
 use armill_core::nalgebra::{Point3, Translation3, UnitQuaternion};
 use armill_core::optimize::{
-    FollowedTrack, Gain, Objective, PostureFound, PostureSearch, SearchedPath, gain_along,
-    postures_along,
+    FollowedTrack, Gain, Objective, PostureFound, PostureSearch, SearchedPath, gain_along, postures_along,
 };
 use armill_core::path::{CutStock, ForceSummary, LoadedTrack, NoForces, Shape, Stock, Track};
 use armill_core::spatial::Wrench;
@@ -271,13 +270,12 @@ impl Runner<'_> {
         Ok(measure_stock_clearances(&question, &stock, along, self.watch)?)
     }
 
-    /// The stock that the path cuts, if a clearance from it is demanded. A stock in the hand of the robot is not included.
+    /// The stock that the path cuts, if a clearance from it is demanded.
     ///
     /// # Errors
     /// A tool of the program that is not possible.
     pub fn cut_stock<'a>(&self, analysis: &'a PathAnalysis) -> Result<Option<CutStock<'a>>, StudyError> {
-        let in_hand = self.robot.chain().ground().part_is_in_hand();
-        let is_demanded = analysis.setting.cell.is_some() && !in_hand;
+        let is_demanded = analysis.setting.cell.is_some();
         let Some((cut, stock)) = analysis.cut_in_stock().filter(|_| is_demanded) else {
             return Ok(None);
         };
