@@ -123,3 +123,6 @@ impl<'a> ArmNearStock<'a> {
         BodyNearStock::new(&self.body(body).shape, &path_from_body)
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -44,6 +44,7 @@ pub use radial::{RadialDeviation, radial_deviations};
 pub use radial_parts::{WithoutLoad, radial_uncertainties, radial_without_load};
 pub use region::{Region, region_within};
 pub use spin_map::{MOST_EVALUATED, SpinCell, SpinMap, spin_map};
+pub(crate) use stock_clearance::exclude_points_near_stock;
 pub use stock_clearance::measure_stock_clearances;
 pub use volume::{BoxGrid, VolumeMap, volume_map};
 pub use worst::worst_points;

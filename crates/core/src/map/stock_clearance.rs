@@ -17,6 +17,8 @@ use crate::watch::{Cancelled, Watch};
 
 /// Points between two checks of the watch.
 const POINTS_A_LOOK: usize = 256;
+/// Distances up to this above the demanded one are measured where only those below it matter, m: contact has none.
+const BEYOND: f64 = 1e-9;
 
 /// Measures the clearance at every point with a posture, from the bodies of the cell and from what is left of the `stock`
 /// there. Points that do not keep the demanded clearance from the stock lose their answers; nothing if `question`
@@ -30,11 +32,34 @@ pub fn measure_stock_clearances(
     along: &mut AlongPath,
     watch: Watch<'_>,
 ) -> Result<(), Cancelled> {
+    along.answers.measure_clearances(question);
+    keep_clear(question, stock, &mut along.answers, (f64::INFINITY, watch))
+}
+
+/// [`measure_stock_clearances`] without the clearances of the points that keep what is demanded.
+///
+/// # Errors
+/// [`Cancelled`] if the watch cancels.
+pub(crate) fn exclude_points_near_stock(
+    question: &Question<'_>,
+    stock: &CutStock<'_>,
+    along: &mut AlongPath,
+    watch: Watch<'_>,
+) -> Result<(), Cancelled> {
+    let least = question.clearance.map_or(0.0, |demanded| demanded.least);
+    keep_clear(question, stock, &mut along.answers, (least + BEYOND, watch))
+}
+
+/// The same with distances above `farthest` (m) left out.
+fn keep_clear(
+    question: &Question<'_>,
+    stock: &CutStock<'_>,
+    answers: &mut Answers,
+    (farthest, watch): (f64, Watch<'_>),
+) -> Result<(), Cancelled> {
     let Some(demanded) = question.clearance else {
         return Ok(());
     };
-    let answers = &mut along.answers;
-    answers.measure_clearances(question);
     let mut arm = ArmNearStock::new(question, demanded, stock);
     let mut replay = stock.replay();
     for index in 0..answers.points.len() {
@@ -52,17 +77,17 @@ pub fn measure_stock_clearances(
         }
         arm.set_joints(answers.joints_at(index));
         for (is_near_by_design, least) in [(false, demanded.least), (true, 0.0)] {
-            let so_far = answers.clearances[index];
-            let limit = so_far.map_or(f64::INFINITY, |found| found.nearest.distance);
+            let so_far = answers.clearances.get(index).copied().flatten();
+            let limit = so_far.map_or(farthest, |found| found.nearest.distance.min(farthest));
             let found = arm.nearest(remaining, limit, is_near_by_design);
             let Some(found) = found.filter(|_| answers.points[index].is_ok()) else {
                 continue;
             };
             let distance = found.nearest.distance;
-            if distance >= least && distance > 0.0 {
-                answers.clearances[index] = Some(found);
-            } else {
+            if distance < least || distance == 0.0 {
                 lose(answers, index, found.bodies, demanded.least - distance);
+            } else if let Some(measured) = answers.clearances.get_mut(index) {
+                *measured = Some(found);
             }
         }
     }
@@ -71,7 +96,9 @@ pub fn measure_stock_clearances(
 
 /// Removes the answer of a point where this much of the clearance of two bodies is missing, m.
 fn lose(answers: &mut Answers, index: usize, bodies: [usize; 2], missing: f64) {
-    answers.clearances[index] = None;
+    if let Some(measured) = answers.clearances.get_mut(index) {
+        *measured = None;
+    }
     answers.points[index] = Err(Unreachable::InCollision { missing, bodies });
     let (joints, cases, shares) = (answers.joint_count, answers.case_count, answers.share_count);
     answers.joints[index * joints..][..joints].fill(0.0);

@@ -30,7 +30,7 @@ use super::lost::Lost;
 use super::posture_search::{PostureFound, PostureSearch, SearchedPath};
 use super::refined::refined;
 use crate::kernel::{AT_LIMIT, Question};
-use crate::map::{along_postures, measure_stock_clearances, obstacles};
+use crate::map::{along_postures, exclude_points_near_stock, obstacles};
 use crate::path::LoadedTrack;
 use crate::watch::{Cancelled, Watch};
 
@@ -78,7 +78,7 @@ pub fn postures_along<'p>(
         let turned = found.turned(track);
         let mut along = along_postures(question, &turned, found.load(load), found.choices(), watch)?;
         if let Some(stock) = path.stock {
-            measure_stock_clearances(question, stock, &mut along, quiet)?;
+            exclude_points_near_stock(question, stock, &mut along, quiet)?;
         }
         let rooms = along
             .answers
@@ -101,12 +101,13 @@ pub fn postures_along<'p>(
         let is_refined = !search.is_of_spins();
         let is_lost = is_refined && lost.by_smoothing > 0;
         let stops = is_refined && !found.breaks.is_empty();
-        if keeps && !is_lost && !stops {
-            return Ok(found);
-        }
         let all_lost = lost.all + found.breaks.len() + found.unreachable.len();
         if best.as_ref().is_none_or(|(least, _)| all_lost <= *least) {
             best = Some((all_lost, found));
+        }
+        // More margin and clearance than demanded may lose more points than smoothing did.
+        if keeps && !is_lost && !stops {
+            break;
         }
         if is_lost {
             search = search.finer();
