@@ -33,7 +33,7 @@ pub fn measure_stock_clearances(
     watch: Watch<'_>,
 ) -> Result<(), Cancelled> {
     along.answers.measure_clearances(question);
-    keep_clear(question, stock, &mut along.answers, (f64::INFINITY, watch))
+    keep_clear(question, stock, &mut along.answers, watch)
 }
 
 /// [`measure_stock_clearances`] without the clearances of the points that keep what is demanded.
@@ -46,19 +46,22 @@ pub(crate) fn exclude_points_near_stock(
     along: &mut AlongPath,
     watch: Watch<'_>,
 ) -> Result<(), Cancelled> {
-    let least = question.clearance.map_or(0.0, |demanded| demanded.least);
-    keep_clear(question, stock, &mut along.answers, (least + BEYOND, watch))
+    keep_clear(question, stock, &mut along.answers, watch)
 }
 
-/// The same with distances above `farthest` (m) left out.
+/// Excludes points near the stock, and where clearances have been measured in the cell, measures them from the stock too.
 fn keep_clear(
     question: &Question<'_>,
     stock: &CutStock<'_>,
     answers: &mut Answers,
-    (farthest, watch): (f64, Watch<'_>),
+    watch: Watch<'_>,
 ) -> Result<(), Cancelled> {
     let Some(demanded) = question.clearance else {
         return Ok(());
+    };
+    let farthest = match answers.clearances.is_empty() {
+        true => demanded.least + BEYOND,
+        false => f64::INFINITY,
     };
     let mut arm = ArmNearStock::new(question, demanded, stock);
     let mut replay = stock.replay();

@@ -38,7 +38,8 @@ struct Decisions<'a> {
     replay: StockReplay<'a>,
     arm: ArmNearStock<'a>,
     joint_count: usize,
-    least: f64,
+    /// The demanded clearance of round bodies, and of all others, m.
+    least: [f64; 2],
     /// Bodies of the tool that are the same for all spins.
     round: Vec<usize>,
     /// Other bodies of the tool.
@@ -47,11 +48,12 @@ struct Decisions<'a> {
 }
 
 impl<'a> ClearOfStock<'a> {
-    /// At the first point of the path.
+    /// At the first point of the path. Bodies of the tool that are round about its axis keep `least_of_round`, m.
     pub fn new(
         question: &Question<'a>,
         demanded: DemandedClearance<'a>,
         stock: &'a CutStock<'a>,
+        least_of_round: f64,
     ) -> ClearOfStock<'a> {
         let arm = ArmNearStock::new(question, demanded, stock);
         let is_of_tool =
@@ -64,7 +66,7 @@ impl<'a> ClearOfStock<'a> {
         let decisions = Decisions {
             replay: stock.replay(),
             joint_count: question.arm.robot.joints().len(),
-            least: demanded.least,
+            least: [least_of_round, demanded.least],
             round,
             of_tool,
             links,
@@ -120,12 +122,13 @@ impl Decisions<'_> {
         };
         let joint_count = *joint_count;
         // Whether one of these bodies is in conflict, in this posture.
-        let mut conflicts = |bodies: &[usize], joints: &[f64]| {
+        let [of_round, least] = *least;
+        let mut conflicts = |bodies: &[usize], joints: &[f64], least: f64| {
             if bodies.is_empty() {
                 return false;
             }
             arm.set_joints(joints);
-            (bodies.iter()).any(|body| arm.is_in_conflict(*body, remaining, *least))
+            (bodies.iter()).any(|body| arm.is_in_conflict(*body, remaining, least))
         };
         let settings = column.statuses.len() / SLOTS;
         for first in (0..settings).step_by(spins.max(1)) {
@@ -133,7 +136,7 @@ impl Decisions<'_> {
             let Some(any) = column.first_usable(group.clone()) else {
                 continue;
             };
-            if conflicts(round, column.joints_of(any, joint_count)) {
+            if conflicts(round, column.joints_of(any, joint_count), of_round) {
                 column.set_in_collision(group);
                 continue;
             }
@@ -142,13 +145,13 @@ impl Decisions<'_> {
                 let Some(any) = column.first_usable(slots.clone()) else {
                     continue;
                 };
-                if conflicts(of_tool, column.joints_of(any, joint_count)) {
+                if conflicts(of_tool, column.joints_of(any, joint_count), least) {
                     column.set_in_collision(slots);
                     continue;
                 }
                 for slot in slots {
                     let usable = column.statuses[slot] == PostureStatus::Usable;
-                    if usable && conflicts(links, column.joints_of(slot, joint_count)) {
+                    if usable && conflicts(links, column.joints_of(slot, joint_count), least) {
                         column.set_in_collision(slot..slot + 1);
                     }
                 }

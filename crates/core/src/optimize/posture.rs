@@ -55,7 +55,12 @@ pub fn postures_along<'p>(
     search: &PostureSearch,
     watch: Watch<'_>,
 ) -> Result<PostureFound, Cancelled> {
-    let path: SearchedPath<'_> = path.into();
+    let mut path: SearchedPath<'_> = path.into();
+    // Another spin, as after smoothing, does not move them: they need no more than is demanded.
+    path.least_of_round = question
+        .clearance
+        .filter(|_| search.is_of_spins())
+        .map(|demanded| demanded.least);
     let LoadedTrack { track, load } = path.loaded;
     assert!(load.covers(track.len()), "a load for each point of the track");
     assert!(search.spins.count > 0, "at least one spin");

@@ -96,14 +96,26 @@ impl PostureSearch {
 #[derive(Clone, Copy, Debug)]
 pub struct SearchedPath<'a> {
     /// The path under its load.
-    pub loaded: LoadedTrack<'a>,
-    /// The stock that it cuts, if the demanded clearance is to be kept from it.
-    pub stock: Option<&'a CutStock<'a>>,
+    pub(super) loaded: LoadedTrack<'a>,
+    pub(super) stock: Option<&'a CutStock<'a>>,
+    /// Clearance of bodies of the tool that are round about its axis from the stock, m, where it is less than that of the others.
+    pub(super) least_of_round: Option<f64>,
+}
+
+impl<'a> SearchedPath<'a> {
+    /// A path under its load, with the stock that it cuts, if the demanded clearance is to be kept from it.
+    pub fn new(loaded: LoadedTrack<'a>, stock: Option<&'a CutStock<'a>>) -> SearchedPath<'a> {
+        SearchedPath {
+            loaded,
+            stock,
+            least_of_round: None,
+        }
+    }
 }
 
 impl<'a> From<LoadedTrack<'a>> for SearchedPath<'a> {
     fn from(loaded: LoadedTrack<'a>) -> SearchedPath<'a> {
-        SearchedPath { loaded, stock: None }
+        SearchedPath::new(loaded, None)
     }
 }
 

@@ -110,7 +110,9 @@ impl<'a> Walk<'a> {
     /// clearance.
     pub fn clear_of_stock(&self) -> Option<ClearOfStock<'a>> {
         let demanded = self.question.clearance?;
-        Some(ClearOfStock::new(self.question, demanded, self.path.stock?))
+        let of_round = self.path.least_of_round.unwrap_or(demanded.least);
+        let stock = self.path.stock?;
+        Some(ClearOfStock::new(self.question, demanded, stock, of_round))
     }
 
     /// The best chain, with this price per reversal. Its states are those of the points with a column.

@@ -365,10 +365,7 @@ pub(super) fn outcome(
     let there = track.moved(placement.base_from_part, placement.spin);
     let search: &PostureSearch = free.search;
     let stock = free.stock.map(|stock| stock.placed(&there.placing));
-    let path = SearchedPath {
-        loaded: LoadedTrack { track: &there, load },
-        stock: stock.as_ref(),
-    };
+    let path = SearchedPath::new(LoadedTrack { track: &there, load }, stock.as_ref());
     let found = postures_along(&question, path, search, watch)?;
     let turned = found.turned(&there);
     let choices = found.choices();

@@ -294,10 +294,7 @@ impl Runner<'_> {
         let question = self.question(&analysis.setting);
         let track = &analysis.track;
         let stock = self.cut_stock(analysis)?;
-        let path = SearchedPath {
-            loaded: LoadedTrack { track, load },
-            stock: stock.as_ref(),
-        };
+        let path = SearchedPath::new(LoadedTrack { track, load }, stock.as_ref());
         let posture = postures_along(&question, path, search, self.watch)?;
         let turned = posture.turned(track);
         let load = posture.load(load);
