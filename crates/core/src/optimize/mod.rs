@@ -52,7 +52,7 @@ pub use holes::{HolesFound, hole_postures};
 pub use lattice::Lattice;
 pub use nodes::{Shares, fitted};
 pub use placement::{Placeable, PlacementEvaluation, PlacementObjective, PostureSelection, Score, on_part};
-pub use posture::postures_along;
+pub use posture::{postures_along, postures_in_stock};
 pub use posture_search::{Component, Objective, PostureFound, PostureSearch, SearchedPath};
 pub use rank_by::RankBy;
 pub use reversals::reversals;

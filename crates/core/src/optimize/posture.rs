@@ -37,7 +37,7 @@ use crate::watch::{Cancelled, Watch};
 /// Least increase of a clearance that was not kept after smoothing, m.
 const LEAST_MORE: f64 = 1e-3;
 
-/// The best postures along `path`, a [`LoadedTrack`] or a [`SearchedPath`] with its stock, for these settings. Cases, normal, uncertainty and choice of `question`
+/// The best postures along `path` for these settings. Cases, normal, uncertainty and choice of `question`
 /// are not used.
 ///
 /// Memory: one byte for each point x spin x posture, and a hundred times that for each of about a hundred points; with
@@ -49,13 +49,29 @@ const LEAST_MORE: f64 = 1e-3;
 /// # Panics
 /// If the load does not [cover](crate::load::PathLoad::covers) the points of the track, there is no spin, or more
 /// than [`MOST_MOVING`] external axes move.
-pub fn postures_along<'p>(
+pub fn postures_along(
     question: &Question<'_>,
-    path: impl Into<SearchedPath<'p>>,
+    path: LoadedTrack<'_>,
     search: &PostureSearch,
     watch: Watch<'_>,
 ) -> Result<PostureFound, Cancelled> {
-    let mut path: SearchedPath<'_> = path.into();
+    postures_in_stock(question, SearchedPath::new(path, None), search, watch)
+}
+
+/// [`postures_along`] of a path whose stock is a body too, as it is at each point: at most 200 MB in addition for copies
+/// of its map, or one copy.
+///
+/// # Errors
+/// [`Cancelled`] if the watch cancels.
+///
+/// # Panics
+/// Those of [`postures_along`].
+pub fn postures_in_stock(
+    question: &Question<'_>,
+    mut path: SearchedPath<'_>,
+    search: &PostureSearch,
+    watch: Watch<'_>,
+) -> Result<PostureFound, Cancelled> {
     // Another spin, as after smoothing, does not move them: they need no more than is demanded.
     path.least_of_round = question
         .clearance

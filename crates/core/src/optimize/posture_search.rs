@@ -113,12 +113,6 @@ impl<'a> SearchedPath<'a> {
     }
 }
 
-impl<'a> From<LoadedTrack<'a>> for SearchedPath<'a> {
-    fn from(loaded: LoadedTrack<'a>) -> SearchedPath<'a> {
-        SearchedPath::new(loaded, None)
-    }
-}
-
 /// Postures along a path.
 #[derive(Clone, Debug)]
 pub struct PostureFound {

@@ -13,7 +13,7 @@ use armill_core::load::PathLoad;
 use armill_core::map::{along_postures, measure_stock_clearances};
 use armill_core::optimize::{
     FreePath, Gain, PlacementEvaluation, PlacementObjective, PostureSearch, Score, SearchedPath, on_part,
-    postures_along,
+    postures_in_stock,
 };
 use armill_core::path::LoadedTrack;
 use armill_core::robot::{Robot, Unreachable};
@@ -366,7 +366,7 @@ pub(super) fn outcome(
     let search: &PostureSearch = free.search;
     let stock = free.stock.map(|stock| stock.placed(&there.placing));
     let path = SearchedPath::new(LoadedTrack { track: &there, load }, stock.as_ref());
-    let found = postures_along(&question, path, search, watch)?;
+    let found = postures_in_stock(&question, path, search, watch)?;
     let turned = found.turned(&there);
     let choices = found.choices();
     let mut along = along_postures(&question, &turned, load.clone(), choices.clone(), watch)?;

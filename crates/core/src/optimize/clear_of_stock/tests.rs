@@ -15,7 +15,7 @@ use crate::optimize::column_at::fill;
 use crate::optimize::posture::tests::{search, track};
 use crate::optimize::window::Window;
 use crate::optimize::{
-    LeanRange, Objective, PostureFound, PostureSearch, SearchedPath, Steps, postures_along,
+    LeanRange, Objective, PostureFound, PostureSearch, SearchedPath, Steps, postures_in_stock,
 };
 use crate::path::{Cutting, LoadedTrack, RoundedEnd, Shape as PathShape, Stock, Track};
 use crate::robot::{Robot, Unreachable};
@@ -191,7 +191,7 @@ impl Edge {
         stock: Option<&CutStock<'_>>,
     ) -> PostureFound {
         let path = SearchedPath::new(self.loaded(), stock);
-        postures_along(&self.question(least), path, search, Watch::NONE).unwrap()
+        postures_in_stock(&self.question(least), path, search, Watch::NONE).unwrap()
     }
 
     /// The answers along the path with what was found, with the clearances from the stock.
@@ -383,14 +383,14 @@ fn it_stops_when_cancelled() {
     let window = Window::all(&search);
     let mut columns = edge.columns(&search, &window);
     assert!(clear.exclude(&[0], &mut columns[..1], 36, watch).is_err());
-    assert!(postures_along(&question, path, &search, watch).is_err());
+    assert!(postures_in_stock(&question, path, &search, watch).is_err());
     // In the middle: after the first columns are finished.
     cancel.store(false, Ordering::Relaxed);
     let stopping = Watch {
         finished: &|_| cancel.store(true, Ordering::Relaxed),
         cancel: &cancel,
     };
-    assert!(postures_along(&question, path, &search, stopping).is_err());
+    assert!(postures_in_stock(&question, path, &search, stopping).is_err());
 }
 
 /// Rows across the block, with its top this far above them, in cells of half a millimetre.

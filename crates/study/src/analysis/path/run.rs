@@ -1,6 +1,6 @@
 //! A path with the core: its load, the postures along it, and all that follows from them.
 //!
-//! `along_path` or `postures_along`, then `worst_points`, `radial_deviations`, `program_limits` of the core.
+//! `along_path` or `postures_in_stock`, then `worst_points`, `radial_deviations`, `program_limits` of the core.
 
 use armill_core::frame::Isometry;
 use armill_core::kernel::{Answers, evaluate_posture};
@@ -12,7 +12,7 @@ use armill_core::map::{
 use armill_core::motion::Motion;
 use armill_core::nalgebra::{Point3, Translation3, UnitQuaternion};
 use armill_core::optimize::{
-    FollowedTrack, Gain, Objective, PostureFound, PostureSearch, SearchedPath, gain_along, postures_along,
+    FollowedTrack, Gain, Objective, PostureFound, PostureSearch, SearchedPath, gain_along, postures_in_stock,
 };
 use armill_core::path::{CutStock, ForceSummary, LoadedTrack, NoForces, Shape, Stock, Track};
 use armill_core::spatial::Wrench;
@@ -295,7 +295,7 @@ impl Runner<'_> {
         let track = &analysis.track;
         let stock = self.cut_stock(analysis)?;
         let path = SearchedPath::new(LoadedTrack { track, load }, stock.as_ref());
-        let posture = postures_along(&question, path, search, self.watch)?;
+        let posture = postures_in_stock(&question, path, search, self.watch)?;
         let turned = posture.turned(track);
         let load = posture.load(load);
         let along = along_postures(&question, &turned, load.clone(), posture.choices(), self.watch)?;
