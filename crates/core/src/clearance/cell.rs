@@ -205,6 +205,16 @@ impl Cell {
         self.names().count()
     }
 
+    /// Whether a body of the arm is checked against the part.
+    pub(super) fn meets_part(&self, body: usize) -> bool {
+        self.arm[body].role != Role::Cutter && !self.apart_from_part.contains(&body)
+    }
+
+    /// Whether a body of the arm is checked against the stock that is cut along a path.
+    pub(crate) fn meets_stock(&self, body: usize) -> bool {
+        self.arm[body].attachment != Attachment::Base && self.meets_part(body)
+    }
+
     fn names(&self) -> impl Iterator<Item = &String> {
         let still = [&self.obstacles, &self.part].into_iter().flatten();
         let arm = self.arm.iter().map(|body| &body.name);

@@ -6,6 +6,7 @@
 use super::bounds::Capsule;
 use super::cell::{ArmBody, Cell, FixedBody, PlacedCell, Role, Still, matrix};
 use super::floor::joints_in_front;
+use super::shape::Placed;
 use super::state::CellState;
 use crate::frame::Isometry;
 use crate::robot::{Attachment, Robot};
@@ -106,7 +107,21 @@ impl Cell {
         let Some(part) = &self.part else {
             return Vec::new();
         };
-        let part_from_base = matrix(&base_from_part.inverse());
+        self.always_near_in(robot, base_from_part, |own| {
+            part.nearest(own, limit, |_| true)
+                .is_some_and(|(found, _)| found.distance <= limit)
+        })
+    }
+
+    /// Bodies of the arm, checked against the part, that are near something in this frame in every sampled posture. Only those
+    /// whose place does not depend on the tool.
+    pub(crate) fn always_near_in(
+        &self,
+        robot: &Robot,
+        base_from_frame: &Isometry,
+        is_near: impl Fn(&Placed) -> bool,
+    ) -> Vec<usize> {
+        let frame_from_base = matrix(&base_from_frame.inverse());
         let checked = |body: &usize| {
             let of_arm = &self.arm[*body];
             !matches!(of_arm.attachment, Attachment::Base | Attachment::Tool)
@@ -115,10 +130,8 @@ impl Cell {
         };
         let bodies = (0..self.arm.len()).filter(checked).collect();
         self.in_every_posture(robot, &Isometry::identity(), bodies, |state, body| {
-            let frame = part_from_base * state.base_from_body()[*body];
-            let own = self.arm[*body].shape.placed(&frame);
-            part.nearest(&own, limit, |_| true)
-                .is_some_and(|(found, _)| found.distance <= limit)
+            let frame = frame_from_base * state.base_from_body()[*body];
+            is_near(&self.arm[*body].shape.placed(&frame))
         })
     }
 

@@ -3,7 +3,7 @@
 use nalgebra::{IsometryMatrix3, Point3};
 
 use super::bounds::Capsule;
-use super::cell::{ArmBody, Cell, Clearance, PlacedCell, Role, Still, matrix};
+use super::cell::{ArmBody, Cell, Clearance, PlacedCell, Still, matrix};
 use super::decided::{BodyAmong, Excess};
 use super::field::Thresholds;
 use super::floor::Floor;
@@ -183,12 +183,9 @@ impl<'a> CellState<'a> {
             ),
         };
         let ArmBody {
-            attachment,
-            role,
-            shape,
-            ..
+            attachment, shape, ..
         } = &self.cell.arm[body];
-        let is_apart = matches!(check, Check::Part(_)) && !self.meets_part(body, *role);
+        let is_apart = matches!(check, Check::Part(_)) && !self.cell.meets_part(body);
         if *attachment == Attachment::Base || is_apart {
             return None;
         }
@@ -205,11 +202,6 @@ impl<'a> CellState<'a> {
             },
             thresholds,
         ))
-    }
-
-    /// Whether a body with this role is checked against the part.
-    fn meets_part(&self, body: usize, role: Role) -> bool {
-        role != Role::Cutter && !self.cell.apart_from_part.contains(&body)
     }
 
     /// Whether a body rides on an obstacle, which the field of distances contains.
@@ -360,7 +352,7 @@ impl<'a> CellState<'a> {
                     queue.push((bound, Check::Obstacles(index)));
                 }
             }
-            let meets_part = self.meets_part(index, body.role);
+            let meets_part = self.cell.meets_part(index);
             if let Some(still) = self.cell.part.as_ref().filter(|_| meets_part) {
                 let in_part = hull.moved(&self.part_from_base);
                 let bound = still.field.bound_of(&in_part, &still.bodies, limit);

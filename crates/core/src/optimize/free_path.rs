@@ -15,7 +15,7 @@ use super::window::Window;
 use crate::clearance::ClearanceAlong;
 use crate::kernel::{Column, Columns, PartPlacement, Question};
 use crate::load::LeaningForces;
-use crate::path::LoadedTrack;
+use crate::path::{CutStock, LoadedTrack};
 use crate::watch::{Cancelled, Watch};
 
 /// Values along each axis, at most.
@@ -30,6 +30,8 @@ pub struct FreePath<'a> {
     pub path: LoadedTrack<'a>,
     /// What is free along it.
     pub search: &'a PostureSearch,
+    /// The stock that it cuts, for a search along the path: the quick score does not include it.
+    pub stock: Option<&'a CutStock<'a>>,
 }
 
 impl FreePath<'_> {

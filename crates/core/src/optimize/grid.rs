@@ -39,6 +39,11 @@ impl Grid {
         Grid { counts, around }
     }
 
+    /// Number of spins: settings that follow each other in groups of so many differ in nothing else.
+    pub fn spins(&self) -> usize {
+        self.counts[0]
+    }
+
     /// Number of settings.
     pub fn len(&self) -> usize {
         self.counts.iter().product()

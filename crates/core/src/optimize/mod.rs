@@ -10,12 +10,13 @@
 //! - [`reversals`](fn@reversals): number of reversals of each joint.
 //!
 //! Of the search along a path, in reading order: `steps`, `freedoms` and `posture_search`: what may be chosen, and what was; `window`: the settings that are
-//! tried at a point; `grid`: which are neighbours; `ground_spin`: spins where a positioner turns the part; `column_at`: their postures; `links`: transitions between neighbouring
+//! tried at a point; `grid`: which are neighbours; `ground_spin`: spins where a positioner turns the part; `column_at`: their postures; `clear_of_stock`: those too near to the stock; `links`: transitions between neighbouring
 //! points; `heading`: directions of the joints; `winding`: their whole turns; `chain`: the chain of postures with the
 //! lowest cost; `walk`: one pass along the path; `refined`: one after the other; `smooth`: settings without steps; `lost`: what that loses;
 //! `lattice`: data for pictures. `rank_by`: uncertainty of the cost of a placement.
 
 mod chain;
+mod clear_of_stock;
 mod column_at;
 pub mod compensation;
 mod free_path;
@@ -51,8 +52,8 @@ pub use holes::{HolesFound, hole_postures};
 pub use lattice::Lattice;
 pub use nodes::{Shares, fitted};
 pub use placement::{Placeable, PlacementEvaluation, PlacementObjective, PostureSelection, Score, on_part};
-pub use posture::postures_along;
-pub use posture_search::{Component, Objective, PostureFound, PostureSearch};
+pub use posture::{postures_along, postures_in_stock};
+pub use posture_search::{Component, Objective, PostureFound, PostureSearch, SearchedPath};
 pub use rank_by::RankBy;
 pub use reversals::reversals;
 pub use sensitivity::{InputKind, Sensitivity, SharedInputs, sensitivity};

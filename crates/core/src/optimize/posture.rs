@@ -15,7 +15,7 @@
 //! | whole turns | a joint that turns more than once stays within its range over a whole cut |
 //! | external axis | limited per metre of the path, or still within a cut; its speed limit |
 //! | turn and lean of the tool | limited per metre of the path, in steps; then smoothed, at most half a step away. Where a smoothed turn is nearer to a limit than the margin, or a body nearer to another than demanded, the search is repeated with a greater margin or clearance |
-//! | clearance | a posture in which two bodies are nearer than demanded is not usable |
+//! | clearance | a posture in which two bodies, or a body and the stock as it is at the point, are nearer than demanded is not usable |
 //!
 //! Where a joint reverses, its backlash leaves a mark on the part. With a price on reversals
 //! ([`PostureSearch::back_price`]) a second chain with fewer reversals is computed. The one with the lower sum of
@@ -27,10 +27,10 @@
 
 use super::freedoms::MOST_MOVING;
 use super::lost::Lost;
-use super::posture_search::{PostureFound, PostureSearch};
+use super::posture_search::{PostureFound, PostureSearch, SearchedPath};
 use super::refined::refined;
 use crate::kernel::{AT_LIMIT, Question};
-use crate::map::{along_postures, obstacles};
+use crate::map::{along_postures, exclude_points_near_stock, obstacles};
 use crate::path::LoadedTrack;
 use crate::watch::{Cancelled, Watch};
 
@@ -55,7 +55,29 @@ pub fn postures_along(
     search: &PostureSearch,
     watch: Watch<'_>,
 ) -> Result<PostureFound, Cancelled> {
-    let LoadedTrack { track, load } = path;
+    postures_in_stock(question, SearchedPath::new(path, None), search, watch)
+}
+
+/// [`postures_along`] of a path whose stock is a body too, as it is at each point: at most 200 MB in addition for copies
+/// of its map, or one copy.
+///
+/// # Errors
+/// [`Cancelled`] if the watch cancels.
+///
+/// # Panics
+/// Those of [`postures_along`].
+pub fn postures_in_stock(
+    question: &Question<'_>,
+    mut path: SearchedPath<'_>,
+    search: &PostureSearch,
+    watch: Watch<'_>,
+) -> Result<PostureFound, Cancelled> {
+    // Another spin, as after smoothing, does not move them: they need no more than is demanded.
+    path.least_of_round = question
+        .clearance
+        .filter(|_| search.is_of_spins())
+        .map(|demanded| demanded.least);
+    let LoadedTrack { track, load } = path.loaded;
     assert!(load.covers(track.len()), "a load for each point of the track");
     assert!(search.spins.count > 0, "at least one spin");
     assert!(search.axes.len() <= MOST_MOVING, "too many external axes");
@@ -67,11 +89,18 @@ pub fn postures_along(
     } else {
         3
     };
+    let quiet = Watch {
+        finished: &|_| (),
+        ..watch
+    };
     let mut best: Option<(usize, PostureFound)> = None;
     for _ in 0..rounds {
         let found = refined(&of_lattice, path, &search, watch)?;
         let turned = found.turned(track);
-        let along = along_postures(question, &turned, found.load(load), found.choices(), watch)?;
+        let mut along = along_postures(question, &turned, found.load(load), found.choices(), watch)?;
+        if let Some(stock) = path.stock {
+            exclude_points_near_stock(question, stock, &mut along, quiet)?;
+        }
         let rooms = along
             .answers
             .evaluations()
@@ -93,12 +122,13 @@ pub fn postures_along(
         let is_refined = !search.is_of_spins();
         let is_lost = is_refined && lost.by_smoothing > 0;
         let stops = is_refined && !found.breaks.is_empty();
-        if keeps && !is_lost && !stops {
-            return Ok(found);
-        }
         let all_lost = lost.all + found.breaks.len() + found.unreachable.len();
         if best.as_ref().is_none_or(|(least, _)| all_lost <= *least) {
             best = Some((all_lost, found));
+        }
+        // More margin and clearance than demanded may lose more points than smoothing did.
+        if keeps && !is_lost && !stops {
+            break;
         }
         if is_lost {
             search = search.finer();

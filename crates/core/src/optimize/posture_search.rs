@@ -8,7 +8,7 @@ use super::steps::Steps;
 use crate::frame::both_across;
 use crate::kernel::{BranchChoice, PostureStatus};
 use crate::load::PathLoad;
-use crate::path::{Lean, RoundedEnd, Track};
+use crate::path::{CutStock, Lean, LoadedTrack, RoundedEnd, Track};
 use crate::robot::{Branch, BranchPattern};
 
 /// Component of the deviation.
@@ -89,6 +89,27 @@ impl PostureSearch {
             axis.positions = axis.positions.halved();
         }
         self
+    }
+}
+
+/// The path that a search follows.
+#[derive(Clone, Copy, Debug)]
+pub struct SearchedPath<'a> {
+    /// The path under its load.
+    pub(super) loaded: LoadedTrack<'a>,
+    pub(super) stock: Option<&'a CutStock<'a>>,
+    /// Clearance of bodies of the tool that are round about its axis from the stock, m, where it is less than that of the others.
+    pub(super) least_of_round: Option<f64>,
+}
+
+impl<'a> SearchedPath<'a> {
+    /// A path under its load, with the stock that it cuts, if the demanded clearance is to be kept from it.
+    pub fn new(loaded: LoadedTrack<'a>, stock: Option<&'a CutStock<'a>>) -> SearchedPath<'a> {
+        SearchedPath {
+            loaded,
+            stock,
+            least_of_round: None,
+        }
     }
 }
 

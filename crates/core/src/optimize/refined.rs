@@ -10,7 +10,7 @@ use super::freedoms::LeanRange;
 use super::grid::AXES;
 use super::ground_spin::GroundSpin;
 use super::lattice::Lattice;
-use super::posture_search::{Objective, PostureFound, PostureSearch};
+use super::posture_search::{Objective, PostureFound, PostureSearch, SearchedPath};
 use super::reversals::reversals;
 use super::smooth::without_steps;
 use super::walk::{Cost, Seen, Walk};
@@ -36,13 +36,14 @@ const DRAWN: usize = 200;
 /// The best postures along `path` for `search`, in passes with smaller and smaller steps.
 pub(super) fn refined(
     question: &Question<'_>,
-    path: LoadedTrack<'_>,
+    path: SearchedPath<'_>,
     search: &PostureSearch,
     watch: Watch<'_>,
 ) -> Result<PostureFound, Cancelled> {
-    let all: Vec<usize> = (0..path.track.len()).collect();
-    let keys = key_points(path.track);
-    let forces = LeaningForces::of(path.load);
+    let LoadedTrack { track, load } = path.loaded;
+    let all: Vec<usize> = (0..track.len()).collect();
+    let keys = key_points(track);
+    let forces = LeaningForces::of(load);
     let mut window = Window::all(search);
     if !window.is_of_spins() && window.grid().len() * SLOTS * all.len() > MOST_STATES {
         window = coarse(search, keys.len());
@@ -57,9 +58,9 @@ pub(super) fn refined(
         let (chain, seen, _) = best_chain(&walk, search, quiet)?;
         let settings = walk.settings(&chain);
         if settings.iter().all(Option::is_none) {
-            return Ok(nothing(path.track, &seen));
+            return Ok(nothing(track, &seen));
         }
-        near = at_every_point(path.track, &keys, &settings);
+        near = at_every_point(track, &keys, &settings);
         window = window.halved(&near);
     }
     let last = |window: &Window, watch: Watch<'_>| {
@@ -125,19 +126,19 @@ struct Last<'a> {
     walk: Walk<'a>,
     window: &'a Window,
     question: &'a Question<'a>,
-    path: LoadedTrack<'a>,
+    path: SearchedPath<'a>,
     search: &'a PostureSearch,
 }
 
 impl Last<'_> {
     fn found(&self, watch: Watch<'_>) -> Result<PostureFound, Cancelled> {
-        let LoadedTrack { track, load } = self.path;
+        let LoadedTrack { track, load } = self.path.loaded;
         let (chain, seen, cost) = best_chain(&self.walk, self.search, watch)?;
-        let mut found = self.reported(chain, seen);
+        let mut found = self.reported(chain, seen, watch)?;
         if self.search.back_price > 0.0 && track.path.length() > 0.0 {
             let price = self.search.back_price / track.path.length();
             let (chain, seen) = self.walk.chain(cost, price * track.len() as f64, watch)?;
-            let other = self.reported(chain, seen);
+            let other = self.reported(chain, seen, watch)?;
             let total = |found: &PostureFound| -> Result<f64, Cancelled> {
                 let turned = found.turned(track);
                 let load = found.load(load);
@@ -156,13 +157,13 @@ impl Last<'_> {
         Ok(found)
     }
 
-    fn reported(&self, chain: Cheapest, seen: Seen) -> PostureFound {
+    fn reported(&self, chain: Cheapest, seen: Seen, watch: Watch<'_>) -> Result<PostureFound, Cancelled> {
         let settings = self.walk.settings(&chain);
         let smooth = |axis: usize| {
             let values: Vec<Option<f64>> = settings.iter().map(|setting| Some((*setting)?[axis])).collect();
             let period = (axis == 0).then_some(TAU);
             let step = (self.window.step(axis), period);
-            without_steps(&self.path.track.path, step, &values, &chain.breaks)
+            without_steps(&self.path.loaded.track.path, step, &values, &chain.breaks)
         };
         let branch = |state: &Option<usize>| {
             state
@@ -190,8 +191,8 @@ impl Last<'_> {
         let mut spins = smooth(0);
         if let Some(homes) = &homes {
             let track = match &leans {
-                Some((leans, end)) => &self.path.track.leaning(leans, *end),
-                None => self.path.track,
+                Some((leans, end)) => &self.path.loaded.track.leaning(leans, *end),
+                None => self.path.loaded.track,
             };
             let ground_spin = GroundSpin::of(robot, track, self.question.home);
             for (index, home) in homes.chunks(robot.joints().len()).enumerate() {
@@ -199,46 +200,57 @@ impl Last<'_> {
                 spins[index] += ground_spin.at(home, &axis);
             }
         }
-        PostureFound {
+        Ok(PostureFound {
             spins,
             leans,
             homes,
             branches: chain.states.iter().map(branch).collect(),
             reached: chain.cost / count as f64,
-            lattice: self.lattice(&chain, &seen, &settings),
+            lattice: self.lattice(&chain, &seen, &settings, watch)?,
             unreachable: seen.unreachable,
             breaks: chain.breaks,
-        }
+        })
     }
 
     /// The lattice of spins: that of the search, or with lean and external axes as they were chosen.
-    fn lattice(&self, chain: &Cheapest, seen: &Seen, settings: &[Option<Setting>]) -> Lattice {
+    fn lattice(
+        &self,
+        chain: &Cheapest,
+        seen: &Seen,
+        settings: &[Option<Setting>],
+        watch: Watch<'_>,
+    ) -> Result<Lattice, Cancelled> {
         if self.window.is_of_spins() {
-            return Lattice::of(&self.search.spins, &seen.kept, &chain.states);
+            return Ok(Lattice::of(&self.search.spins, &seen.kept, &chain.states));
         }
         let stride = settings.len().div_ceil(DRAWN).max(1);
         let spins = &self.search.spins;
         let mut states = vec![None; settings.len()];
         let mut kept = Vec::new();
         let mut maker = self.walk.maker();
+        let mut clear_of_stock = self.walk.clear_of_stock();
         let mut column = Column::default();
         for index in (0..settings.len()).step_by(stride) {
             let Some(setting) = settings[index] else { continue };
             let window = Window::of_spins_at(self.search, &setting);
             fill(
                 (&mut maker, self.walk.forces),
-                self.path,
+                self.path.loaded,
                 index,
                 (self.search, &window),
                 &mut column,
             );
+            if let Some(stock) = &mut clear_of_stock {
+                let spins = window.grid().spins();
+                stock.exclude(&[index], std::slice::from_mut(&mut column), spins, watch)?;
+            }
             let turn = (setting[0] - spins.first) / spins.step;
             let turns = spins.count as isize;
             let turn = (turn.round() as isize).rem_euclid(turns) as usize;
             states[index] = chain.states[index].map(|state| turn * SLOTS + state % SLOTS);
             kept.push((index, column.deviations.clone(), column.statuses.clone()));
         }
-        Lattice::of(spins, &kept, &states)
+        Ok(Lattice::of(spins, &kept, &states))
     }
 }
 

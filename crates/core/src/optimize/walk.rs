@@ -3,15 +3,16 @@
 use rayon::prelude::*;
 
 use super::chain::{Beginning, Chain, Cheapest, Together, Turns};
+use super::clear_of_stock::ClearOfStock;
 use super::column_at::{blocked_by, fill};
 use super::grid::{AXES, Shift, UNSHIFTED};
 use super::links::{Between, FAR, JointRate};
-use super::posture_search::PostureSearch;
+use super::posture_search::{PostureSearch, SearchedPath};
 use super::winding::WindingJoints;
 use super::window::{Setting, Window};
 use crate::kernel::{Column, Columns, PostureStatus, Question, SLOTS};
 use crate::load::LeaningForces;
-use crate::path::{LoadedTrack, Pace};
+use crate::path::Pace;
 use crate::watch::{Cancelled, Watch};
 
 /// Columns computed at once.
@@ -56,7 +57,7 @@ impl Cost {
 /// One pass along the path.
 pub(super) struct Walk<'a> {
     question: &'a Question<'a>,
-    path: LoadedTrack<'a>,
+    path: SearchedPath<'a>,
     /// Of its load with the tool leaning.
     pub(super) forces: &'a LeaningForces,
     search: &'a PostureSearch,
@@ -82,7 +83,7 @@ impl<'a> Walk<'a> {
     /// Along these points of the path, with the settings of this window.
     pub fn new(
         question: &'a Question<'a>,
-        (path, forces): (LoadedTrack<'a>, &'a LeaningForces),
+        (path, forces): (SearchedPath<'a>, &'a LeaningForces),
         search: &'a PostureSearch,
         (window, points): (&'a Window, &'a [usize]),
     ) -> Walk<'a> {
@@ -103,6 +104,15 @@ impl<'a> Walk<'a> {
     pub fn maker(&self) -> Columns<'a> {
         Columns::new(self.question.arm, self.question.home, self.search.wrist)
             .keeping_clear(self.question.clearance_check())
+    }
+
+    /// The postures that are near the stock, excluded in the order of the path; `None` without a stock or a demanded
+    /// clearance.
+    pub fn clear_of_stock(&self) -> Option<ClearOfStock<'a>> {
+        let demanded = self.question.clearance?;
+        let of_round = self.path.least_of_round.unwrap_or(demanded.least);
+        let stock = self.path.stock?;
+        Some(ClearOfStock::new(self.question, demanded, stock, of_round))
     }
 
     /// The best chain, with this price per reversal. Its states are those of the points with a column.
@@ -132,6 +142,7 @@ impl<'a> Walk<'a> {
         let stride = points.div_ceil(KEPT).max(1);
         let at_once = CHUNK.min(STATES_AT_ONCE / (grid.len() * SLOTS)).max(1);
         let mut columns: Vec<Column> = vec![Column::default(); at_once.min(points)];
+        let mut clear_of_stock = self.clear_of_stock();
         let mut before = Column::default();
         let mut costs = Vec::new();
         for first in (0..points).step_by(at_once) {
@@ -150,7 +161,7 @@ impl<'a> Walk<'a> {
                         let tried = (self.search, self.window);
                         fill(
                             (maker, self.forces),
-                            self.path,
+                            self.path.loaded,
                             self.points[first + i],
                             tried,
                             column,
@@ -158,6 +169,9 @@ impl<'a> Walk<'a> {
                         Ok(())
                     });
             filled?;
+            if let Some(stock) = &mut clear_of_stock {
+                stock.exclude(&self.points[first..][..chunk.len()], chunk, grid.spins(), watch)?;
+            }
             for i in 0..chunk.len() {
                 let index = first + i;
                 let (done, rest) = chunk.split_at(i);
@@ -197,7 +211,7 @@ impl<'a> Walk<'a> {
 
     /// How column number `index` starts.
     fn beginning(&self, index: usize) -> Beginning {
-        let path = &self.path.track.path;
+        let path = &self.path.loaded.track.path;
         if path.begins(self.points[index]) {
             return Beginning::Restart;
         }
@@ -234,7 +248,7 @@ impl<'a> Walk<'a> {
 
     /// The feed at column number `index`, m/s, where it is known.
     fn feed(&self, index: usize) -> Option<f64> {
-        match self.path.track.path.points[self.points[index]].pace {
+        match self.path.loaded.track.path.points[self.points[index]].pace {
             Pace::Feed(speed) if speed > 0.0 => Some(speed),
             _ => None,
         }
@@ -243,7 +257,7 @@ impl<'a> Walk<'a> {
     /// Time from the column before to column number `index`, s, where the feed is known.
     fn time(&self, index: usize) -> Option<f64> {
         let speed = self.feed(index)?;
-        let along = |column: usize| self.path.track.path.points[self.points[column]].along;
+        let along = |column: usize| self.path.loaded.track.path.points[self.points[column]].along;
         Some((along(index) - along(index.checked_sub(1)?)) / speed)
     }
 

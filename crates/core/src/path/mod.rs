@@ -50,6 +50,6 @@ pub use scallop::scallop;
 pub use shape::Shape;
 pub use spin_curve::{NoSpinCurve, SpinCurve, SpinKnot};
 pub use stock::{Stock, StockError};
-pub use stock_replay::StockReplay;
+pub use stock_replay::{CutStock, StockReplay};
 pub use thinned::{Thinning, thinned};
 pub use track::{LoadedStop, LoadedTrack, Parts, Stop, Track};

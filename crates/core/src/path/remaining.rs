@@ -20,6 +20,9 @@ use crate::load::EndMillBody;
 const SIDE: usize = 4;
 /// Squares whose bound is this close to the least distance found, m, are not opened: bounds have rounding.
 pub const ROUNDING: f64 = 1e-12;
+/// Where a distance is compared with a demanded one, squares up to this above it are opened, m: far above the rounding of
+/// bounds, so that the distances of columns alone decide.
+const SLACK: f64 = 1e-9;
 
 /// A stock that is cut, with its pyramid of greatest heights.
 #[derive(Clone, Debug)]
@@ -55,9 +58,24 @@ impl BodyNearStock {
         }
     }
 
+    /// Distance of a point from the axis of the capsule around it, m.
+    fn distance_of_axis(&self, point: &Point3<f64>) -> f64 {
+        (self.hull.axis.nearest_to_point(point) - point).norm()
+    }
+
     /// A lower bound of its distance from what is inside of a box, m; may be negative.
     fn bound_to(&self, around: &Bounds) -> f64 {
         self.hull.bound_to(around).max(self.bounds.distance(around))
+    }
+
+    /// Distance from what is inside of a box, m, if it is below `limit`.
+    fn distance(&self, other: &Bounds, limit: f64) -> Option<f64> {
+        if self.bound_to(other) >= limit {
+            return None;
+        }
+        let other = Shape::Box(*other).placed(&IsometryMatrix3::identity());
+        let found = self.placed.nearest(&other, limit)?;
+        (found.distance < limit).then_some(found.distance)
     }
 
     /// The nearest points of the body and a box, if they are nearer than `limit`, m.
@@ -83,6 +101,7 @@ pub struct NearestColumn {
 /// A square that is not opened yet.
 #[derive(Clone, Copy)]
 struct Open {
+    /// A lower bound of its distance, m; or what it is opened in the order of.
     bound: f64,
     /// Its level; cells are level 0.
     level: usize,
@@ -170,6 +189,68 @@ impl RemainingStock {
             let [x, y] = [0, 1].map(|k| at[k] * cells..((at[k] + 1) * cells).min(self.stock.cells()[k]));
             self.stock.column([x, y], height)
         })
+    }
+
+    /// The box around all that is left; `None` where nothing is.
+    pub fn extent(&self) -> Option<Bounds> {
+        self.bounds(self.levels.len(), [0, 0])
+    }
+
+    /// A cell whose column is nearer to a body than `least`, m, or touches it; `None` if there is none. The search begins
+    /// with the cell `likely`, which changes which cell is found, but not whether there is one.
+    pub fn conflict(
+        &self,
+        body: &BodyNearStock,
+        least: f64,
+        likely: Option<[usize; 2]>,
+    ) -> Option<[usize; 2]> {
+        let limit = least.max(0.0) + SLACK;
+        let conflicts = |cell: [usize; 2]| {
+            let column = self.bounds(0, cell)?;
+            let distance = body.distance(&column, limit)?;
+            (distance < least || distance == 0.0).then_some(cell)
+        };
+        if let Some(cell) = likely.and_then(conflicts) {
+            return Some(cell);
+        }
+        let mut open = vec![Open {
+            bound: 0.0,
+            level: self.levels.len(),
+            at: [0, 0],
+        }];
+        while let Some(Open { level, at, .. }) = open.pop() {
+            let Some(below) = level.checked_sub(1) else {
+                if let Some(cell) = conflicts(at) {
+                    return Some(cell);
+                }
+                continue;
+            };
+            // The square itself is measured when it is the next one: its own bound is less than that.
+            let is_near = |around: Bounds| body.distance(&around, limit).is_some();
+            if !self.bounds(level, at).is_some_and(is_near) {
+                continue;
+            }
+            let count = match below.checked_sub(1) {
+                None => self.stock.cells(),
+                Some(level) => self.levels[level].squares,
+            };
+            let first = open.len();
+            let [columns, rows] = [0, 1].map(|k| at[k] * SIDE..((at[k] + 1) * SIDE).min(count[k]));
+            for at in rows.flat_map(|y| columns.clone().map(move |x| [x, y])) {
+                if let Some(around) = self.bounds(below, at)
+                    && body.bound_to(&around) < limit
+                {
+                    let bound = body.distance_of_axis(&around.centre());
+                    open.push(Open {
+                        bound,
+                        level: below,
+                        at,
+                    });
+                }
+            }
+            open[first..].sort_by(|a, b| b.bound.total_cmp(&a.bound));
+        }
+        None
     }
 
     /// The nearest points of a body and the remaining material, if they are nearer than `limit`, m. The search begins with

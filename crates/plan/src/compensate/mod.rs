@@ -124,7 +124,7 @@ fn of_path<'a>(
         runner.watch,
     )?;
     // The tool cuts where the nominal path is, with the postures of the commanded one.
-    runner.keep_clear_of_stock(analysis, drawn, &mut found.along)?;
+    runner.keep_clear_of_stock(analysis, &mut found.along)?;
     let rewritten = in_place(runner, analysis, &followed, load, &found.track)?;
     let (in_place, mut notes) = match rewritten {
         None => (None, Vec::new()),

@@ -10,9 +10,10 @@
 use armill_core::clearance::Conflict;
 use armill_core::kernel::{PartPlacement, Question};
 use armill_core::load::PathLoad;
-use armill_core::map::along_postures;
+use armill_core::map::{along_postures, measure_stock_clearances};
 use armill_core::optimize::{
-    FreePath, Gain, PlacementEvaluation, PlacementObjective, PostureSearch, Score, on_part, postures_along,
+    FreePath, Gain, PlacementEvaluation, PlacementObjective, PostureSearch, Score, SearchedPath, on_part,
+    postures_in_stock,
 };
 use armill_core::path::LoadedTrack;
 use armill_core::robot::{Robot, Unreachable};
@@ -140,11 +141,13 @@ impl LeaningRequest<'_> {
         };
         let track = &analysis.track;
         let question = with_room(runner.question(setting));
+        let stock = runner.cut_stock(analysis)?;
         let leaning = LeaningSearch {
             free: FreePath {
                 question: &question,
                 path: LoadedTrack { track, load: &load },
                 search: &search,
+                stock: stock.as_ref(),
             },
             objective,
             sites,
@@ -361,11 +364,15 @@ pub(super) fn outcome(
     };
     let there = track.moved(placement.base_from_part, placement.spin);
     let search: &PostureSearch = free.search;
-    let path = LoadedTrack { track: &there, load };
-    let found = postures_along(&question, path, search, watch)?;
+    let stock = free.stock.map(|stock| stock.placed(&there.placing));
+    let path = SearchedPath::new(LoadedTrack { track: &there, load }, stock.as_ref());
+    let found = postures_in_stock(&question, path, search, watch)?;
     let turned = found.turned(&there);
     let choices = found.choices();
-    let along = along_postures(&question, &turned, load.clone(), choices.clone(), watch)?;
+    let mut along = along_postures(&question, &turned, load.clone(), choices.clone(), watch)?;
+    if let Some(stock) = &stock {
+        measure_stock_clearances(&question, stock, &mut along, watch)?;
+    }
     let is_lost = |index: usize| {
         let by_search = found.unreachable.binary_search_by_key(&index, |(lost, _)| *lost);
         along.answers.points[index].is_err() || by_search.is_ok()

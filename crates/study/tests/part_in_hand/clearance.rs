@@ -4,8 +4,11 @@ use std::fs;
 use std::path::Path;
 
 use armill_core::clearance::CellState;
+use armill_core::watch::Watch;
+use armill_study::answer::answer;
 use armill_study::file::resolve::read;
 use armill_study::pose::first_setting;
+use armill_study::run::run;
 
 use crate::{answered, hand, problems};
 
@@ -251,4 +254,68 @@ fn a_part_that_the_wrist_is_inside_of_in_every_posture_is_refused() {
             && found.contains("study.toml:14:"),
         "{found}"
     );
+}
+
+/// A groove along the edge of a block in the hand, 30 mm deep, and what is left of the block when it is cut.
+fn groove(least_mm: f64, bodies: &str, spin_deg: i32, posture: &str) -> armill_study::answer::PathAnswer {
+    const GROOVE: &str = "G21 G90 G17\nS9000 M3\nG0 X38 Y-60 Z10\nG0 Z-30\nG1 Y60 F600\nG0 Z10\nM2\n";
+    const CUT: &str = r#"
+[cut]
+material = "aluminium-6082-t6"
+cutter = { diameter_mm = 20, flutes = 2 }
+axial_depth_mm = 1
+radial_depth_mm = 3
+side = "down"
+feed_mm_per_min = 600
+spindle_rpm = 9000
+stock = { from_mm = [-40, -40, -60], to_mm = [40, 40, 0] }
+"#;
+    let study = hand("[0, 0, 250]", "");
+    let least = format!("tolerance_um = 200\nleast_clearance_mm = {least_mm}");
+    let study = study.replace("tolerance_um = 200", &least);
+    let (before, _) = study.split_once("[load]").unwrap();
+    let analysis = format!(
+        "[[analysis]]\nkind = \"path\"\nname = \"groove\"\n{posture}[analysis.program]\nfile = \"groove.ngc\"\nspin_deg = {spin_deg}\n"
+    );
+    let text = format!("{before}{BODIES}{bodies}{CUT}{analysis}");
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("groove.ngc"), GROOVE).unwrap();
+    let study = read("study.toml", folder.path(), text.as_bytes()).unwrap_or_else(|error| panic!("{error}"));
+    let answer = answer(&study, &run(&study, Watch::NONE).unwrap());
+    answer.paths[0].clone()
+}
+
+#[test]
+fn a_tool_that_stands_keeps_its_clearance_from_the_stock_in_the_hand() {
+    // The spindle begins 80 mm behind the tip, which is 30 mm deep: 50 mm above the top of the block.
+    let free = groove(45.0, "", 0, "");
+    assert_eq!(free.nearest.clone().unwrap().join(" and "), "spindle and stock");
+    assert_eq!((free.in_collision, free.unreachable), (0, 0));
+    assert!(
+        (free.least_clearance_mm.unwrap() - 50.0).abs() < 1e-3,
+        "{:?}",
+        free.least_clearance_mm
+    );
+    let near = groove(55.0, "", 0, "");
+    assert!(near.in_collision > 80, "{}", near.in_collision);
+    let missing = |path: &armill_study::answer::PathAnswer| {
+        let values = path.obstacles.iter().filter(|found| found.kind == "collision");
+        values.map(|found| found.value.unwrap()).fold(0.0, f64::max)
+    };
+    assert!((missing(&near) - 5.0).abs() < 1e-3, "{}", missing(&near));
+}
+
+#[test]
+fn a_search_turns_the_stock_in_the_hand_away_from_a_tool_that_is_not_round() {
+    // A nozzle next to the cutter, 30 mm from its axis, that ends 20 mm behind the tip: 10 mm below the top of the block.
+    const NOZZLE: &str = "[[tool.body]]\nname = \"nozzle\"\ncylinder_mm = { from = [30, 0, 120], to = [30, 0, 180], diameter = 10 }\n";
+    let fixed = [0, 180].map(|spin| groove(2.0, NOZZLE, spin, ""));
+    let lost = fixed.map(|path| path.in_collision);
+    assert!(lost[0].max(lost[1]) > 50, "{lost:?}");
+    for spin in [0, 180] {
+        let search = "posture.search = { step_deg = 15, turns_deg = [-180, 180] }\n";
+        let found = groove(2.0, NOZZLE, spin, search);
+        assert_eq!((found.in_collision, found.unreachable), (0, 0));
+        assert!(found.least_clearance_mm.unwrap() >= 2.0);
+    }
 }

@@ -112,3 +112,66 @@ fn the_holder_keeps_the_clearance_from_the_stock_that_is_left() {
         "{shank:?}"
     );
 }
+
+/// Half in the edge of a block, 6 mm deep: a wall remains next to the cutter on one side, on the other there is air.
+const EDGE: &str = "G21 G90 G17\nS9000 M3\nG0 X38 Y-60 Z10\nG0 Z-6\nG1 Y60 F600\nG0 Z10\nM2\n";
+
+/// The path along the edge with these bodies of the tool, a spin from `spin_deg` on and this search; 1 mm is demanded.
+fn along_the_edge(bodies: &str, spin_deg: f64, search: &str) -> armill_study::answer::PathAnswer {
+    const POSTURE: &str = "posture = { branch = \"front elbow-up no-flip\" }\n";
+    const TOOL: &str = "tool = { flange_from_tool_mm_deg = [0, 0, 150, 0, 0, 0] }\n";
+    let cell = CELL
+        .replace(TOOL, "least_clearance_mm = 1\n")
+        .replace(POSTURE, "");
+    let rest = format!(
+        "[posture]\nbranch = \"front elbow-up no-flip\"\n{search}\n[tool]\nflange_from_tool_mm_deg = [0, 0, 150, 0, 0, 0]\n{bodies}"
+    );
+    let program = format!("file = \"edge.ngc\"\nspin_deg = {spin_deg}");
+    let study = format!("{cell}{CUT}{STOCK}\n{rest}{}", analysis(&program));
+    reported(&study, &[("edge.ngc", EDGE)]).unwrap().paths[0].clone()
+}
+
+#[test]
+fn a_search_finds_spins_at_which_the_arm_is_clear_of_the_stock_where_the_programmed_spin_is_not() {
+    // A nozzle next to the cutter, 20 mm from its axis, which ends 3 mm above the tip: 3 mm below the top of the block.
+    const NOZZLE: &str = "[[tool.body]]\nname = \"nozzle\"\ncylinder_mm = { from = [20, 0, 100], to = [20, 0, 147], diameter = 5 }\n";
+    let [fixed, searched] = ["", "search = { step_deg = 15 }"].map(|search| {
+        let spins = [0.0, 90.0, 180.0, 270.0];
+        spins.map(|spin| along_the_edge(NOZZLE, spin, search))
+    });
+    // At one of the spins the nozzle is over the block all along, at the opposite one it is not.
+    let lost = fixed.each_ref().map(|path| path.in_collision);
+    let worst = (0..4).max_by_key(|spin| lost[*spin]).unwrap();
+    assert!(lost[worst] > 50 && lost[(worst + 2) % 4] == 0, "{lost:?}");
+    for (fixed, searched) in fixed.iter().zip(&searched) {
+        assert_eq!((searched.in_collision, searched.unreachable), (0, 0));
+        assert!(searched.least_clearance_mm.unwrap() >= 1.0);
+        let search = searched.search.as_ref().unwrap();
+        assert!(search.unreachable_stretches.is_empty() && search.breaks.is_empty());
+        assert!(search.applied || fixed.in_collision == 0);
+        // The cut is the same in every posture.
+        let cut = |path: &armill_study::answer::PathAnswer| path.cut.clone().unwrap();
+        let (before, after) = (cut(fixed), cut(searched));
+        assert_eq!(before.largest_mean_n, after.largest_mean_n);
+        assert_eq!(
+            before.stock.unwrap().removed_mm3,
+            after.stock.unwrap().removed_mm3
+        );
+    }
+}
+
+#[test]
+fn where_every_spin_is_in_the_stock_the_body_and_what_is_missing_are_reported() {
+    // A holder that is round about the axis, 20 mm wide, half a millimetre above the top of the block.
+    const HOLDER: &str = "[[tool.body]]\nname = \"holder\"\ncylinder_mm = { from = [0, 0, 100], to = [0, 0, 143.5], diameter = 20 }\n";
+    let path = along_the_edge(HOLDER, 0.0, "search = {}");
+    let search = path.search.as_ref().unwrap();
+    assert_eq!(search.unreachable_stretches[0].reason, "in_collision");
+    assert_eq!(path.nearest.clone().unwrap().join(" and "), "holder and stock");
+    let obstacle = |kind: &str| path.obstacles.iter().find(|found| found.kind == kind);
+    let missing = obstacle("collision").unwrap().value.unwrap();
+    // The first point without a posture is where the edge of the holder comes within a millimetre of the block.
+    assert!(missing > 0.0 && missing <= 0.5 + 1e-4, "{missing}");
+    assert!((path.least_clearance_mm.unwrap() - 0.5).abs() < 1e-4);
+    assert!(path.in_collision > 80, "{}", path.in_collision);
+}

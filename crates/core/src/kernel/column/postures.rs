@@ -1,8 +1,10 @@
 //! A column: every posture of some poses, and whether each can be used.
 
-use crate::clearance::ClearanceCheck;
+use std::ops::Range;
+
 use nalgebra::Vector3;
 
+use crate::clearance::ClearanceCheck;
 use crate::robot::Robot;
 use crate::spatial::Wrench;
 
@@ -120,6 +122,21 @@ impl Column {
         for slot in 0..self.statuses.len() {
             let usable = self.statuses[slot] == PostureStatus::Usable;
             if usable && clearance.conflict(self.joints_of(slot, joint_count)).is_some() {
+                self.set_in_collision(slot..slot + 1);
+            }
+        }
+    }
+
+    /// The first usable posture of these slots.
+    pub(crate) fn first_usable(&self, slots: Range<usize>) -> Option<usize> {
+        let mut slots = slots;
+        slots.find(|slot| self.statuses[*slot] == PostureStatus::Usable)
+    }
+
+    /// Excludes the usable postures of these slots: two bodies are nearer than demanded.
+    pub(crate) fn set_in_collision(&mut self, slots: Range<usize>) {
+        for slot in slots {
+            if self.statuses[slot] == PostureStatus::Usable {
                 self.statuses[slot] = PostureStatus::InCollision;
                 self.deviations[slot] = f64::INFINITY;
             }

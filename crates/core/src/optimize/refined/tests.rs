@@ -258,7 +258,12 @@ fn refinement_comes_near_the_whole_lattice() {
     let all: Vec<usize> = (0..track.len()).collect();
     let best = |window: &Window| {
         let forces = LeaningForces::of(loaded.load);
-        let walk = Walk::new(&question, (loaded, &forces), &wide, (window, &all));
+        let walk = Walk::new(
+            &question,
+            (SearchedPath::new(loaded, None), &forces),
+            &wide,
+            (window, &all),
+        );
         let (chain, _, cost) = best_chain(&walk, &wide, Watch::NONE).unwrap();
         let Cost::Within(worst) = cost else { unreachable!() };
         (worst, walk.settings(&chain))

@@ -142,6 +142,21 @@ fn the_nearest_column_is_that_of_all_columns_for_bodies_of_every_shape() {
                 let found = found.map_or(f64::INFINITY, |found| found.nearest.distance);
                 assert!((found - all).abs() <= ROUNDING, "{shape:?}: {found:e} {all:e}");
             }
+            // Columns nearer than demanded: those of all columns decide, from any first column.
+            let beyond = if all.is_finite() { all } else { MM };
+            for least in [
+                0.0,
+                0.5 * beyond,
+                beyond * (1.0 - 1e-9),
+                beyond * (1.0 + 1e-9),
+                2.0 * beyond,
+            ] {
+                for likely in [None, Some([0, 0]), Some([20, 15])] {
+                    let found = remaining.conflict(&body, least, likely);
+                    let is_expected = all < least || all == 0.0;
+                    assert_eq!(found.is_some(), is_expected, "{shape:?}: {least:e} {all:e}");
+                }
+            }
             let none = remaining.nearest(&body, all, None);
             assert!(none.is_none_or(|found| found.nearest.distance >= all - ROUNDING));
             (apart, touching) = match all > 0.0 {

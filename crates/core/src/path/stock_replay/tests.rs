@@ -3,7 +3,7 @@ use nalgebra::{Point3, Unit, Vector3};
 use super::*;
 use crate::frame::Isometry;
 use crate::load::{Cutter, CuttingLaw, GreatestForce, Immersion, Mechanistic};
-use crate::path::{Pace, PathPoint, Spin};
+use crate::path::{Operation, Pace, PathPoint, Spin};
 use crate::watch::Watch;
 
 const MM: f64 = 1e-3;
@@ -62,9 +62,11 @@ fn stock() -> Stock {
 /// The heights after each point.
 fn replayed(path: &SampledPath) -> Vec<Vec<f32>> {
     let (cutting, placing) = (cutting(), placing());
-    let mut replay = StockReplay::new(&cutting, (path, &placing), stock());
+    let uncut = stock();
+    let cut = CutStock::new(&cutting, (path, &placing), &uncut).unwrap();
+    let mut replay = cut.replay();
     let mut all = Vec::new();
-    while let Some(remaining) = replay.next_point().unwrap() {
+    while let Some(remaining) = replay.next_point() {
         all.push(remaining.stock().heights().to_vec());
     }
     all
@@ -98,4 +100,21 @@ fn the_stock_at_each_point_is_that_of_the_engagement_up_to_it() {
 fn what_a_tilted_tool_cuts_remains() {
     let found = replayed(&path(&[-15.0, -10.0, -4.0], Vector3::new(0.1, 0.0, 1.0)));
     assert!(found.iter().all(|heights| heights == stock().heights()));
+}
+
+#[test]
+fn points_may_be_left_out_but_the_stock_is_cut_at_all_of_them() {
+    let whole = path(&[-15.0, -10.0, -4.0, -4.0, 3.0, 9.0], Vector3::z());
+    let found = replayed(&whole);
+    let (cutting, placing, uncut) = (cutting(), placing(), stock());
+    let cut = CutStock::new(&cutting, (&whole, &placing), &uncut).unwrap();
+    let mut replay = cut.replay();
+    for index in [1, 1, 4, 5] {
+        assert_eq!(
+            replay.at_point(index).unwrap().stock().heights(),
+            found[index],
+            "{index}"
+        );
+    }
+    assert!(replay.at_point(6).is_none() && replay.next_point().is_none());
 }

@@ -40,7 +40,7 @@ impl Runner<'_> {
             let slower = PathLoad::Cuts(cuts.at_feeds(&factors));
             let question = self.question(&analysis.setting);
             *along = along_postures(&question, track, slower, along.choices.clone(), self.watch)?;
-            self.keep_clear_of_stock(analysis, track, along)?;
+            self.keep_clear_of_stock(analysis, along)?;
         }
         along.add_motion(track, &motion);
         Ok(Some(motion))

@@ -1,6 +1,6 @@
 //! A path with the core: its load, the postures along it, and all that follows from them.
 //!
-//! `along_path` or `postures_along`, then `worst_points`, `radial_deviations`, `program_limits` of the core.
+//! `along_path` or `postures_in_stock`, then `worst_points`, `radial_deviations`, `program_limits` of the core.
 
 use armill_core::frame::Isometry;
 use armill_core::kernel::{Answers, OnPath, evaluate_posture};
@@ -12,9 +12,9 @@ use armill_core::map::{
 use armill_core::motion::Motion;
 use armill_core::nalgebra::{Point3, Translation3, UnitQuaternion};
 use armill_core::optimize::{
-    FollowedTrack, Gain, Objective, PostureFound, PostureSearch, gain_along, postures_along,
+    FollowedTrack, Gain, Objective, PostureFound, PostureSearch, SearchedPath, gain_along, postures_in_stock,
 };
-use armill_core::path::{ForceSummary, LoadedTrack, NoForces, Shape, Stock, Track};
+use armill_core::path::{CutStock, ForceSummary, LoadedTrack, NoForces, Shape, Stock, Track};
 use armill_core::spatial::Wrench;
 use armill_core::units::to_mm;
 use armill_core::watch::Cancelled;
@@ -206,7 +206,7 @@ impl Runner<'_> {
         let question = self.question(&analysis.setting);
         let track = &analysis.track;
         let mut nominal = along_path(&question, track, load.clone(), self.watch)?;
-        self.keep_clear_of_stock(analysis, track, &mut nominal)?;
+        self.keep_clear_of_stock(analysis, &mut nominal)?;
         let Some(search) = &analysis.setting.search else {
             return Ok(Followed {
                 turned: None,
@@ -221,7 +221,7 @@ impl Runner<'_> {
             load: leaning,
             along: mut found,
         } = self.search(analysis, &load, search)?;
-        self.keep_clear_of_stock(analysis, &turned, &mut found)?;
+        self.keep_clear_of_stock(analysis, &mut found)?;
         let ways = [(track, &load, &nominal), (&turned, &leaning, &found)];
         let followed = ways.map(|(track, load, along)| FollowedTrack {
             path: LoadedTrack { track, load },
@@ -262,20 +262,30 @@ impl Runner<'_> {
     pub fn keep_clear_of_stock(
         &self,
         analysis: &PathAnalysis,
-        track: &Track,
         along: &mut AlongPath,
     ) -> Result<(), StudyError> {
-        // A stock in the hand of the robot is not measured.
-        let in_hand = self.robot.chain().ground().part_is_in_hand();
-        let Some((cut, stock)) = analysis.cut_in_stock().filter(|_| !in_hand) else {
+        let Some(stock) = self.cut_stock(analysis)? else {
             return Ok(());
         };
         let question = self.question(&analysis.setting);
-        let measured = measure_stock_clearances(&question, track, (&cut.cutting, stock), along, self.watch);
-        measured.map_err(|error| no_forces(analysis, &error))
+        Ok(measure_stock_clearances(&question, &stock, along, self.watch)?)
     }
 
-    /// The spins and branches that `search` finds along the path under this load, and the path with them.
+    /// The stock that the path cuts, if a clearance from it is demanded.
+    ///
+    /// # Errors
+    /// A tool of the program that is not possible.
+    pub fn cut_stock<'a>(&self, analysis: &'a PathAnalysis) -> Result<Option<CutStock<'a>>, StudyError> {
+        let is_demanded = analysis.setting.cell.is_some();
+        let Some((cut, stock)) = analysis.cut_in_stock().filter(|_| is_demanded) else {
+            return Ok(None);
+        };
+        let Track { path, placing, .. } = &analysis.track;
+        let cut_stock = CutStock::new(&cut.cutting, (path, placing), stock);
+        cut_stock.map(Some).map_err(|error| no_forces(analysis, &error))
+    }
+
+    /// The spins and branches that `search` finds along the path under this load, clear of its stock, and the path with them.
     pub fn search(
         &self,
         analysis: &PathAnalysis,
@@ -284,7 +294,9 @@ impl Runner<'_> {
     ) -> Result<FoundSpins, StudyError> {
         let question = self.question(&analysis.setting);
         let track = &analysis.track;
-        let posture = postures_along(&question, LoadedTrack { track, load }, search, self.watch)?;
+        let stock = self.cut_stock(analysis)?;
+        let path = SearchedPath::new(LoadedTrack { track, load }, stock.as_ref());
+        let posture = postures_in_stock(&question, path, search, self.watch)?;
         let turned = posture.turned(track);
         let load = posture.load(load);
         let along = along_postures(&question, &turned, load.clone(), posture.choices(), self.watch)?;

@@ -265,6 +265,7 @@ fn the_quick_score_of_spins_is_that_of_the_best_clear_posture_of_each_point() {
         question: &question,
         path,
         search: &search,
+        stock: None,
     };
     let quick = free.quick_scores(&places, &all, Watch::NONE).unwrap();
     let on_part = on_part(path, Component::InPlane, &all);
