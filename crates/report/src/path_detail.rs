@@ -43,7 +43,8 @@ impl PathDetail {
         let [x, y] = self.centre_mm;
         let half = self.half_size_mm;
         let has_points = self.lines.iter().any(|line| line.points_mm.iter().any(is_finite));
-        if !has_points || !is_finite(&[x, y]) || !(half.is_finite() && half > 0.0) {
+        let has_size = is_finite(&[x, y]) && half.is_finite() && half > 0.0;
+        if !has_points || !has_size {
             return heading.notice("There is nothing to draw: the path has no points here.");
         }
         let window = Window {
