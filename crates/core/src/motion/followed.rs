@@ -115,7 +115,7 @@ mod tests {
         let found = followed(&[way, way], &model(0.04, 0.0), 1e-3, 0.1);
         // 0.5 / 0.5 + 0.5 / 4 + 0.04, twice.
         assert!((found.duration - 2.0 * 1.165).abs() < 1e-6, "{}", found.duration);
-        let middle = found.times.iter().position(|time| *time >= 0.58).unwrap();
+        let middle = found.times.iter().position(|time| *time >= 0.5825).unwrap();
         assert!(
             (found.positions[2 * middle] - 0.25).abs() < 1e-3,
             "half way after half of the time"
