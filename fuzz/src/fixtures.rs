@@ -325,6 +325,7 @@ pub fn traces() -> Vec<Vec<u8>> {
     seeds(&[
         "x_mm,y_mm,z_mm\n0,0,0\n10,0,0\n20,0,1\n30,0,1\n",
         "# tracker\nrun;x_um;y_m;z_in;time\nA;1,5;0;0;1\nA;2e4;0;0;2\nB;1;0;0;1\nB;3e4;0,001;0;2\n",
+        "// SpatialAnalyzer SA 2024.2 ( x64 )\n// AXES = CARTESIAN: X,  Y,  Z (mm)\nPath,  P1,  0,  1.5,  -2,  3,  02/12/25 16:52:45\nPath,  P1,  1,  2,  -2,  3\n",
     ])
 }
 

@@ -3,7 +3,7 @@
 //! [`identify`] determines joint compliances from load tests, [`calibrate`] the geometry from measured poses,
 //! [`backlash`] the backlash of the joints from circular tests. [`ballbar`] evaluates circular tests, [`roundness`]
 //! round profiles, [`forces`] records of a dynamometer, [`pose_accuracy`] and [`path_accuracy`] measured poses and
-//! paths, [`motion`] joint logs. [`data_check`] searches slips in the data of each: signs, order of columns, zeros, units.
+//! paths ([`path_repeatability`]: paths of which nothing is commanded), [`motion`] joint logs. [`data_check`] searches slips in the data of each: signs, order of columns, zeros, units.
 
 pub mod backlash;
 pub mod ballbar;
@@ -13,5 +13,6 @@ pub mod forces;
 pub mod identify;
 pub mod motion;
 pub mod path_accuracy;
+pub mod path_repeatability;
 pub mod pose_accuracy;
 pub mod roundness;

@@ -13,16 +13,17 @@ runs in one file. Guide: docs/guide/calibrate.md
 
 Examples:
   armill path-accuracy tracker.csv --commanded path.csv
+  armill path-accuracy tracker.txt
   armill path-accuracy run1.csv run2.csv run3.csv --commanded path.csv --points points.csv --drawing path.svg")]
 pub(crate) struct PathAccuracyArguments {
-    /// Measured runs (CSV)
+    /// Measured runs (CSV, or an export of SpatialAnalyzer)
     #[arg(required = true)]
     pub files: Vec<PathBuf>,
-    /// The commanded path (CSV)
+    /// The commanded path (CSV); without it the repeatability of the measured passes is evaluated
     #[arg(long, value_name = "FILE")]
-    pub commanded: PathBuf,
+    pub commanded: Option<PathBuf>,
     /// Write the results at every commanded point to this file (CSV)
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", requires = "commanded")]
     pub points: Option<PathBuf>,
     /// Write a drawing of accuracy and repeatability along the path to this file (.svg, .png)
     #[arg(long, value_name = "FILE")]

@@ -158,3 +158,115 @@ fn invalid_input_is_reported() {
     }
     assert!(!at.join("p.csv").exists());
 }
+
+#[test]
+fn a_record_of_a_tracker_has_three_passes_in_each_direction() {
+    let Some(samples) = std::env::var_os("ARMILL_SAMPLES") else {
+        println!("skipped: ARMILL_SAMPLES is not set");
+        return;
+    };
+    let record = Path::new(&samples).join("datasets/ur-path-tracker/Trajektoriezw1u2_vel50.txt");
+    let (code, out, err) = armill(
+        Path::new("."),
+        &["path-accuracy", record.to_str().unwrap(), "--json"],
+    );
+    assert_eq!(code, 0, "{err}");
+    let found: Value = serde_json::from_str(&out).unwrap();
+    for direction in found["directions"].as_array().unwrap() {
+        assert_eq!(direction["cycles"], 3, "{found}");
+        // Summed from the points by an independent script: 348.6 mm.
+        assert!(
+            (direction["length_mm"].as_f64().unwrap() - 348.6).abs() < 0.3,
+            "{found}"
+        );
+        let mean = direction["rt_mean_mm"].as_f64().unwrap();
+        assert!(mean > 0.005 && mean < 0.03, "{found}");
+    }
+    // The same script: passes back are 0.035 mm from the first one forth on average.
+    assert!(
+        (found["apart"]["mean_mm"].as_f64().unwrap() - 0.035).abs() < 0.005,
+        "{found}"
+    );
+}
+
+/// Forth and back along 300 mm twice, the way back 0.04 mm aside, as SpatialAnalyzer exports it.
+fn export(apart_mm: f64) -> String {
+    let mut text = "// SpatialAnalyzer SA 2024.2 ( x64 )\n// AXES = CARTESIAN: X,  Y,  Z (mm)\n".to_owned();
+    let mut count = 0;
+    let mut take = |x: f64, y: f64| {
+        let _ = writeln!(
+            text,
+            "Path,  P1,  {count},  {x:.6},  {y:.6},  50.000000,  02/12/25 16:52:45"
+        );
+        count += 1;
+    };
+    for turn in 0..4 {
+        let forth = turn % 2 == 0;
+        (0..200).for_each(|_| take(if forth { 0.0 } else { 300.0 }, 0.0));
+        for k in 1..1500 {
+            let way = f64::from(k) * 0.2;
+            let y = if forth {
+                0.01 * f64::from(turn / 2)
+            } else {
+                apart_mm
+            };
+            take(if forth { way } else { 300.0 - way }, y);
+        }
+    }
+    (0..200).for_each(|_| take(0.0, 0.0));
+    text
+}
+
+#[test]
+fn passes_without_a_commanded_path_are_compared_with_each_other_and_with_the_other_direction() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    std::fs::write(at.join("tracker.txt"), export(0.04)).unwrap();
+    let (code, out, err) = armill(
+        at,
+        &["path-accuracy", "tracker.txt", "--json", "--drawing", "rt.svg"],
+    );
+    assert_eq!(code, 0, "{err}");
+    let found: Value = serde_json::from_str(&out).unwrap();
+    let [forth, back] = found["directions"].as_array().unwrap().as_slice() else {
+        panic!("{found}")
+    };
+    assert_eq!(
+        (&forth["direction"], &forth["cycles"]),
+        (&"forth".into(), &2.into())
+    );
+    assert_eq!((&back["direction"], &back["cycles"]), (&"back".into(), &2.into()));
+    // Two passes 0.01 mm apart: 0.005 mm from their mean, without scatter; those back are alike.
+    number(&forth["rt_mm"], 0.005);
+    number(&back["rt_mm"], 0.0);
+    // The mean path forth is at 0.005 mm.
+    number(&found["apart"]["largest_mm"], 0.035);
+    assert!(
+        std::fs::read_to_string(at.join("rt.svg"))
+            .unwrap()
+            .contains("mean paths forth and back")
+    );
+    let (_, text, _) = armill(at, &["path-accuracy", "tracker.txt"]);
+    assert!(
+        text.contains("forth  2 passes") && text.contains("accuracy (AT) is not known"),
+        "{text}"
+    );
+    // Results at commanded points need some.
+    let (code, _, err) = armill(at, &["path-accuracy", "tracker.txt", "--points", "p.csv"]);
+    assert!(code == 2 && err.contains("--commanded"), "{err}");
+    // An export is read as measured runs too.
+    std::fs::write(
+        at.join("line.csv"),
+        "x_mm,y_mm,z_mm\n50,0,50\n100,0,50\n150,0,50\n",
+    )
+    .unwrap();
+    let (code, _, err) = armill(at, &["path-accuracy", "tracker.txt", "--commanded", "line.csv"]);
+    assert_eq!(code, 0, "{err}");
+    std::fs::write(
+        at.join("short.txt"),
+        "// AXES = CARTESIAN: X, Y, Z (mm)\na, b, 0, 1, 2, 3\n",
+    )
+    .unwrap();
+    let (code, _, err) = armill(at, &["path-accuracy", "short.txt"]);
+    assert!(code == 2 && err.contains("no pass of 1 mm or more"), "{err}");
+}

@@ -1,8 +1,9 @@
 //! Evaluation of measurements of the path, unloaded or under load.
 //!
 //! In reading order: [`ballbar`] (circular tests: the radius along a circle, both ways round),
-//! [`pose_accuracy`] (accuracy and repeatability of poses), [`path_accuracy`] (the same of a path).
+//! [`pose_accuracy`] (accuracy and repeatability of poses), [`path_accuracy`] (the same of a path), [`passes`] (a record of several passes, divided at rests).
 
 pub mod ballbar;
+pub mod passes;
 pub mod path_accuracy;
 pub mod pose_accuracy;

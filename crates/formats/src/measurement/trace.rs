@@ -9,10 +9,14 @@
 //! Cells are separated by `;`, tab or `,`. With `;` or tab, decimal commas are read too. Lines that begin with `#` and
 //! empty lines are ignored. All lengths are returned in m.
 //!
+//! A file that begins with `//` is an export of SpatialAnalyzer (`spatial_analyzer`).
+//!
 //! ```text
 //! run,x_mm,y_mm,z_mm              x_mm;y_mm;z_mm
 //! 1,0.012,-0.003,0.001            12,5013;-3,2;100
 //! ```
+
+mod spatial_analyzer;
 
 use std::io::BufRead;
 
@@ -67,6 +71,9 @@ pub fn read(path: &str, reader: impl BufRead) -> Result<Traces, Problems> {
     let Some(first) = lines.next_row()? else {
         return Err(Problem::of_file(path, "the file has no points", HINT).into());
     };
+    if spatial_analyzer::is_export(&first) {
+        return spatial_analyzer::read(path, first, lines);
+    }
     let mut found = Traces::default();
     let table = Table::of(path, &first, &mut found.unused)?;
     let (mut problems, mut count) = (Vec::new(), 0);

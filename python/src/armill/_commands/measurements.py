@@ -156,7 +156,7 @@ def pose_accuracy(
 @command
 def path_accuracy(
     *files: TableLike,
-    commanded: TableLike,
+    commanded: TableLike | None = None,
     points: Path | None = None,
     drawing: Path | None = None,
     force: bool = False,
