@@ -416,7 +416,6 @@ source = "a paper"
 at_most_um = 100
 of = ["plate", "circle"]
 "#;
-
 const EVERY_PROGRAM: &str = r#"format = 1
 robot = "yaskawa/mh12"
 tolerance_um = 60

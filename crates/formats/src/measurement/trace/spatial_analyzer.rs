@@ -21,7 +21,7 @@ use std::io::BufRead;
 use armill_core::nalgebra::Vector3;
 
 use super::super::profile::LengthUnit;
-use super::{FARTHEST, MOST_POINTS, Traces};
+use super::runs::{FARTHEST, MOST_POINTS, Traces};
 use crate::document::lines::{Line, Lines};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
 use crate::table::sheet::{cells, number};

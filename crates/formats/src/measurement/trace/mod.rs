@@ -9,49 +9,29 @@
 //! Cells are separated by `;`, tab or `,`. With `;` or tab, decimal commas are read too. Lines that begin with `#` and
 //! empty lines are ignored. All lengths are returned in m.
 //!
-//! A file that begins with `//` is an export of SpatialAnalyzer (`spatial_analyzer`).
+//! A file that begins with `//` is an export of SpatialAnalyzer (`spatial_analyzer`). `runs`: the points of each run.
 //!
 //! ```text
 //! run,x_mm,y_mm,z_mm              x_mm;y_mm;z_mm
 //! 1,0.012,-0.003,0.001            12,5013;-3,2;100
 //! ```
 
+mod runs;
 mod spatial_analyzer;
 
 use std::io::BufRead;
 
 use armill_core::nalgebra::Vector3;
 
+use runs::{FARTHEST, MOST_POINTS};
+pub use runs::{Trace, Traces};
+
 use super::profile::LengthUnit;
 use crate::document::lines::{Line, Lines};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
 use crate::table::sheet::{is_blank_row, named_columns, number, row_cells, separator_of};
 
-/// Maximum length that a tracker measures, m.
-const FARTHEST: f64 = 1e4;
-/// Maximum number of points.
-const MOST_POINTS: usize = 5_000_000;
 const HINT: &str = "use one row per point, `x_mm,y_mm,z_mm`, and `run` if the file has several runs";
-
-/// Points of one run, in order.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Trace {
-    /// Its name; empty if the file has no names.
-    pub run: String,
-    /// m
-    pub points: Vec<Vector3<f64>>,
-    /// Line of each point, from 1.
-    pub lines: Vec<usize>,
-}
-
-/// Content of a file of traces.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Traces {
-    /// In the order in which they begin in the file; each has at least one point.
-    pub runs: Vec<Trace>,
-    /// Ignored columns.
-    pub unused: Vec<String>,
-}
 
 /// Meaning of a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -108,22 +88,6 @@ pub fn read(path: &str, reader: impl BufRead) -> Result<Traces, Problems> {
     match found.runs.is_empty() {
         true => Err(Problem::of_file(path, "the file has no points", HINT).into()),
         false => Ok(found),
-    }
-}
-
-impl Traces {
-    fn take(&mut self, run: String, point: Vector3<f64>, line: usize) {
-        // Points of one run usually follow each other.
-        let place = self.runs.iter().rposition(|trace| trace.run == run);
-        let place = place.unwrap_or_else(|| {
-            self.runs.push(Trace {
-                run,
-                ..Trace::default()
-            });
-            self.runs.len() - 1
-        });
-        self.runs[place].points.push(point);
-        self.runs[place].lines.push(line);
     }
 }
 
