@@ -5,7 +5,7 @@
 //! Read [`predict`] first: it is the main idea in one function. Then, in the order of the computation:
 //! [`frame`] and [`spatial`] (poses, twists, wrenches), [`roundness`] (circles of measured points, without a
 //! robot), [`marching_squares`] (level lines and areas on a grid), [`robot`] (chain, postures), [`compliance`],
-//! [`load`], [`source`] (sources of the deviation), [`workpiece`] and [`path`] (points), [`motion`] (speed, time, rounded corners), [`kernel`] (many
+//! [`dynamics`] (vibration), [`load`], [`source`] (sources of the deviation), [`workpiece`] and [`path`] (points), [`motion`] (speed, time, rounded corners), [`kernel`] (many
 //! points at once), [`map`] (planes, sections, volumes, the region within a tolerance),
 //! [`optimize`] (the posture along a path), [`identify`] (joint compliances from load tests), [`calibrate`] (geometry
 //! from measured poses), [`measure`] (circular tests and repeated poses), [`budget`] (the error budget of
@@ -17,6 +17,7 @@ pub mod budget;
 pub mod calibrate;
 pub mod clearance;
 pub mod compliance;
+pub mod dynamics;
 pub mod frame;
 pub mod identify;
 pub mod kernel;
