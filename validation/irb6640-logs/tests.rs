@@ -59,7 +59,10 @@ fn folder() -> Option<PathBuf> {
 }
 
 /// The predictions of the other logs of a kind, learnt from its log at 500 mm/s with stops: name and stretch.
-fn predictions(folder: &Path, kind: &str) -> (MotionAnswer, Vec<(String, StretchAnswer)>) {
+fn predictions(
+    folder: &Path,
+    [learnt_from, kind]: [&str; 2],
+) -> (MotionAnswer, Vec<(String, StretchAnswer)>) {
     let found = irb();
     let names: Vec<(String, f64)> = ["500", "50"]
         .iter()
@@ -69,12 +72,13 @@ fn predictions(folder: &Path, kind: &str) -> (MotionAnswer, Vec<(String, Stretch
         zones: names.iter().skip(1).map(|(_, radius)| radius * 1e-3).collect(),
         ..Question::default()
     };
-    let log = |name: &str| {
+    let log = |kind: &str, name: &str| {
         let path = folder.join(format!("{kind}_movel_30_car_{name}.csv"));
         read(&path, &found.robot, &question).unwrap_or_else(|error| panic!("{error}"))
     };
-    let learned = learn(&found, log(&names[0].0), &question).unwrap_or_else(|error| panic!("{error}"));
-    let others: Vec<NamedLog> = names.iter().skip(1).map(|(name, _)| log(name)).collect();
+    let learned =
+        learn(&found, log(learnt_from, &names[0].0), &question).unwrap_or_else(|error| panic!("{error}"));
+    let others: Vec<NamedLog> = names.iter().skip(1).map(|(name, _)| log(kind, name)).collect();
     let given = answer(&found.robot, &learned, &others, &question).unwrap_or_else(|error| panic!("{error}"));
     let stretches = names.iter().zip(&given.compared).map(|((name, _), compared)| {
         assert_eq!(compared.stretches.len(), 1, "{kind} {name}");
@@ -87,8 +91,12 @@ fn predictions(folder: &Path, kind: &str) -> (MotionAnswer, Vec<(String, Stretch
 #[test]
 fn cycle_time_and_feed_of_the_other_logs_are_predicted_and_corners_as_far_as_the_page_says() {
     let Some(folder) = folder() else { return };
-    for (kind, corner_mm) in [("virtual", 1.0), ("real", 0.8)] {
-        let (given, stretches) = predictions(&folder, kind);
+    for (from, kind, corner_mm) in [
+        ("virtual", "virtual", 0.3),
+        ("virtual", "real", 0.3),
+        ("real", "real", 1.0),
+    ] {
+        let (given, stretches) = predictions(&folder, [from, kind]);
         println!(
             "{kind}: {:?} {:?} {:?}",
             given.path_acceleration_mm_per_s2, given.smoothing_ms, given.lag_ms
@@ -111,7 +119,7 @@ fn cycle_time_and_feed_of_the_other_logs_are_predicted_and_corners_as_far_as_the
                 "{kind} {name}"
             );
             assert!(stretch.feed_rms_percent < 10.0, "{kind} {name}");
-            // What the page says was reached; 0.3 mm is not met by all.
+            // 0.3 mm is not met by what the ragged log of the real controller says by itself.
             assert!(
                 corner.distance_error_mm.abs() < corner_mm,
                 "{kind} {name}: {corner:?}"
@@ -121,13 +129,28 @@ fn cycle_time_and_feed_of_the_other_logs_are_predicted_and_corners_as_far_as_the
 }
 
 #[test]
-fn the_tip_leaves_the_lines_where_it_brakes_which_the_model_does_not_have() {
+fn the_tip_leaves_the_lines_where_it_accelerates_as_motors_that_are_ahead() {
     let Some(folder) = folder() else { return };
-    let (_, stretches) = predictions(&folder, "virtual");
+    let (given, stretches) = predictions(&folder, ["virtual", "virtual"]);
     let (name, fine) = &stretches[0];
     assert_eq!(name, "v500_fine");
     assert!(
-        fine.off_line_mm > 2.0 && fine.predicted_off_line_mm < 0.3,
+        fine.off_line_mm > 2.0 && (fine.predicted_off_line_mm - fine.off_line_mm).abs() < 0.3,
         "{fine:?}"
+    );
+    // As drives of some 10, 10 and 20 Hz.
+    for (joint, [least, most]) in given
+        .joints
+        .iter()
+        .zip([[1e-4, 4e-4], [1e-4, 4e-4], [2e-5, 2e-4]])
+    {
+        let lead = joint.motor_lead_s2.unwrap();
+        assert!(lead.value > least && lead.value < most, "{joint:?}");
+        assert!(lead.u.unwrap() < 0.3 * lead.value, "{joint:?}");
+    }
+    assert!(
+        given.joints[3..]
+            .iter()
+            .all(|joint| joint.motor_lead_s2.is_none())
     );
 }

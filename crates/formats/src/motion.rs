@@ -25,6 +25,15 @@ pub struct MotionTable {
     #[schemars(range(min = 0.0, max = 1000.0))]
     // unit: ms
     pub smoothing_ms: Option<f64>,
+    /// Time that the controller waits at a stop, from where its command has arrived.
+    #[schemars(range(min = 0.0, max = 10000.0))]
+    // unit: ms
+    pub settling_ms: Option<f64>,
+    /// Lead of each motor over its acceleration, base to flange: how far it is ahead of the arm by the elastic deflection of the drive that the controller compensates. Used where a
+    /// log of motor positions is predicted.
+    #[schemars(inner(range(min = -0.1, max = 0.1)))]
+    // unit: s^2
+    pub motor_lead_s2: Option<Vec<f64>>,
     /// Shortest time in which a zone is passed: smaller zones are enlarged to it at the programmed feed.
     #[schemars(range(min = 0.0, max = 1000.0))]
     // unit: ms
@@ -73,6 +82,8 @@ impl MotionTable {
                 .path_acceleration_mm_per_s2
                 .or(other.path_acceleration_mm_per_s2),
             smoothing_ms: self.smoothing_ms.or(other.smoothing_ms),
+            settling_ms: self.settling_ms.or(other.settling_ms),
+            motor_lead_s2: list(&self.motor_lead_s2, &other.motor_lead_s2),
             shortest_blending_ms: self.shortest_blending_ms.or(other.shortest_blending_ms),
             lag_ms: list(&self.lag_ms, &other.lag_ms),
             // An uncertainty belongs to its value.
@@ -101,6 +112,7 @@ impl MotionTable {
                 &self.joint_acceleration_reached_deg_per_s2,
                 false,
             ),
+            ("motor_lead_s2", &self.motor_lead_s2, false),
             ("lag_ms", &self.lag_ms, true),
             ("lag_u_ms", &self.lag_u_ms, true),
         ];

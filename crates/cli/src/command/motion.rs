@@ -119,12 +119,13 @@ fn as_text(answer: &MotionAnswer) -> String {
         ),
         ("smoothing", answer.smoothing_ms, "ms"),
         ("lag", answer.lag_ms, "ms"),
+        ("time to settle at a stop", answer.settling_ms, "ms"),
     ] {
         lines.push(format!("{name:<28} {}", value_text(value, unit)));
     }
     lines.push(format!(
         "{:<28} {:.2}",
-        "correlation of these two", answer.correlation_of_smoothing_and_lag
+        "correlation smoothing, lag", answer.correlation_of_smoothing_and_lag
     ));
     for compared in &answer.compared {
         lines.push(String::new());
@@ -168,8 +169,15 @@ fn joint_text(joint: &JointAnswer) -> String {
                 value_text(lag, "ms").trim()
             )
         });
+    let lead = joint.motor_lead_s2.map_or(String::new(), |lead| {
+        let u = lead.u.map_or(String::new(), |u| format!(" +- {u:.2e}"));
+        format!(
+            "   motor ahead by {:.2e}{u} s^2 times its acceleration",
+            lead.value
+        )
+    });
     format!(
-        "{:<8} {:>8.1} deg/s {:>8.0} deg/s^2{noise:<12}{lag}",
+        "{:<8} {:>8.1} deg/s {:>8.0} deg/s^2{noise:<12}{lag}{lead}",
         joint.name, joint.speed_deg_per_s, joint.acceleration_deg_per_s2
     )
 }

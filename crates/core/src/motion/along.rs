@@ -29,10 +29,15 @@ pub struct MotionModel {
     pub limits: MotionLimits,
     /// Window of the average that limits the jerk, s.
     pub smoothing: f64,
+    /// Time after which the next move begins at a stop, from where the command has arrived, s.
+    pub settling: f64,
     /// Shortest time in which a zone is passed at the programmed feed, s: larger zones are not changed.
     pub shortest_blending: f64,
     /// How late each joint follows.
     pub lags: Vec<Lag>,
+    /// Lead of each motor over its acceleration, s^2: how far the motor is ahead of the arm by the elastic deflection under the forces of inertia. It is part of
+    /// [`followed`](super::followed()), the positions that a controller logs, and not of the tip, which is where the arm is. Empty: none.
+    pub motor_leads: Vec<f64>,
     /// How the ends of moves are passed where the program does not say.
     pub passage: Passage,
     /// Feed where the program gives none, m/s.
@@ -215,6 +220,9 @@ impl Builder<'_> {
                     self.found.feeds[index] = self.feed(index, stretch.clone()).unwrap_or(f64::NAN);
                 }
                 self.found.waits += self.waits_at(index).iter().map(|(_, time)| time).sum::<f64>();
+                if !is_last {
+                    self.found.waits += self.model.settling;
+                }
                 begin = if continues || is_last { index } else { index + 1 };
                 if !is_last && (self.postures.has_posture)(index + 1) && (self.postures.jumps)(index + 1) {
                     self.rapid(index, index + 1, 0.0);

@@ -17,6 +17,8 @@ use super::stretches::HALF_WINDOW;
 
 /// Decimals of the numbers.
 const DECIMALS: i32 = 4;
+/// Decimals of leads.
+const LEAD_DECIMALS: i32 = 7;
 /// A coordinate of the tip that is less certain is said to be, m.
 const KNOWN: f64 = 5e-3;
 /// Window and lag are hardly distinguished where their correlation is beyond this.
@@ -49,6 +51,8 @@ pub struct MotionAnswer {
     pub smoothing_ms: ValueAnswer,
     /// Lag of all joints, from starts and stops.
     pub lag_ms: ValueAnswer,
+    /// Time that the controller waits at a stop.
+    pub settling_ms: ValueAnswer,
     /// Correlation of window and lag.
     pub correlation_of_smoothing_and_lag: f64,
     /// Root mean square of predicted less logged speed with these values, per cent of the feed.
@@ -108,6 +112,8 @@ pub struct JointAnswer {
     pub delay_ms: Option<ValueAnswer>,
     /// Lag of the actual behind the commanded position.
     pub lag_ms: Option<ValueAnswer>,
+    /// Lead of its motor over its acceleration, from how far the tip leaves its lines; none of the wrist, or where leads explain nothing.
+    pub motor_lead_s2: Option<ValueAnswer>,
 }
 
 /// A value with its standard uncertainty.
@@ -214,8 +220,8 @@ pub fn answer(
         .map(|(k, named)| compare(robot, learned, named, zone(k)))
         .collect();
     let feed = learned.fitted.feeds.iter().copied().fold(0.0, f64::max);
-    let [acceleration, smoothing, lag] = learned.fitted.values;
-    let [acceleration_u, smoothing_u, lag_u] = learned.fitted.u;
+    let [acceleration, smoothing, lag, settling] = learned.fitted.values;
+    let [acceleration_u, smoothing_u, lag_u, settling_u] = learned.fitted.u;
     let step = learned.log.usual_step();
     let unused = |file: &str, unused: &[String]| -> Vec<String> {
         unused.iter().map(|name| format!("{name} ({file})")).collect()
@@ -239,6 +245,7 @@ pub fn answer(
         path_acceleration_mm_per_s2: value(to_mm(acceleration), to_mm(acceleration_u)),
         smoothing_ms: value(to_ms(smoothing), to_ms(smoothing_u)),
         lag_ms: value(to_ms(lag), to_ms(lag_u)),
+        settling_ms: value(to_ms(settling), to_ms(settling_u)),
         correlation_of_smoothing_and_lag: number(learned.fitted.window_and_lag),
         feed_rms_percent: number(100.0 * learned.fitted.rms / feed),
         notes: notes(learned, &others_compared),
@@ -321,6 +328,14 @@ fn moves(learned: &Learned) -> Vec<MoveAnswer> {
 
 fn joints(robot: &Robot, learned: &Learned) -> Vec<JointAnswer> {
     let lag = |joint: usize| learned.lags.get(joint).copied().flatten();
+    let lead = |joint: usize| {
+        let leads = learned.fitted.leads.as_ref()?;
+        let u = leads.u[joint]?;
+        Some(ValueAnswer {
+            value: decimals(leads.values[joint], LEAD_DECIMALS),
+            u: u.is_finite().then(|| decimals(u, LEAD_DECIMALS)),
+        })
+    };
     let all = robot.joints().iter().zip(&learned.reached).enumerate();
     all.map(|(k, (joint, reached))| JointAnswer {
         name: joint.name.clone(),
@@ -329,6 +344,7 @@ fn joints(robot: &Robot, learned: &Learned) -> Vec<JointAnswer> {
         acceleration_noise_deg_per_s2: reached.noise.map(|noise| number(to_deg(noise))),
         delay_ms: lag(k).map(|own| value(to_ms(own.delay), to_ms(own.delay_u))),
         lag_ms: lag(k).map(|own| value(to_ms(own.lag), to_ms(own.lag_u))),
+        motor_lead_s2: lead(k),
     })
     .collect()
 }
@@ -400,7 +416,7 @@ fn notes(learned: &Learned, others: &[Compared]) -> Vec<String> {
         }
     }
     let [acceleration, ..] = learned.fitted.values;
-    let [acceleration_u, smoothing_u, lag_u] = learned.fitted.u;
+    let [acceleration_u, smoothing_u, lag_u, _] = learned.fitted.u;
     if acceleration_u >= MOST_U * acceleration {
         notes.push(
             "the acceleration along the path is not determined: the feed is reached within the smoothing"
@@ -415,6 +431,12 @@ fn notes(learned: &Learned, others: &[Compared]) -> Vec<String> {
         ));
     } else if learned.fitted.window_and_lag.abs() > NOT_APART {
         notes.push("window and lag can hardly be distinguished: only their sum is known well".to_owned());
+    }
+    if let Some(leads) = &learned.fitted.leads {
+        let [before, after] = leads.off_line.map(to_mm);
+        notes.push(format!(
+            "the logged tip leaves its lines where it accelerates; motors that are ahead of the arm by the elastic deflection of their drives explain it ({before:.2} mm rms without, {after:.2} mm with leads): logs are predicted with leads, the tip of a study is where the arm is"
+        ));
     }
     notes.push("accelerations of the joints are those that were reached: lower bounds, no limits".to_owned());
     if learned.lags.is_empty() {

@@ -28,7 +28,7 @@ const STRAIGHT_AT_LEAST: f64 = 1e-4;
 /// A shorter stretch has no moves, m.
 const SHORTEST: f64 = 0.01;
 /// Degrees of the joint positions along a line.
-const DEGREES: (usize, usize) = (3, 7);
+const DEGREES: (usize, usize) = (3, 5);
 /// A degree is as good as a higher one whose variance is this part of its own at least.
 const AS_GOOD: f64 = 1.2;
 /// Step of the programmed points, m.

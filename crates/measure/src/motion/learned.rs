@@ -17,7 +17,7 @@ use super::fit::{LearntModel, fit};
 use super::lag::{JointLag, lags};
 use super::observed::Observed;
 use super::question::{NamedLog, Question};
-use super::reached::{JointReached, reached};
+use super::reached::{JointReached, commanded, reached};
 use super::simulate::{Arm, predicted, zones};
 use super::stretches::{HALF_WINDOW, Stretch, joint_speeds, stretches};
 use super::tool::{Tool, flanges, straight_tool, tips};
@@ -136,7 +136,7 @@ pub fn learn(found: &RobotDescription, named: NamedLog, question: &Question) -> 
     let fitted = fit(arm, &usable, &model);
     let reached = reached(&log, &divided.speeds, &divided.stretches);
     let lags = lags(&log);
-    let table = table(&fitted, &reached, &lags);
+    let table = table(&fitted, &reached, &commanded(&usable, &model, &fitted), &lags);
     let setting = MotionSetting::of(&table.or(&given), robot, RAPID);
     Ok(Learned {
         file,
@@ -245,9 +245,14 @@ fn whole(tips: &[Point3<f64>], stretch: &Stretch) -> MovePart {
 }
 
 /// Values that the log determines.
-fn table(fitted: &LearntModel, reached: &[JointReached], lags: &[Option<JointLag>]) -> MotionTable {
-    let [acceleration, smoothing, lag] = fitted.values;
-    let [acceleration_u, _, lag_u] = fitted.u;
+fn table(
+    fitted: &LearntModel,
+    reached: &[JointReached],
+    commanded: &[f64],
+    lags: &[Option<JointLag>],
+) -> MotionTable {
+    let [acceleration, smoothing, lag, settling] = fitted.values;
+    let [acceleration_u, _, lag_u, settling_u] = fitted.u;
     let round = |value: f64| without_rounding(digits(value, DIGITS));
     // Commanded and actual positions say more of the lag than starts and stops.
     let by_command: Option<Vec<JointLag>> = lags
@@ -255,11 +260,16 @@ fn table(fitted: &LearntModel, reached: &[JointReached], lags: &[Option<JointLag
         .copied()
         .collect::<Option<Vec<_>>>()
         .filter(|all| !all.is_empty());
+    let is_acceleration_known = acceleration_u < MOST_U * acceleration;
     let is_lag_known = lag_u < MOST_LAG_U;
     MotionTable {
-        path_acceleration_mm_per_s2: (acceleration_u < MOST_U * acceleration)
-            .then(|| round(to_mm(acceleration))),
+        path_acceleration_mm_per_s2: is_acceleration_known.then(|| round(to_mm(acceleration))),
         smoothing_ms: is_lag_known.then(|| round(to_ms(smoothing))),
+        settling_ms: (settling_u < MOST_LAG_U).then(|| round(to_ms(settling))),
+        motor_lead_s2: fitted
+            .leads
+            .as_ref()
+            .map(|leads| leads.values.iter().map(|lead| round(*lead)).collect()),
         lag_ms: match &by_command {
             Some(all) => Some(all.iter().map(|own| round(to_ms(own.lag))).collect()),
             None => is_lag_known.then(|| vec![round(to_ms(lag))]),
@@ -268,11 +278,15 @@ fn table(fitted: &LearntModel, reached: &[JointReached], lags: &[Option<JointLag
             Some(all) => Some(all.iter().map(|own| round(to_ms(own.lag_u))).collect()),
             None => is_lag_known.then(|| vec![round(to_ms(lag_u))]),
         },
-        // Less twice the noise: what was reached for certain.
+        // Less twice the noise, or in the command that explains the log: what was reached for certain.
         joint_acceleration_reached_deg_per_s2: Some(
             reached
                 .iter()
-                .map(|own| (own.acceleration - 2.0 * own.noise.unwrap_or(0.0)).max(0.0))
+                .zip(commanded)
+                .map(|(own, commanded)| {
+                    let logged = own.acceleration - 2.0 * own.noise.unwrap_or(0.0);
+                    logged.max(if is_acceleration_known { *commanded } else { 0.0 })
+                })
                 .map(|own| to_deg(own).floor())
                 .collect(),
         ),

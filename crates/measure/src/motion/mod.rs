@@ -6,7 +6,7 @@
 //! ```
 //!
 //! [`question`] (settings, reading), `spikes`, `derivative`, [`stretches`], `line`, [`tool`] (the tip that makes moves straight), [`course`] (moves, corners, the programmed
-//! path), [`observed`] (a stretch as it was logged), `simulate` (as it is predicted), `least_squares`, `fit`, [`reached`], [`lag`] (commanded and actual positions),
+//! path), [`observed`] (a stretch as it was logged), `simulate` (as it is predicted), `least_squares`, `leads` (motors ahead of the arm), `fit`, [`reached`], [`lag`] (commanded and actual positions),
 //! [`learned`], [`answer`](mod@answer) (the result as one JSON value), [`robot_file`](mod@robot_file).
 
 pub mod answer;
@@ -14,6 +14,7 @@ pub mod course;
 mod derivative;
 mod fit;
 pub mod lag;
+mod leads;
 pub mod learned;
 mod least_squares;
 mod line;

@@ -13,7 +13,7 @@ use super::learned::Learned;
 /// # Errors
 /// A robot file that is not TOML, or that no longer reads with these values.
 pub fn robot_file([path, text]: [&str; 2], learned: &Learned) -> Result<String, StudyError> {
-    let [acceleration_u, smoothing_u, lag_u] = learned.fitted.u;
+    let [acceleration_u, smoothing_u, lag_u, settling_u] = learned.fitted.u;
     let table = &learned.table;
     let mut what = format!(
         "learnt by armill from a joint log of {} instants; standard uncertainties:",
@@ -31,6 +31,9 @@ pub fn robot_file([path, text]: [&str; 2], learned: &Learned) -> Result<String, 
     }
     if table.lag_ms.is_some() {
         named.push(format!("lag {:.2} ms", to_ms(lag_u)));
+    }
+    if table.settling_ms.is_some() {
+        named.push(format!("time to settle {:.2} ms", to_ms(settling_u)));
     }
     if named.is_empty() {
         named.push("no value is determined but the accelerations that were reached".to_owned());

@@ -1,6 +1,6 @@
 //! A stretch as a model of the motion predicts it, and its difference from the log.
 
-use armill_core::motion::{Lag, MotionModel, followed};
+use armill_core::motion::{Followed, Lag, MotionModel, followed};
 use armill_core::nalgebra::{Point3, Vector3};
 use armill_core::robot::Robot;
 
@@ -34,11 +34,12 @@ pub(super) struct Arm<'a> {
     pub tip: Vector3<f64>,
 }
 
-/// A model with these values in place of its own: acceleration along the path, window, lag of all joints; m, s.
-pub(super) fn with(model: &MotionModel, [acceleration, smoothing, lag]: [f64; 3]) -> MotionModel {
+/// A model with these values in place of its own: acceleration along the path, window, lag of all joints, time to settle; m, s.
+pub(super) fn with(model: &MotionModel, [acceleration, smoothing, lag, settling]: [f64; 4]) -> MotionModel {
     let mut changed = model.clone();
     changed.limits.acceleration = acceleration;
     changed.smoothing = smoothing;
+    changed.settling = settling;
     for own in &mut changed.lags {
         *own = Lag {
             time: lag,
@@ -56,6 +57,15 @@ pub(super) fn predicted(
     feed: f64,
     zones: &[Option<f64>],
 ) -> Predicted {
+    let found = motion(observed, model, feed, zones);
+    Predicted {
+        tips: tips(&flanges(arm.robot, &found.positions), arm.tip),
+        times: found.times,
+    }
+}
+
+/// The joints along the course of a stretch, as [`predicted`] has them.
+pub(super) fn motion(observed: &Observed, model: &MotionModel, feed: f64, zones: &[Option<f64>]) -> Followed {
     let zones: Vec<Option<f64>> = zones
         .iter()
         .map(|zone| zone.map(|radius| radius.max(model.least_zone(feed))))
@@ -63,11 +73,7 @@ pub(super) fn predicted(
     let ways = observed.course.ways(feed, &zones);
     let programmed: Vec<_> = ways.iter().map(|way| way.programmed()).collect();
     let duration = observed.times[observed.times.len() - 1] - observed.times[0];
-    let found = followed(&programmed, model, STEP.0.max(STEP.1 * duration), REST);
-    Predicted {
-        tips: tips(&flanges(arm.robot, &found.positions), arm.tip),
-        times: found.times,
-    }
+    followed(&programmed, model, STEP.0.max(STEP.1 * duration), REST)
 }
 
 impl Predicted {
@@ -85,20 +91,21 @@ impl Predicted {
             .collect()
     }
 
+    /// The tip at the instants of the log, m, if the motion starts at the time `start`, s.
+    pub(super) fn at_instants(&self, observed: &Observed, start: f64) -> Vec<Point3<f64>> {
+        let last = self.times.len() - 1;
+        let at = |time: &f64| {
+            let time = (time - start).clamp(self.times[0], self.times[last]);
+            let k = self.times.partition_point(|at| *at <= time).clamp(1, last);
+            let part = (time - self.times[k - 1]) / (self.times[k] - self.times[k - 1]);
+            self.tips[k - 1] + (self.tips[k] - self.tips[k - 1]) * part
+        };
+        observed.times.iter().map(at).collect()
+    }
+
     /// Speeds at the instants of the log less those of the log, m/s, if the motion starts at the time `start`, s.
     pub(super) fn residuals(&self, observed: &Observed, start: f64) -> Vec<f64> {
-        let last = self.times.len() - 1;
-        let here: Vec<Point3<f64>> = observed
-            .times
-            .iter()
-            .map(|time| {
-                let time = (time - start).clamp(self.times[0], self.times[last]);
-                let k = self.times.partition_point(|at| *at <= time).clamp(1, last);
-                let part = (time - self.times[k - 1]) / (self.times[k] - self.times[k - 1]);
-                self.tips[k - 1] + (self.tips[k] - self.tips[k - 1]) * part
-            })
-            .collect();
-        let speeds = observed.speeds_of(&here);
+        let speeds = observed.speeds_of(&self.at_instants(observed, start));
         speeds
             .iter()
             .zip(&observed.speeds)

@@ -104,6 +104,11 @@ impl MotionSetting {
             SHORTEST_BLENDING,
             "shortest time in a zone: 8 ms",
         );
+        let settling = or(
+            table.settling_ms.map(from_ms),
+            0.0,
+            "time to settle at a stop: none",
+        );
         let lags = per_joint(table.lag_ms.as_deref(), count);
         let lag_u = match (&lags, per_joint(table.lag_u_ms.as_deref(), count)) {
             (None, _) => {
@@ -131,6 +136,8 @@ impl MotionSetting {
                 smoothing,
                 shortest_blending,
                 lags: lags.into_iter().map(|time| Lag { time, feed_forward }).collect(),
+                settling,
+                motor_leads: table.motor_lead_s2.clone().unwrap_or_default(),
                 passage: match table.zone_mm {
                     Some(0.0) => Passage::Stop,
                     Some(zone) => Passage::Zone(from_mm(zone)),

@@ -30,7 +30,7 @@ fn a_corner_between_lines_is_as_far_from_its_path_as_by_hand() {
         .rounded();
         let middle = path.errors[10];
         assert!(
-            (middle.norm() - 0.5 * radius * (0.5 * angle).sin()).abs() < 1e-12,
+            (middle.norm() - 7.0 / 16.0 * radius * (0.5 * angle).sin()).abs() < 1e-12,
             "{radius}: {middle}"
         );
         let inwards = Vector3::new(angle.cos() - 1.0, angle.sin(), 0.0).normalize();
@@ -68,7 +68,10 @@ fn zones_take_at_most_half_of_a_move_and_meet_there() {
     }
     .rounded();
     let farthest = path.errors.iter().map(Vector3::norm).fold(0.0, f64::max);
-    assert!((farthest - 0.25 * 0.01 * 2f64.sqrt()).abs() < 1e-12, "{farthest}");
+    assert!(
+        (farthest - 7.0 / 32.0 * 0.01 * 2f64.sqrt()).abs() < 1e-12,
+        "{farthest}"
+    );
     assert!(path.along.is_sorted_by(|a, b| a < b), "no point twice");
     assert!(
         path.points

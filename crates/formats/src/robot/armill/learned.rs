@@ -39,10 +39,12 @@ pub fn with_motion(path: &str, text: &str, learned: &LearnedMotion) -> Result<St
         ),
         ("lag_ms", &given.lag_ms),
         ("lag_u_ms", &given.lag_u_ms),
+        ("motor_lead_s2", &given.motor_lead_s2),
     ];
     let numbers = [
         ("path_acceleration_mm_per_s2", given.path_acceleration_mm_per_s2),
         ("smoothing_ms", given.smoothing_ms),
+        ("settling_ms", given.settling_ms),
     ];
     let motion = document
         .entry("motion")
