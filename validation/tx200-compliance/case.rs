@@ -253,6 +253,7 @@ fn gravity_gap(robot: &Robot) -> f64 {
         },
         mass: *mass,
         centre: (*centre).into(),
+        inertia: None,
     };
     let structure = Structure {
         masses: MASSES.iter().enumerate().map(mass).collect(),

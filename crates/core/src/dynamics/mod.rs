@@ -1,11 +1,19 @@
 //! Dynamics: vibration of the arm and the cutter at the tool.
 //!
-//! Read in this order: [`mode`] (a mode of vibration at the tool), [`receptance`] (displacement by a harmonic force, from modes).
+//! Read in this order: [`mode`] (a mode of vibration at the tool), [`mod@receptance`] (displacement by a harmonic force, from modes),
+//! [`inertia`] (of the bodies that a drive or spring moves), [`mod@mass_matrix`] (of drives and springs), [`modes`] (from mass matrix and
+//! compliances).
 //!
-//! Lengths in m, angles in rad, forces in N, angular frequencies in rad/s.
+//! Lengths in m, angles in rad, forces in N, masses in kg, angular frequencies in rad/s.
 
+pub mod inertia;
+pub mod mass_matrix;
 pub mod mode;
+pub mod modes;
 pub mod receptance;
 
+pub use inertia::{CarriedInertia, Inertia};
+pub use mass_matrix::{JointInertia, mass_matrix};
 pub use mode::Mode;
+pub use modes::{ArmMode, ArmModes, modes_of};
 pub use receptance::receptance;
