@@ -6,6 +6,7 @@
 use std::borrow::Cow;
 use std::slice;
 
+use armill_core::dynamics::over_joint_positions;
 use armill_core::frame::Isometry;
 use armill_core::kernel::{EvaluateError, evaluate_at_joints};
 use armill_core::nalgebra::Vector3;
@@ -71,6 +72,38 @@ pub(crate) fn compliance<'py>(robot: &Robot, request: &Request<'_, 'py>) -> Floa
     positions.evaluate(&[6, 6], &NO_LOAD, |arm_state, _, out| {
         let compliance = arm_state.compliance().ok_or(Unstable::Buckles)?;
         out.copy_from_slice(compliance.transpose().as_slice());
+        Ok(())
+    })
+}
+
+/// Mass matrices over the joint positions.
+pub(crate) fn mass_matrix<'py>(robot: &Robot, request: &Request<'_, 'py>) -> Floats<'py> {
+    let positions = JointPositions::rigid(robot, request)?;
+    let dof = robot.dof();
+    positions.evaluate(&[dof, dof], &NO_LOAD, |arm_state, _, out| {
+        let matrix = over_joint_positions(robot.arm(), &arm_state.mass_matrix());
+        out.copy_from_slice(matrix.as_slice());
+        Ok(())
+    })
+}
+
+/// Modes of vibration: frequency, damping ratio and shape at the tool.
+pub(crate) fn modes<'py>(robot: &Robot, request: &Request<'_, 'py>) -> Floats<'py> {
+    let positions = JointPositions::compliant(robot, request)?;
+    let most = robot.dof() + robot.model.structure.springs.len();
+    positions.evaluate(&[most, 8], &NO_LOAD, |arm_state, _, out| {
+        let found = arm_state.modes()?;
+        out.fill(0.0);
+        for (index, out) in out.chunks_mut(8).enumerate() {
+            let Some(mode) = found.modes.get(index) else {
+                // A motion without mass, or none.
+                out[0] = f64::INFINITY;
+                continue;
+            };
+            out[0] = mode.at_tool.frequency_hz();
+            out[1] = mode.at_tool.damping_ratio;
+            out[2..].copy_from_slice(mode.at_tool.shape.as_slice());
+        }
         Ok(())
     })
 }

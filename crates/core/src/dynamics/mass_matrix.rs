@@ -14,12 +14,9 @@
 //!
 //! Source: composite rigid bodies, Walker & Orin 1982; Featherstone, Rigid body dynamics algorithms, 6.2 (recalled).
 
-use nalgebra::{DMatrix, Vector3};
+use nalgebra::DMatrix;
 
 use super::inertia::CarriedInertia;
-use crate::robot::deflected_arm::attachment_frame;
-use crate::robot::forward::{Frames, forward_into};
-use crate::robot::jacobian::screws_into;
 use crate::robot::{Motor, MovedBy, Robot};
 use crate::spatial::Twist;
 
@@ -52,54 +49,23 @@ pub fn mass_matrix(
     matrix
 }
 
-/// Working memory for the mass matrices of a robot in many postures.
-#[derive(Clone, Debug)]
-pub struct JointInertia<'a> {
-    robot: &'a Robot,
-    frames: Frames,
-    screws: Vec<Twist>,
-    moved: Vec<MovedBy>,
-    carried: CarriedInertia,
-}
-
-impl<'a> JointInertia<'a> {
-    /// For this robot, with the masses and motors of its structure; masses at its tool are on the flange.
-    pub fn new(robot: &'a Robot) -> JointInertia<'a> {
-        let joints = robot.joints().len();
-        JointInertia {
-            robot,
-            frames: Frames::for_robot(robot),
-            screws: vec![Twist::ZERO; joints],
-            moved: (0..joints)
-                .map(|joint| robot.chain().ground().moved_by_drive(joint))
-                .collect(),
-            carried: CarriedInertia::for_joints(joints),
+/// The mass matrix over the joint positions of the controller (kg m^2; kg m, kg), from that over the chain positions of the drives. A
+/// coupled joint turns with the joints that it is coupled to; rotors turn with the chain position of their joint.
+///
+/// # Panics
+/// If the matrix has fewer rows than the robot has joints; rows of springs are left out.
+pub fn over_joint_positions(robot: &Robot, of_chain: &DMatrix<f64>) -> DMatrix<f64> {
+    // theta = T q + constant
+    let joints = robot.joints();
+    let count = joints.len();
+    let mut turns = DMatrix::<f64>::zeros(count, count);
+    for (index, joint) in joints.iter().enumerate() {
+        turns[(index, index)] += joint.sign.factor();
+        for coupling in &joint.coupling {
+            turns[(index, coupling.joint)] += joint.sign.factor() * coupling.factor;
         }
     }
-
-    /// The mass matrix over the joint positions `q` (rad, m) of the controller: kg m^2 (kg m, kg), symmetric. A coupled joint turns
-    /// with the joints that it is coupled to; rotors turn with the chain position of their joint.
-    pub fn mass_matrix(&mut self, q: &[f64]) -> DMatrix<f64> {
-        forward_into(self.robot, q, &mut self.frames);
-        let flange = self.frames.base_from_flange;
-        let point: Vector3<f64> = flange.translation.vector;
-        screws_into(self.robot, &self.frames, &point.into(), &mut self.screws);
-        let frames = &self.frames;
-        let frame = |attachment| attachment_frame(attachment, frames, &flange);
-        let structure = self.robot.structure();
-        self.carried.set(&structure.masses, frame, &point);
-        let of_chain = mass_matrix(&self.screws, &self.moved, &self.carried, &structure.motors);
-        // theta = T q + constant
-        let joints = self.robot.joints();
-        let mut turns = DMatrix::<f64>::zeros(joints.len(), joints.len());
-        for (index, joint) in joints.iter().enumerate() {
-            turns[(index, index)] += joint.sign.factor();
-            for coupling in &joint.coupling {
-                turns[(index, coupling.joint)] += joint.sign.factor() * coupling.factor;
-            }
-        }
-        turns.transpose() * of_chain * turns
-    }
+    turns.transpose() * of_chain.view((0, 0), (count, count)) * turns
 }
 
 #[cfg(test)]

@@ -13,7 +13,7 @@ pub mod modes;
 pub mod receptance;
 
 pub use inertia::{CarriedInertia, Inertia};
-pub use mass_matrix::{JointInertia, mass_matrix};
+pub use mass_matrix::{mass_matrix, over_joint_positions};
 pub use mode::Mode;
 pub use modes::{ArmMode, ArmModes, modes_of};
 pub use receptance::receptance;

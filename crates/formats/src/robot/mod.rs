@@ -28,6 +28,7 @@ pub mod urdf;
 #[cfg(feature = "xacro")]
 pub mod xacro;
 
+mod body_inertia;
 mod description;
 
 /// More joints are not accepted, since checks of pairs of joints would take long: the longest snake robots
