@@ -78,7 +78,9 @@ pub(crate) fn compliance<'py>(robot: &Robot, request: &Request<'_, 'py>) -> Floa
 
 /// Mass matrices over the joint positions.
 pub(crate) fn mass_matrix<'py>(robot: &Robot, request: &Request<'_, 'py>) -> Floats<'py> {
-    let positions = JointPositions::rigid(robot, request)?;
+    needs_mass(robot, request, "its mass matrix")?;
+    let mut positions = JointPositions::rigid(robot, request)?;
+    positions.springs.model = Cow::Borrowed(&robot.model);
     let dof = robot.dof();
     positions.evaluate(&[dof, dof], &NO_LOAD, |arm_state, _, out| {
         let matrix = over_joint_positions(robot.arm(), &arm_state.mass_matrix());
@@ -87,8 +89,20 @@ pub(crate) fn mass_matrix<'py>(robot: &Robot, request: &Request<'_, 'py>) -> Flo
     })
 }
 
+/// What needs masses and motors is refused for an arm without.
+fn needs_mass(robot: &Robot, request: &Request<'_, '_>, what: &str) -> PyResult<()> {
+    let structure = &robot.model.structure;
+    if !structure.masses.is_empty() || !structure.motors.is_empty() {
+        return Ok(());
+    }
+    let message = format!("robot `{}` has no masses: {what} cannot be predicted", robot.arm().name());
+    let hint = "give them in the robot file as [[mass]] and [[motor]]";
+    Err(refused(request.joints.py(), message, hint))
+}
+
 /// Modes of vibration: frequency, damping ratio and shape at the tool.
 pub(crate) fn modes<'py>(robot: &Robot, request: &Request<'_, 'py>) -> Floats<'py> {
+    needs_mass(robot, request, "its modes")?;
     let positions = JointPositions::compliant(robot, request)?;
     let most = robot.dof() + robot.model.structure.springs.len();
     positions.evaluate(&[most, 8], &NO_LOAD, |arm_state, _, out| {
