@@ -95,7 +95,10 @@ fn needs_mass(robot: &Robot, request: &Request<'_, '_>, what: &str) -> PyResult<
     if !structure.masses.is_empty() || !structure.motors.is_empty() {
         return Ok(());
     }
-    let message = format!("robot `{}` has no masses: {what} cannot be predicted", robot.arm().name());
+    let message = format!(
+        "robot `{}` has no masses: {what} cannot be predicted",
+        robot.arm().name()
+    );
     let hint = "give them in the robot file as [[mass]] and [[motor]]";
     Err(refused(request.joints.py(), message, hint))
 }

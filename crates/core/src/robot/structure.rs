@@ -187,11 +187,14 @@ fn check_compensator(c: &Compensator) -> Result<(), StructureError> {
 /// entry.
 const PRINTED: f64 = 1e-6;
 
+/// Greatest number of an inertia, kg m^2.
+const GREATEST_INERTIA: f64 = 1e12;
+
 /// Whether this is the inertia of a body: finite, symmetric, and negative about no axis, up to the rounding of printed numbers.
 /// That each principal inertia is at most the sum of the others is not required: a body without thickness meets it only up to rounding.
 fn is_inertia(inertia: &Matrix3<f64>) -> bool {
     let rounding = PRINTED * inertia.amax();
-    inertia.iter().all(|value| value.is_finite())
+    inertia.iter().all(|value| value.abs() <= GREATEST_INERTIA)
         && (inertia - inertia.transpose()).amax() <= rounding
         && inertia.symmetric_eigenvalues().min() >= -rounding
 }

@@ -11,11 +11,14 @@ const PRINTED: f64 = 1e-3;
 /// An inertia that is not symmetric by more than this part of its largest number is refused.
 const ROUNDING: f64 = 1e-9;
 
+/// Greatest number of an inertia, kg m^2: as in robot files.
+const GREATEST: f64 = 1e9;
+
 /// What is wrong with an inertia (kg m^2), about the centre of mass in any axes; `None` for that of a body.
 pub fn not_of_a_body(inertia: &Matrix3<f64>) -> Option<String> {
     let largest = inertia.amax();
-    if inertia.iter().any(|value| !value.is_finite()) {
-        return Some("an inertia contains a number that is not finite".to_owned());
+    if !inertia.iter().all(|value| value.abs() <= GREATEST) {
+        return Some(format!("an inertia contains a number beyond {GREATEST:e} kg m^2"));
     }
     if (inertia - inertia.transpose()).amax() > ROUNDING * largest {
         return Some("the inertia is not symmetric".to_owned());
@@ -51,7 +54,7 @@ mod tests {
                 .contains("at most the sum of the others")
         );
         assert!(of(-1.0, 2.0, 2.0).unwrap().contains("must not be negative"));
-        assert!(of(f64::NAN, 2.0, 2.0).unwrap().contains("not finite"));
+        assert!(of(f64::NAN, 2.0, 2.0).unwrap().contains("beyond 1e9"));
         let mut skew = Matrix3::identity();
         skew[(0, 1)] = 0.1;
         assert!(not_of_a_body(&skew).unwrap().contains("not symmetric"));

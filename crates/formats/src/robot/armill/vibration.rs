@@ -117,3 +117,6 @@ impl Checks<'_> {
         ))
     }
 }
+
+#[cfg(test)]
+mod tests;

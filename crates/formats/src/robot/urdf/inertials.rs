@@ -14,6 +14,7 @@
 
 use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
 use armill_core::nalgebra::{Matrix3, Vector3};
+use armill_core::robot::chain::LONGEST;
 use armill_core::robot::deflected_arm::attachment_frame;
 use armill_core::robot::forward::forward;
 use armill_core::robot::{Attachment, Mass, Robot};
@@ -69,11 +70,14 @@ pub(super) fn read(
                 found
                     .remarks
                     .extend(refused.map(|why| format!("link `{name}` is taken as a point with mass: {why}")));
-                if mass.mass > 0.0 || mass.inertia.is_some_and(|own| own.amax() > 0.0) {
-                    let attachment_from_link = base_from_attachment.inv_mul(&base_from_link);
-                    found
-                        .masses
-                        .push(mass.attached_to(attachment, &attachment_from_link));
+                let attachment_from_link = base_from_attachment.inv_mul(&base_from_link);
+                let mass = mass.attached_to(attachment, &attachment_from_link);
+                if mass.centre.coords.amax() > LONGEST {
+                    found.remarks.push(format!(
+                        "the mass of link `{name}` is left out: its centre is more than {LONGEST} m away"
+                    ));
+                } else if mass.mass > 0.0 || mass.inertia.is_some_and(|own| own.amax() > 0.0) {
+                    found.masses.push(mass);
                 }
             }
             Err(problems) => {
@@ -165,3 +169,6 @@ fn mass(file: &Source, inertial: Node<'_, '_>) -> Result<(Mass, Option<String>),
     };
     Ok((body.attached_to(Attachment::Base, &link_from_body), refused))
 }
+
+#[cfg(test)]
+mod tests;
