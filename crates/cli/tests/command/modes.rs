@@ -15,10 +15,12 @@ source = "made-up"
 /// The lever of 0.5 m with a rigid slide: 1/2e-6 N m/rad on 4 kg m^2.
 fn lever(more: &str) -> Cell {
     let cell = Cell::new();
-    let rigid = LEVER.replace("compliance_um_per_n = 0.02", "compliance_um_per_n = 0").replace(
-        "compliance_rad_per_n_m = 2e-6\n",
-        "compliance_rad_per_n_m = 2e-6\ncompliance_u_rad_per_n_m = 1e-7\n",
-    );
+    let rigid = LEVER
+        .replace("compliance_um_per_n = 0.02", "compliance_um_per_n = 0")
+        .replace(
+            "compliance_rad_per_n_m = 2e-6\n",
+            "compliance_rad_per_n_m = 2e-6\ncompliance_u_rad_per_n_m = 1e-7\n",
+        );
     cell.file("lever.toml", format!("{rigid}{ROD}{more}"));
     cell
 }

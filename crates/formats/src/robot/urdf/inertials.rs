@@ -20,8 +20,8 @@ use armill_core::robot::forward::forward;
 use armill_core::robot::{Attachment, Mass, Robot};
 use roxmltree::Node;
 
-use super::joints::{JointElement, Kind, origin_of};
-use super::{origin, tree};
+use super::joints::{JointElement, Kind, origin, origin_of};
+use super::tree;
 use crate::document::{Problems, Source};
 use crate::robot::body_inertia::not_of_a_body;
 use crate::xml::{children, numbers, required};

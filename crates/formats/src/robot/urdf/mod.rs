@@ -24,13 +24,13 @@ mod joints;
 pub mod meshes;
 mod tree;
 
-use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
+use armill_core::frame::Isometry;
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::joint::Sign;
 use armill_core::robot::model::NamedFrame;
 use armill_core::robot::{Amount, Axis, Joint, Limits, Motion, Robot, Structure};
 
-use self::joints::{JointElement, Kind};
+use self::joints::{JointElement, Kind, origin};
 use super::MOST_JOINTS;
 use super::description::RobotDescription;
 use crate::document::{self, Problems};
@@ -288,11 +288,6 @@ impl Arm {
             ..Joint::plain(&joint.name)
         });
     }
-}
-
-/// Where a joint is in its parent link.
-fn origin(joint: &JointElement) -> Isometry {
-    from_xyz_and_fixed_angles(joint.xyz.into(), joint.rpy.into())
 }
 
 /// From the parent link to the joint, constants that are zero left out.

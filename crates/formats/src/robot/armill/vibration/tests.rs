@@ -152,7 +152,7 @@ fn what_no_arm_has_is_refused_with_its_place() {
             "rotor_inertia_kg_m2 = 1e-3",
             "rotor_inertia_kg_m2 = -1e-3",
             "rotor_inertia_kg_m2",
-            "-0.001",
+            "must be at least 0 kg m^2",
         ),
         (
             "damping_n_s_per_m = 900",

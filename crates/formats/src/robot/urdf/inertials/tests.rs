@@ -45,7 +45,7 @@ fn urdf(inertials: [&str; 6]) -> String {
         joint(
             "grip",
             "prismatic",
-            ["tool0", "finger"],
+            ["a", "finger"],
             &format!("{limit}<mimic joint=\"j2\"/>")
         ),
     )
