@@ -376,6 +376,7 @@ fn sprung() -> StiffnessModel {
         attachment: Attachment::Joint(joint),
         mass,
         centre: centre.into(),
+        inertia: None,
     };
     let mut model = StiffnessModel::DRIVES.clone();
     model.structure.springs = (0..6)

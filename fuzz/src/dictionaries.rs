@@ -39,7 +39,7 @@ pub const ROBOT: &[&str] = &[
     "zero_offset_mm = ", "limits_deg = [", "limits_mm = [", "max_speed_deg_per_s = ", "compliance_rad_per_n_m = ",
     "compliance_u_rad_per_n_m = ", "compliance_um_per_n = ", "compliance_u_um_per_n = ", "compliance_source = ", "coupling = { of = ",
     "factor = ", "[[frame]]\n", "rotation_deg = [", "origin_mm = [", "[[spring]]\n", "at = \"base\"\n", "at = \"flange\"\n",
-    "compliance_matrix = ", "[[mass]]\n", "mass_kg = ", "centre_mm = [", "payload = true\n", "[compensator]\n", "free_length_mm = ",
+    "compliance_matrix = ", "[[mass]]\n", "mass_kg = ", "centre_mm = [", "inertia_kg_m2 = [[", "[[motor]]\n", "rotor_inertia_kg_m2 = ", "ratio = ", "lead_mm = ", "[damping]\n", "damping_n_m_s_per_rad = ", "damping_n_s_per_m = ", "payload = true\n", "[compensator]\n", "free_length_mm = ",
     "stiffness_n_per_mm = ", "arm_radius_mm = ", "fixed_radius_mm = ", "torque_curve_n_m_rad = [[", "torque_curve_falling_n_m_rad = [[",
     "[covariance]\n", "of = [", "hysteresis = ", "[[source]]\n", "key = ", "what = ", "place = ", "licence = ", "nan", "inf", "1e308",
     "1e-320", "-0.0", "'''", "{}", "[]",
@@ -50,7 +50,7 @@ pub const ROBOT: &[&str] = &[
 pub const URDF: &[&str] = &[
     "<robot name=\"", "</robot>", "<link name=\"", "<joint name=\"", "</joint>", " type=\"revolute\">", "continuous", "prismatic",
     "fixed", "floating", "planar", "<parent link=\"", "<child link=\"", "<origin xyz=\"", " rpy=\"", "<axis xyz=\"", "<limit lower=\"",
-    " upper=\"", " velocity=\"", " effort=\"", "<mimic joint=\"", "\"/>", "tool0", "flange", "base_link", "base", "<!DOCTYPE x [",
+    " upper=\"", " velocity=\"", " effort=\"", "<mimic joint=\"", "<inertial>", "</inertial>", "<mass value=\"", "<inertia ixx=\"", "\"/>", "tool0", "flange", "base_link", "base", "<!DOCTYPE x [",
     "<!ENTITY e \"", "&e;", "]>", "&lt;", "&#0;", "<![CDATA[", "]]>", "<!--", "-->", "<?xml version=\"1.0\"?>", "xmlns=\"", "nan",
     "inf", "1e308", "1e-320",
 ];

@@ -181,3 +181,78 @@ def test_accepts_poses_of_spatialmath_and_scipy(rtb):
     single = spatialmath.SE3(poses[0], check=False)
     assert np.allclose(mh12.inverse(single).joints, expected[0], atol=1e-9)
     assert np.allclose(mh12.forward(np.zeros(6), spatialmath.SE3(tool)), mh12.forward(np.zeros(6), tool))
+
+
+def urdf_with_inertials(rng: np.random.Generator) -> str:
+    """Six joints about axes in arbitrary directions and one that slides; a body of random inertia on each link, and on two that are fixed."""
+
+    def numbers(values):
+        return " ".join(repr(float(value)) for value in values)
+
+    def body():
+        turn, _ = np.linalg.qr(rng.normal(size=(3, 3)))
+        inertia = turn @ np.diag(rng.uniform(1, 2, 3)) @ turn.T
+        entries = [("ixx", 0, 0), ("ixy", 0, 1), ("ixz", 0, 2), ("iyy", 1, 1), ("iyz", 1, 2), ("izz", 2, 2)]
+        inertia = " ".join(f'{key}="{float(inertia[i, j])!r}"' for key, i, j in entries)
+        origin = f'<origin xyz="{numbers(rng.uniform(-0.4, 0.4, 3))}" rpy="{numbers(rng.uniform(-3, 3, 3))}"/>'
+        return f'<inertial>{origin}<mass value="{float(rng.uniform(1, 200))!r}"/><inertia {inertia}/></inertial>'
+
+    links, joints, parent = ['<link name="base_link"/>'], [], "base_link"
+    for index in range(7):
+        links.append(f'<link name="l{index}">{body()}</link>')
+        axis = rng.normal(size=3) if index % 2 else np.eye(3)[index % 3] * (-1) ** (index // 2)
+        kind = "prismatic" if index == 3 else "revolute"
+        origin = f'<origin xyz="{numbers(rng.uniform(-0.6, 0.6, 3))}" rpy="{numbers(rng.uniform(-3, 3, 3))}"/>'
+        limit = '<limit lower="-3" upper="3" effort="0" velocity="0"/>'
+        joints.append(
+            f'<joint name="j{index}" type="{kind}"><parent link="{parent}"/><child link="l{index}"/>{origin}'
+            f'<axis xyz="{numbers(axis / np.linalg.norm(axis))}"/>{limit}</joint>'
+        )
+        parent = f"l{index}"
+    for name, parent in [("box", "l2"), ("tool0", "l6")]:
+        links.append(f'<link name="{name}">{body()}</link>')
+        origin = f'<origin xyz="{numbers(rng.uniform(-0.6, 0.6, 3))}" rpy="{numbers(rng.uniform(-3, 3, 3))}"/>'
+        joints.append(
+            f'<joint name="to_{name}" type="fixed"><parent link="{parent}"/><child link="{name}"/>{origin}</joint>'
+        )
+    return f'<robot name="bodies">{"".join(links)}{"".join(joints)}</robot>'
+
+
+def test_mass_matrices_of_a_urdf_are_those_of_pinocchio(pin):
+    rng = np.random.default_rng(41)
+    text = urdf_with_inertials(rng)
+    arm = armill.Robot.from_text(text, "urdf", name="bodies")
+    model = pin.buildModelFromXML(text)
+    assert arm.dof == model.nq == 7
+    joints = rng.uniform(-3, 3, (10_000, 7))
+    ours, data = arm.mass_matrix(joints), model.createData()
+    worst = 0.0
+    for q, found in zip(joints, ours, strict=True):
+        upper = np.triu(pin.crba(model, data, q))
+        expected = upper + np.triu(upper, 1).T
+        worst = max(worst, np.abs(found - expected).max() / np.abs(expected).max())
+    # A few hundred roundings of sums of bodies of up to 200 kg at up to 5 m.
+    assert worst < 1e-10
+
+
+def test_modes_solve_the_equation_of_motion_with_the_mass_matrix_of_pinocchio(pin):
+    rng = np.random.default_rng(43)
+    text = urdf_with_inertials(rng)
+    compliance = rng.uniform(1e-7, 1e-5, 7)
+    arm = armill.Robot.from_text(text, "urdf", name="bodies").with_compliance(compliance)
+    model = pin.buildModelFromXML(text)
+    data = model.createData()
+    joints = rng.uniform(-3, 3, (100, 7))
+    modes = arm.modes(joints)
+    assert modes.shape == (100, 7, 8)
+    for q, found in zip(joints, modes, strict=True):
+        upper = np.triu(pin.crba(model, data, q))
+        mass = upper + np.triu(upper, 1).T
+        squares = np.sort(np.linalg.eigvals(np.linalg.solve(mass, np.diag(1 / compliance))).real)
+        assert np.abs((2 * np.pi * found[:, 0]) ** 2 / squares - 1).max() < 1e-8
+        # The modes make up the compliance at the tool.
+        shapes = found[:, 2:]
+        still = (shapes / ((2 * np.pi * found[:, 0]) ** 2)[:, None]).T @ shapes
+        expected = arm.compliance(q[None])[0]
+        assert np.abs(still - expected).max() < 1e-9 * np.abs(expected).max()
+    assert np.all(modes[:, :, 1] == 0.03)

@@ -233,6 +233,24 @@ def test_gravity_is_the_work_of_the_weight(mh12):
     assert not heavy.gravity(reference, reference).any()
 
 
+def test_modes_and_mass_matrices_need_masses(mh12):
+    for method in (mh12.mass_matrix, mh12.modes):
+        with pytest.raises(armill.InputError, match="no masses"):
+            method(np.zeros(6))
+    text = (ROOT / "robots/yaskawa/mh12.toml").read_text()
+    mass = '\n[[mass]]\nat = "flange"\nmass_kg = 10.0\ncentre_mm = [0.0, 0.0, 0.0]\nsource = "test"\n'
+    mass += '\n[sources.test]\nwhat = "made up"\nwhere = "here"\nlicence = "none"\n'
+    heavy = armill.Robot.from_text(text + mass, "armill", "heavy")
+    q = 0.6 * heavy.limits[:, 0] + 0.4 * heavy.limits[:, 1]
+    # m J^T J of a point at the flange.
+    jacobian = heavy.jacobian(q)[:3]
+    witness = 10.0 * jacobian.T @ jacobian
+    assert np.abs(heavy.mass_matrix(q) - witness).max() < 1e-12 * np.abs(witness).max()
+    # A point has three modes; the other motions have no mass.
+    modes = heavy.modes(q)
+    assert np.isfinite(modes[:3, 0]).all() and np.isinf(modes[3:, 0]).all() and not modes[3:, 1:].any()
+
+
 def test_a_robot_without_compliance_reports_what_to_do(joints):
     opw = armill.Robot.from_opw(a1=0.155, a2=-0.2, b=0.0, c1=0.45, c2=0.614, c3=0.64, c4=0.1)
     with pytest.raises(armill.InputError, match="with_compliance") as refused:

@@ -56,12 +56,16 @@ mod milling_mean_force;
 mod nist_circles;
 #[path = "../path-accuracy/case.rs"]
 mod path_accuracy;
+#[path = "../planar-modes/case.rs"]
+mod planar_modes;
 #[path = "../plane-split/case.rs"]
 mod plane_split;
 #[path = "../thermal-growth/case.rs"]
 mod thermal_growth;
 #[path = "../tx200-compliance/case.rs"]
 mod tx200_compliance;
+#[path = "../tx200-modes/case.rs"]
+mod tx200_modes;
 #[path = "../ur10-pose-accuracy/case.rs"]
 mod ur10_pose_accuracy;
 #[path = "../urdf-forward/case.rs"]
@@ -85,6 +89,10 @@ pub const CASES: &[Case] = &[
     Case {
         folder: "tx200-compliance",
         checks: tx200_compliance::checks,
+    },
+    Case {
+        folder: "tx200-modes",
+        checks: tx200_modes::checks,
     },
     Case {
         folder: "force-to-deflection",
@@ -165,6 +173,10 @@ pub const CASES: &[Case] = &[
     Case {
         folder: "joint-backlash-closed-forms",
         checks: joint_backlash_closed_forms::checks,
+    },
+    Case {
+        folder: "planar-modes",
+        checks: planar_modes::checks,
     },
     Case {
         folder: "plane-split",

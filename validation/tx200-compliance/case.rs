@@ -185,7 +185,7 @@ pub fn workpiece() -> Isometry {
 }
 
 /// The spindle on the flange: TCP in m, turned by 75 deg about y.
-fn flange_from_tool() -> Isometry {
+pub fn flange_from_tool() -> Isometry {
     from_xyz_and_fixed_angles(
         Vector3::new(0.277, 0.0, 0.326),
         Vector3::new(0.0, 1.308_996_9, 0.0),
@@ -253,6 +253,7 @@ fn gravity_gap(robot: &Robot) -> f64 {
         },
         mass: *mass,
         centre: (*centre).into(),
+        inertia: None,
     };
     let structure = Structure {
         masses: MASSES.iter().enumerate().map(mass).collect(),

@@ -82,6 +82,7 @@ fn run(command: &Command) -> Result<Outcome, StudyError> {
         Command::Robots(robots) => command::robots::run(robots),
         Command::Materials(materials) => command::materials::run(materials),
         Command::Pose(pose) => command::pose::run(pose),
+        Command::Modes(modes) => command::modes::run(modes),
         Command::Posture(posture) => command::posture::run(posture),
         Command::Place(place) => command::place::run(place),
         Command::Advise(advise) => command::advise::run(advise),

@@ -6,6 +6,7 @@
 use std::borrow::Cow;
 use std::slice;
 
+use armill_core::dynamics::over_joint_positions;
 use armill_core::frame::Isometry;
 use armill_core::kernel::{EvaluateError, evaluate_at_joints};
 use armill_core::nalgebra::Vector3;
@@ -71,6 +72,55 @@ pub(crate) fn compliance<'py>(robot: &Robot, request: &Request<'_, 'py>) -> Floa
     positions.evaluate(&[6, 6], &NO_LOAD, |arm_state, _, out| {
         let compliance = arm_state.compliance().ok_or(Unstable::Buckles)?;
         out.copy_from_slice(compliance.transpose().as_slice());
+        Ok(())
+    })
+}
+
+/// Mass matrices over the joint positions.
+pub(crate) fn mass_matrix<'py>(robot: &Robot, request: &Request<'_, 'py>) -> Floats<'py> {
+    needs_mass(robot, request, "its mass matrix")?;
+    let mut positions = JointPositions::rigid(robot, request)?;
+    positions.springs.model = Cow::Borrowed(&robot.model);
+    let dof = robot.dof();
+    positions.evaluate(&[dof, dof], &NO_LOAD, |arm_state, _, out| {
+        let matrix = over_joint_positions(robot.arm(), &arm_state.mass_matrix());
+        out.copy_from_slice(matrix.as_slice());
+        Ok(())
+    })
+}
+
+/// What needs masses and motors is refused for an arm without.
+fn needs_mass(robot: &Robot, request: &Request<'_, '_>, what: &str) -> PyResult<()> {
+    let structure = &robot.model.structure;
+    if !structure.masses.is_empty() || !structure.motors.is_empty() {
+        return Ok(());
+    }
+    let message = format!(
+        "robot `{}` has no masses: {what} cannot be predicted",
+        robot.arm().name()
+    );
+    let hint = "give them in the robot file as [[mass]] and [[motor]]";
+    Err(refused(request.joints.py(), message, hint))
+}
+
+/// Modes of vibration: frequency, damping ratio and shape at the tool.
+pub(crate) fn modes<'py>(robot: &Robot, request: &Request<'_, 'py>) -> Floats<'py> {
+    needs_mass(robot, request, "its modes")?;
+    let positions = JointPositions::compliant(robot, request)?;
+    let most = robot.dof() + robot.model.structure.springs.len();
+    positions.evaluate(&[most, 8], &NO_LOAD, |arm_state, _, out| {
+        let found = arm_state.modes()?;
+        out.fill(0.0);
+        for (index, out) in out.chunks_mut(8).enumerate() {
+            let Some(mode) = found.modes.get(index) else {
+                // A motion without mass, or none.
+                out[0] = f64::INFINITY;
+                continue;
+            };
+            out[0] = mode.at_tool.frequency_hz();
+            out[1] = mode.at_tool.damping_ratio;
+            out[2..].copy_from_slice(mode.at_tool.shape.as_slice());
+        }
         Ok(())
     })
 }

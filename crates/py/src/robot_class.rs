@@ -253,6 +253,38 @@ impl Robot {
         joint_positions::compliance(self, &request)
     }
 
+    /// (n, dof) joints -> (n, dof, dof) mass matrices over the joint positions, kg m^2 (kg m, kg).
+    ///
+    /// From the masses and motors of the robot file, or the inertials of a URDF. Rotors turn with their joints.
+    #[pyo3(signature = (joints, *, out=None, threads=None))]
+    fn mass_matrix<'py>(
+        &self,
+        joints: &Bound<'py, PyAny>,
+        out: Optional<'_, 'py>,
+        threads: Option<ThreadCount>,
+    ) -> Floats<'py> {
+        let request = request(joints, None, None, out, threads);
+        joint_positions::mass_matrix(self, &request)
+    }
+
+    /// (n, dof) joints -> (n, modes, 8) modes of vibration, frequencies rising.
+    ///
+    /// The last axis is: frequency in Hz, damping ratio, and the shape at the TCP normalised by mass, base axes: translation in
+    /// 1/sqrt(kg), then rotation in rad/(m sqrt(kg)). There are as many rows as joints and springs; a motion without mass has
+    /// an infinite frequency and shape 0. `compliances` as for `compliance`.
+    #[pyo3(signature = (joints, tool=None, *, compliances=None, out=None, threads=None))]
+    fn modes<'py>(
+        &self,
+        joints: &Bound<'py, PyAny>,
+        tool: Optional<'_, 'py>,
+        compliances: Optional<'_, 'py>,
+        out: Optional<'_, 'py>,
+        threads: Option<ThreadCount>,
+    ) -> Floats<'py> {
+        let request = request(joints, tool, compliances, out, threads);
+        joint_positions::modes(self, &request)
+    }
+
     /// (n, dof) joints, (cases, 3) forces -> (n, cases, 3) deviations of the TCP, m, base axes.
     ///
     /// `forces` are forces (cases, 3) in N or wrenches (cases, 6) in N and N m on the tool at the TCP, base axes; one case

@@ -31,6 +31,7 @@ pub mod live;
 pub mod materials;
 pub mod measured;
 pub mod model_words;
+pub mod modes;
 pub mod naming;
 pub mod new;
 pub mod number;
@@ -42,6 +43,7 @@ pub mod program_out;
 pub mod robot_answers;
 pub mod robots;
 pub mod run;
+pub mod structure_answers;
 pub mod studies;
 pub mod uncertainty_words;
 

@@ -157,6 +157,28 @@ class Robot:
         All compliances of the robot file are included: drives, springs, torque curves and compensator. `compliances` (dof,)
         or samples (s, dof), rad/(N m), are used in place of those of the joints; samples give (s, n, 6, 6).
         """
+    def mass_matrix(
+        self, joints: _Numbers, *, out: _Floats | None = None, threads: int | None = None
+    ) -> _Floats:
+        """(n, dof) joints -> (n, dof, dof) mass matrices over the joint positions, kg m^2 (kg m, kg).
+
+        From the masses and motors of the robot file, or the inertials of a URDF. Rotors turn with their joints.
+        """
+    def modes(
+        self,
+        joints: _Numbers,
+        tool: Poses | None = None,
+        *,
+        compliances: _Numbers | None = None,
+        out: _Floats | None = None,
+        threads: int | None = None,
+    ) -> _Floats:
+        """(n, dof) joints -> (n, modes, 8) modes of vibration, frequencies rising.
+
+        The last axis is: frequency in Hz, damping ratio, and the shape at the TCP normalised by mass, base axes: translation in
+        1/sqrt(kg), then rotation in rad/(m sqrt(kg)). There are as many rows as joints and springs; a motion without mass has
+        an infinite frequency and shape 0. `compliances` as for `compliance`.
+        """
     def deviation(
         self,
         joints: _Numbers,

@@ -1,7 +1,7 @@
 //! Arguments of `armill`: one file per command, with the same name as in `command`.
 //!
 //! `run`, `check`, `compare`, `new`, `robots`, `materials`, `pose`, `posture`, `place`, `advise`, `compensate`,
-//! `identify`, `calibrate`, `forces`, `roundness`, `ballbar`, `backlash`, `budget`, `pose_accuracy`, `path_accuracy`, `motion`,
+//! `identify`, `calibrate`, `forces`, `roundness`, `ballbar`, `backlash`, `budget`, `pose_accuracy`, `path_accuracy`, `motion`, `modes`,
 //! `serve`, `completions`, `man`; `poses` and `program` are used by two of them each, `writing` by all that write
 //! files.
 //!
@@ -25,6 +25,7 @@ mod forces;
 mod identify;
 mod man;
 mod materials;
+mod modes;
 mod motion;
 mod new;
 pub(crate) mod numbers;
@@ -54,6 +55,7 @@ pub(crate) use forces::ForcesArguments;
 pub(crate) use identify::{IdentifyArguments, PointsArgument, PriorArgument};
 pub(crate) use man::ManArguments;
 pub(crate) use materials::MaterialsArguments;
+pub(crate) use modes::ModesArguments;
 pub(crate) use motion::{AngleUnitArgument, MotionArguments, TimeUnitArgument};
 pub(crate) use new::NewArguments;
 pub(crate) use path_accuracy::PathAccuracyArguments;
@@ -103,6 +105,8 @@ pub(crate) enum Command {
     Materials(MaterialsArguments),
     /// List all postures of one pose: joints, compliance, deviation
     Pose(Box<PoseArguments>),
+    /// List the modes of vibration in one posture: frequencies, directions, joints
+    Modes(ModesArguments),
     /// Optimise the spin of the tool and the branch along the paths of a study
     Posture(PostureArguments),
     /// Optimise the placement of the part for the least deviation along a path
@@ -155,6 +159,7 @@ impl Command {
             },
             Command::Materials(a) => a.json,
             Command::Pose(a) => a.json,
+            Command::Modes(a) => a.json,
             Command::Posture(a) => a.run.json,
             Command::Place(a) => a.run.json,
             Command::Advise(a) => a.run.json,

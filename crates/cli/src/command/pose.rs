@@ -19,18 +19,16 @@
 //! A pose without a posture gets the reason instead of postures; this is a result, not an error.
 
 use armill_core::nalgebra::{Point3, Unit, Vector3};
-use armill_core::robot::{JointCompliance, RobotError};
 use armill_core::spatial::Wrench;
 use armill_core::units::{from_deg, from_mm};
 use armill_core::workpiece::Plane;
-use armill_formats::robot::RobotDescription;
+use armill_study::StudyError;
 use armill_study::joint_unit::JointUnit;
 use armill_study::output::posture_drawing;
 use armill_study::pose::{At, PoseAnswer, PoseQuestion, PostureAnswer};
 use armill_study::uncertainty_words::NOT_KNOWN;
-use armill_study::{ComplianceClass, StudyError};
 
-use super::pose_subject::PoseSubject;
+use super::pose_subject::{PoseSubject, with_compliances};
 use crate::arguments::PoseArguments;
 use crate::arguments::numbers::{finite, three, three_or_six};
 use crate::outcome::Outcome;
@@ -43,14 +41,18 @@ use crate::terminal::print;
 /// cannot be written.
 pub(crate) fn run(arguments: &PoseArguments) -> Result<Outcome, StudyError> {
     let mut subject = PoseSubject::find(arguments)?;
-    let caution = with_compliances(arguments, subject.robot())?;
+    let caution = with_compliances(
+        arguments.compliance_rad_per_n_m.as_deref(),
+        arguments.compliance_class.as_deref(),
+        subject.robot(),
+    )?;
     let question = PoseQuestion {
         at: at(arguments)?,
-        flange_from_tool: subject.flange_from_tool(arguments)?,
+        flange_from_tool: subject.flange_from_tool(arguments.tool_mm.as_deref())?,
         wrench: arguments.wrench_n.as_deref().map(wrench).transpose()?,
         load_dependent: arguments.load_dependent,
         reference_joints_deg: reference(arguments)?,
-        base: subject.base(arguments)?,
+        base: subject.base(arguments.base.as_deref())?,
         caution,
         home_deg: arguments.home_deg.clone(),
     };
@@ -66,35 +68,6 @@ pub(crate) fn run(arguments: &PoseArguments) -> Result<Outcome, StudyError> {
         as_text(&answer)
     })?;
     Ok(Outcome::Fine)
-}
-
-/// Puts the compliances of `--compliance-rad-per-n-m` (without uncertainty) or `--compliance-class` into the robot;
-/// returns a caution for the latter. Without either option the robot keeps its own.
-fn with_compliances(
-    arguments: &PoseArguments,
-    found: &mut RobotDescription,
-) -> Result<Option<String>, StudyError> {
-    let Some(name) = &arguments.compliance_class else {
-        if let Some(values) = &arguments.compliance_rad_per_n_m {
-            finite("--compliance-rad-per-n-m", values)?;
-            let given = values.iter().map(|value| JointCompliance {
-                value: *value,
-                standard_uncertainty: 0.0,
-            });
-            let refused = |error| {
-                let message = format!("--compliance-rad-per-n-m: {error}");
-                StudyError::value(message, "one per joint, 0 or more")
-            };
-            let robot = found.robot.clone().with_other_compliance(given.collect());
-            found.robot = robot.map_err(|error: RobotError| refused(error))?;
-        }
-        return Ok(None);
-    };
-    let class = ComplianceClass::named(name)?;
-    let assumed = class.compliance_of(&found.robot)?;
-    let robot = found.robot.clone().with_other_compliance(assumed);
-    found.robot = robot.map_err(|error| StudyError::value(error.to_string(), ""))?;
-    class.caution().map(Some)
 }
 
 /// Joint positions at which the tool was measured; finite, their count is checked by the study.

@@ -32,6 +32,7 @@ mod import;
 #[cfg(unix)]
 mod killed;
 mod materials;
+mod modes;
 mod motion;
 mod new_and_robots;
 mod path_accuracy;

@@ -1,14 +1,21 @@
 //! Dynamics: vibration of the arm and the cutter at the tool.
 //!
-//! Read in this order: [`mode`] (a mode of vibration at the tool), [`receptance`](mod@receptance) (displacement by a harmonic force, from modes),
-//! [`release`](mod@release) (a force that stops at once).
+//! Read in this order: [`mode`] (a mode of vibration at the tool), [`mod@receptance`] (displacement by a harmonic force, from modes), [`mod@release`] (a force that
+//! stops at once), [`inertia`] (of the bodies that a drive or spring moves), [`mod@mass_matrix`] (of drives and springs), [`modes`] (from mass matrix and
+//! compliances).
 //!
-//! Lengths in m, angles in rad, forces in N, angular frequencies in rad/s.
+//! Lengths in m, angles in rad, forces in N, masses in kg, angular frequencies in rad/s.
 
+pub mod inertia;
+pub mod mass_matrix;
 pub mod mode;
+pub mod modes;
 pub mod receptance;
 pub mod release;
 
+pub use inertia::{CarriedInertia, Inertia};
+pub use mass_matrix::{mass_matrix, over_joint_positions};
 pub use mode::Mode;
+pub use modes::{ArmMode, ArmModes, modes_of};
 pub use receptance::receptance;
 pub use release::{Release, release};

@@ -26,3 +26,10 @@ pub struct Mode {
     /// `phi`: translation (1/sqrt(kg)) above rotation (rad/(m sqrt(kg))) of the tool, normalised by mass.
     pub shape: Vector6<f64>,
 }
+
+impl Mode {
+    /// Undamped natural frequency, Hz.
+    pub fn frequency_hz(&self) -> f64 {
+        self.angular_frequency / std::f64::consts::TAU
+    }
+}

@@ -94,6 +94,7 @@ pub(super) fn subjects() -> Vec<(Robot, StiffnessModel)> {
         attachment: Attachment::Joint(2),
         mass: 40.0,
         centre: Point3::new(0.1, 0.0, 0.3),
+        inertia: None,
     }];
     heavy.gravity = Some(Gravity {
         acceleration: Vector3::new(0.0, 0.0, -9.81),

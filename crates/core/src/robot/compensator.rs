@@ -18,11 +18,12 @@
 //! Its torque adds to gravity's, and its slope to the joint: stiffness `k - dM/dtheta`. Source: Klimchik, Wu, Dumas,
 //! Caro, Furet & Pashkevich 2013, arXiv:1311.6810.
 
-use nalgebra::Point3;
+use nalgebra::{Matrix3, Point3};
 
 use super::spring::Attachment;
+use crate::frame::Isometry;
 
-/// A mass under gravity.
+/// A body with mass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mass {
     /// Its attachment.
@@ -31,6 +32,23 @@ pub struct Mass {
     pub mass: f64,
     /// Centre of mass in the frame of the attachment, m.
     pub centre: Point3<f64>,
+    /// Inertia about the centre of mass, in the axes of the attachment, kg m^2; `None` where it is not known: the body is
+    /// then a point. Gravity does not depend on it.
+    pub inertia: Option<Matrix3<f64>>,
+}
+
+impl Mass {
+    /// The same body at another attachment, whose frame has the old one at `new_from_old`.
+    #[must_use]
+    pub fn attached_to(&self, attachment: Attachment, new_from_old: &Isometry) -> Mass {
+        let turn = new_from_old.rotation.to_rotation_matrix();
+        Mass {
+            attachment,
+            mass: self.mass,
+            centre: new_from_old * self.centre,
+            inertia: self.inertia.map(|own| turn * own * turn.transpose()),
+        }
+    }
 }
 
 /// A spring that balances one joint against gravity.

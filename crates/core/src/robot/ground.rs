@@ -32,6 +32,15 @@ pub enum HeldByArm {
     Part,
 }
 
+/// The attachments that a drive or spring moves relative to the ground, by [`Attachment::rank`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MovedBy {
+    /// Between the ground and the tool: it moves the attachment of this rank and all after it, with its screw.
+    Behind(usize),
+    /// Between the part and the ground: it moves this many attachments, from the base of the chain on, against its screw.
+    InFront(usize),
+}
+
 /// Where the ground is in a chain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ground {
@@ -71,6 +80,24 @@ impl Ground {
     /// the base of the arm is on the side of the arm.
     pub fn spring_is_in_front(&self, attachment: Attachment, joints: usize) -> bool {
         self.part_is_in_hand() && attachment.rank(joints) <= self.joints
+    }
+
+    /// What drive `index` of a chain moves.
+    pub fn moved_by_drive(&self, index: usize) -> MovedBy {
+        let rank = index + 1;
+        match index < self.joints {
+            true => MovedBy::InFront(rank),
+            false => MovedBy::Behind(rank),
+        }
+    }
+
+    /// What a spring at this attachment of a chain of `joints` joints moves: its own attachment too.
+    pub fn moved_by_spring(&self, attachment: Attachment, joints: usize) -> MovedBy {
+        let rank = attachment.rank(joints);
+        match self.spring_is_in_front(attachment, joints) {
+            true => MovedBy::InFront(rank + 1),
+            false => MovedBy::Behind(rank),
+        }
     }
 
     /// Whether the base of the chain is the ground.
@@ -118,11 +145,7 @@ impl Ground {
     /// A mass of the arm; one at its base is on the ground, wherever that is in the chain.
     pub fn mass_of_arm(&self, mass: &Mass) -> Mass {
         match mass.attachment {
-            Attachment::Base => Mass {
-                attachment: self.attachment(),
-                centre: self.joint_from_ground * mass.centre,
-                ..*mass
-            },
+            Attachment::Base => mass.attached_to(self.attachment(), &self.joint_from_ground),
             _ => *mass,
         }
     }

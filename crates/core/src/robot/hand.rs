@@ -22,10 +22,12 @@
 use nalgebra::DMatrix;
 
 use super::chain::Chain;
-use super::compensator::{Compensator, Mass};
+use super::compensator::Compensator;
+use super::damping::Damping;
 use super::ground::{Ground, HeldByArm};
 use super::joint::{Coupling, Joint};
 use super::model::{Hand, Robot, RobotError};
+use super::motor::Motor;
 use super::positioner::{Positioner, constants, reversed};
 use super::spring::Spring;
 use super::structure::Structure;
@@ -113,15 +115,28 @@ fn structure_read_back(arm: &Positioner<'_>) -> Structure {
     });
     let masses = own.masses.iter().map(|mass| {
         let (attachment, new_from_old) = arm.attached(mass.attachment);
-        Mass {
-            attachment,
-            centre: new_from_old * mass.centre,
-            ..*mass
-        }
+        mass.attached_to(attachment, &new_from_old)
     });
     Structure {
         springs: springs.collect(),
         masses: masses.collect(),
+        motors: own
+            .motors
+            .iter()
+            .map(|motor| Motor {
+                joint: count - 1 - motor.joint,
+                ..*motor
+            })
+            .collect(),
+        damping: own.damping.as_ref().map(|damping| match damping {
+            Damping::Ratio(ratio) => Damping::Ratio(*ratio),
+            Damping::Joints(dampers) => Damping::Joints(
+                (0..count)
+                    .rev()
+                    .map(|joint| dampers.get(joint).copied().unwrap_or_default())
+                    .collect(),
+            ),
+        }),
         compensator: own.compensator.map(|compensator| Compensator {
             joint: count - 1 - compensator.joint,
             // The chain position of its joint is the opposite.

@@ -1,7 +1,7 @@
 //! The robot: kinematics, structure and postures.
 //!
 //! In reading order: [`chain`] (elementary motions and their inner form), [`joint`] (limits, signs, zeros, compliance),
-//! [`structure_error`] (why a structure is not valid), [`spring`], [`compensator`], [`torque_curve`], [`backlash`],
+//! [`structure_error`] (why a structure is not valid), [`spring`], [`compensator`] (and masses), [`motor`], [`damping`], [`torque_curve`], [`backlash`],
 //! [`structure`] (the parts other than drives), [`ground`] (the link that does not move), [`model`] (the robot as one
 //! value), [`positioner`] (an arm and the positioner of the part as one chain), [`hand`] (an arm that holds the part), [`forward`] (joint positions to frames), [`jacobian`] (screws at the tool), `forward_of_eight` (both for eight postures at once, along the chain by
 //! `frame_in_lanes`), [`deflected_arm`] (frames and screws of the deflected arm), [`branch`] and [`posture`] (the
@@ -13,6 +13,7 @@ pub mod branch;
 pub mod chain;
 pub mod compensator;
 pub mod convention;
+pub mod damping;
 pub mod deflected_arm;
 pub mod forward;
 mod forward_of_eight;
@@ -23,6 +24,7 @@ pub mod inverse;
 pub mod jacobian;
 pub mod joint;
 pub mod model;
+pub mod motor;
 pub mod positioner;
 pub mod posture;
 pub mod reach;
@@ -36,9 +38,11 @@ pub use backlash::{Backlash, BacklashSide, STANDSTILL};
 pub use branch::{Branch, BranchPattern, Elbow, Shoulder, Wrist};
 pub use chain::{Amount, Axis, Chain, Motion};
 pub use compensator::{Compensator, Mass};
-pub use ground::{Ground, HeldByArm};
+pub use damping::Damping;
+pub use ground::{Ground, HeldByArm, MovedBy};
 pub use joint::{Joint, JointCompliance, Limits};
 pub use model::{Robot, RobotError};
+pub use motor::Motor;
 pub use posture::{Posture, PostureName, Sides, Singularity};
 pub use reach::reach;
 pub use spring::{Attachment, Spring};

@@ -23,9 +23,11 @@ use nalgebra::DMatrix;
 use super::backlash::Backlash;
 use super::chain::{Amount, Axis, Chain, Motion};
 use super::compensator::Mass;
+use super::damping::Damping;
 use super::ground::{Ground, HeldByArm};
 use super::joint::{Joint, JointCompliance, Sign};
 use super::model::{NamedFrame, Robot, RobotError};
+use super::motor::Motor;
 use super::spring::{Attachment, Spring};
 use super::structure::Structure;
 use crate::frame::{Isometry, fixed_angles};
@@ -165,6 +167,14 @@ impl Robot {
             attachment: moved(mass.attachment, count),
             ..ground.mass_of_arm(mass)
         });
+        let motors = own.motors.iter().map(|motor| Motor {
+            joint: motor.joint + count,
+            ..*motor
+        });
+        let of_positioner = other.motors.iter().map(|motor| Motor {
+            joint: count - 1 - motor.joint,
+            ..*motor
+        });
         let carried = other
             .masses
             .iter()
@@ -181,6 +191,8 @@ impl Robot {
         Structure {
             springs: springs.collect(),
             masses: masses.chain(carried).collect(),
+            motors: motors.chain(of_positioner).collect(),
+            damping: damping_behind(own.damping.as_ref(), other.damping.as_ref(), count),
             compensator: own.compensator.map(|mut compensator| {
                 compensator.joint += count;
                 compensator
@@ -295,11 +307,20 @@ fn constants_between(chain: &Chain, joint: usize) -> Isometry {
 /// A mass of the positioner on the whole chain; none if it stands on the ground.
 fn mass_of_positioner(mass: &Mass, positioner: &Positioner<'_>) -> Option<Mass> {
     let (attachment, new_from_old) = positioner.attached(mass.attachment);
-    (mass.attachment != Attachment::Base).then(|| Mass {
-        attachment,
-        centre: new_from_old * mass.centre,
-        mass: mass.mass,
-    })
+    (mass.attachment != Attachment::Base).then(|| mass.attached_to(attachment, &new_from_old))
+}
+
+/// The damping of an arm behind a positioner of `count` joints: a ratio of the arm is kept, and dampers of both are joined.
+fn damping_behind(arm: Option<&Damping>, positioner: Option<&Damping>, count: usize) -> Option<Damping> {
+    let Damping::Joints(own) = arm? else {
+        return arm.cloned();
+    };
+    let of_positioner = |joint: usize| match positioner {
+        Some(Damping::Joints(dampers)) => dampers.get(joint).copied().unwrap_or_default(),
+        _ => 0.0,
+    };
+    let all = (0..count).rev().map(of_positioner).chain(own.iter().copied());
+    Some(Damping::Joints(all.collect()))
 }
 
 /// The covariance of the arm with the compliances of the positioner in front, which are independent.

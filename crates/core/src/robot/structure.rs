@@ -1,14 +1,16 @@
-//! The structure of an arm in addition to its drives: springs, masses, compensator, torque curves,
+//! The structure of an arm in addition to its drives: springs, masses, motors, damping, compensator, torque curves,
 //! backlash, repeatability, and model error.
 //!
 //! Empty for the simple model, in which only joints deflect, each about its own axis.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, Matrix3};
 
 use super::backlash::Backlash;
 use super::chain::Chain;
 use super::compensator::{Compensator, Mass};
+use super::damping::{CRITICAL, Damping, STRONGEST_DAMPER};
 use super::joint::SOFTEST;
+use super::motor::{HEAVIEST_ROTOR, Motor};
 use super::spring::{Attachment, Spring};
 use super::structure_error::{StructureError, WIDEST, WIDEST_SCATTER, WORST_MODEL};
 use super::torque_curve::JointCurve;
@@ -20,6 +22,10 @@ pub struct Structure {
     pub springs: Vec<Spring>,
     /// Masses.
     pub masses: Vec<Mass>,
+    /// Rotors of the motors, at most one a joint; only the vibration of the arm depends on them.
+    pub motors: Vec<Motor>,
+    /// Damping of the vibration, if known.
+    pub damping: Option<Damping>,
     /// The gravity compensator, if the arm has one.
     pub compensator: Option<Compensator>,
     /// Torque curves that replace joint compliances, by joint; the list may be shorter than the joints.
@@ -44,6 +50,8 @@ impl Structure {
     pub const EMPTY: Structure = Structure {
         springs: Vec::new(),
         masses: Vec::new(),
+        motors: Vec::new(),
+        damping: None,
         compensator: None,
         curves: Vec::new(),
         covariance: None,
@@ -98,6 +106,33 @@ impl Structure {
             if m.centre.iter().any(|part| !part.is_finite()) {
                 return Err(StructureError::NotFinite("a centre of mass"));
             }
+            if let Some(inertia) = &m.inertia
+                && !is_inertia(inertia)
+            {
+                return Err(StructureError::Inertia { mass });
+            }
+        }
+        for motor in &self.motors {
+            attached("a motor", Attachment::Joint(motor.joint))?;
+            let value = motor.inertia_at_joint();
+            if motor.rotor_inertia < 0.0 || !(0.0..=HEAVIEST_ROTOR).contains(&value) {
+                let joint = motor.joint;
+                return Err(StructureError::Motor { joint, value });
+            }
+        }
+        match &self.damping {
+            Some(Damping::Ratio(ratio)) if !(0.0..CRITICAL).contains(ratio) => {
+                return Err(StructureError::DampingRatio(*ratio));
+            }
+            Some(Damping::Joints(dampers)) => {
+                for (joint, value) in dampers.iter().enumerate() {
+                    attached("damping", Attachment::Joint(joint))?;
+                    if !(0.0..=STRONGEST_DAMPER).contains(value) {
+                        return Err(StructureError::Damper { joint, value: *value });
+                    }
+                }
+            }
+            Some(Damping::Ratio(_)) | None => {}
         }
         for (joint, _) in self
             .curves
@@ -151,6 +186,18 @@ fn check_compensator(c: &Compensator) -> Result<(), StructureError> {
 /// A covariance may deviate from symmetry and sign by the rounding of its printed numbers, relative to its largest
 /// entry.
 const PRINTED: f64 = 1e-6;
+
+/// Greatest number of an inertia, kg m^2.
+const GREATEST_INERTIA: f64 = 1e12;
+
+/// Whether this is the inertia of a body: finite, symmetric, and negative about no axis, up to the rounding of printed numbers.
+/// That each principal inertia is at most the sum of the others is not required: a body without thickness meets it only up to rounding.
+fn is_inertia(inertia: &Matrix3<f64>) -> bool {
+    let rounding = PRINTED * inertia.amax();
+    inertia.iter().all(|value| value.abs() <= GREATEST_INERTIA)
+        && (inertia - inertia.transpose()).amax() <= rounding
+        && inertia.symmetric_eigenvalues().min() >= -rounding
+}
 
 fn check_covariance(covariance: &DMatrix<f64>, compliances: usize) -> Result<(), StructureError> {
     let size = covariance.nrows();

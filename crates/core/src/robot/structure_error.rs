@@ -47,6 +47,31 @@ pub enum StructureError {
         /// The value given.
         value: f64,
     },
+    /// An inertia that no body has.
+    #[error("mass number {}: its inertia is not finite, symmetric and positive about every axis", mass + 1)]
+    Inertia {
+        /// Index of the mass.
+        mass: usize,
+    },
+    /// A rotor out of range.
+    #[error("motor of joint number {}: an inertia of {value} kg m^2 at the joint is not a number from 0 to 1e9", joint + 1)]
+    Motor {
+        /// Index of the joint.
+        joint: usize,
+        /// Rotor inertia times the square of the ratio.
+        value: f64,
+    },
+    /// A damping ratio out of range.
+    #[error("a damping ratio of {0} is not a number from 0 to below 1")]
+    DampingRatio(f64),
+    /// Viscous damping out of range.
+    #[error("damping of joint number {}: {value} is not a number from 0 to 1e12 N m s/rad (N s/m)", joint + 1)]
+    Damper {
+        /// Index of the joint.
+        joint: usize,
+        /// The value given.
+        value: f64,
+    },
     /// An attachment, curve or compensator at a joint that does not exist, or is prismatic.
     #[error("{what} names joint number {}, which does not exist or is prismatic", joint + 1)]
     NoSuchJoint {

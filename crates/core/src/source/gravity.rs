@@ -22,7 +22,7 @@
 
 use nalgebra::{IsometryMatrix3, Vector3};
 
-use crate::robot::{Attachment, Mass};
+use crate::robot::{Attachment, Mass, MovedBy};
 use crate::spatial::{Twist, Wrench};
 
 /// The masses carried by one attachment and all after it.
@@ -79,9 +79,17 @@ pub fn torque(screw: &Twist, carried: &Carried, g: &Vector3<f64>) -> f64 {
     screw.dot(&carried.weight(g))
 }
 
+/// Torque of the weight on a drive or spring with this screw at the TCP, N m (N), by what it moves. `carried` is given by rank.
+pub fn torque_by(screw: &Twist, carried: &[Carried], moved: MovedBy, g: &Vector3<f64>) -> f64 {
+    match moved {
+        MovedBy::Behind(rank) => torque(screw, &carried[rank], g),
+        MovedBy::InFront(ranks) => torque_in_front(screw, carried, ranks, g),
+    }
+}
+
 /// Torque of the weight on a drive or spring between the part and the ground with this screw at the TCP, N m (N). `carried` is
 /// given by rank; the masses of the first `ranks` ranks are on its other side.
-pub fn torque_in_front(screw: &Twist, carried: &[Carried], ranks: usize, g: &Vector3<f64>) -> f64 {
+fn torque_in_front(screw: &Twist, carried: &[Carried], ranks: usize, g: &Vector3<f64>) -> f64 {
     let (all, behind) = (carried[0], carried[ranks]);
     let in_front = Carried {
         mass: all.mass - behind.mass,
@@ -102,6 +110,7 @@ mod tests {
             attachment: Attachment::Joint(0),
             mass: 10.0,
             centre: Point3::new(0.5, 0.0, 0.2),
+            inertia: None,
         }];
         let tcp = Vector3::new(1.0, 0.0, 0.0);
         let mut carried = [Carried::NOTHING; 4];
@@ -121,6 +130,7 @@ mod tests {
             attachment,
             mass,
             centre: Point3::new(x, 0.2, -0.1),
+            inertia: None,
         };
         vec![
             mass(Attachment::Tool, 1.0, 0.3),

@@ -11,7 +11,7 @@ use super::contributor::Contributor;
 use super::thermal::ThermalGrowth;
 use crate::frame::Isometry;
 use crate::robot::deflected_arm::FlexibleArm;
-use crate::robot::{Attachment, Joint, JointCompliance, Robot, Structure};
+use crate::robot::{Attachment, Joint, JointCompliance, MovedBy, Robot, Structure};
 
 /// Standard acceleration of free fall, m/s^2: 3rd CGPM 1901, ISO 80000-3.
 pub const FREE_FALL: f64 = 9.806_65;
@@ -131,6 +131,16 @@ impl Arm<'_> {
         self.compliance.iter().copied().chain(springs).collect()
     }
 
+    /// What each drive, then each spring, moves.
+    pub(super) fn moved_by(&self) -> Vec<MovedBy> {
+        let (ground, joints) = (self.robot.chain().ground(), self.robot.joints().len());
+        let springs = self.model.structure.springs.iter();
+        (0..joints)
+            .map(|joint| ground.moved_by_drive(joint))
+            .chain(springs.map(|spring| ground.moved_by_spring(spring.attachment, joints)))
+            .collect()
+    }
+
     /// Attachment of each drive, then of each spring.
     pub(super) fn attachments(&self) -> Vec<Attachment> {
         let springs = self
@@ -178,6 +188,7 @@ mod tests {
                     attachment: Attachment::Joint(2),
                     mass: 40.0,
                     centre: Point3::new(0.1, 0.0, 0.3),
+                    inertia: None,
                 }];
             }),
             ("gravity", |m| {

@@ -77,6 +77,7 @@ fn heavy(robot: &Robot) -> Structure {
             attachment: Attachment::Joint(robot.joints().len() - 1),
             mass: 12.0,
             centre: Point3::new(0.02, 0.01, 0.1),
+            inertia: None,
         }],
         ..Structure::EMPTY
     }

@@ -64,6 +64,7 @@ fn fanuc_masses() -> Vec<Mass> {
         attachment: Attachment::Joint(joint),
         mass: *mass,
         centre: Point3::new(*x, *y, z + d),
+        inertia: None,
     };
     FANUC.iter().zip(FANUC_D).enumerate().map(mass).collect()
 }

@@ -28,6 +28,9 @@ const POSE_LENGTHS: usize = 3;
 const ATOMS: &[(&str, &str, Option<&str>)] = &[
     (POSE_SUFFIX, POSE, None),
     ("per_k", "1/K", None),
+    ("kg_m2", "kg m^2", Some("inertias")),
+    ("n_m_s", "N m s", None),
+    ("n_s", "N s", None),
     ("n_m", "N m", Some("torques")),
     ("m", "m", Some("lengths")),
     ("mm", "mm", Some("lengths")),

@@ -12,7 +12,8 @@
 //! has a `read`, or a `read_to_tip` where there are links to choose from, and tests with broken input.
 //! [`format`](mod@format) detects which of them a file is, and reads it.
 //!
-//! [`spring_tables`] and [`shape_tables`]: tables of springs, masses and shapes, which studies have as well.
+//! [`spring_tables`] and [`shape_tables`]: tables of springs, masses and shapes, which studies have as well. `body_inertia`: what no
+//! inertia of a body is.
 //! [`pendant`]: what a pendant shows.
 //! `description`: what all of them give.
 
@@ -28,6 +29,7 @@ pub mod urdf;
 #[cfg(feature = "xacro")]
 pub mod xacro;
 
+mod body_inertia;
 mod description;
 
 /// More joints are not accepted, since checks of pairs of joints would take long: the longest snake robots

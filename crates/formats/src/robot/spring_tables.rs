@@ -5,17 +5,19 @@
 //! | `[[spring]]` with `about` | rad/(N m) about an axis of the attachment | one spring |
 //! | `[[spring]]` with `along` | um/N along an axis of the attachment | one spring, m/N |
 //! | `[[spring]]` with `compliance_matrix` | 6 x 6, SI, in the axes of the attachment | up to six springs |
-//! | `[[mass]]` | kg, centre of mass in mm in the frame of the attachment | one mass, m |
+//! | `[[mass]]` | kg, centre of mass in mm in the frame of the attachment, inertia in kg m^2 | one mass, m |
 //!
 //! An attachment is `base`, a joint's name, `flange` or `tool`. A joint of one of these names hides that part of the
 //! arm.
 
-use armill_core::nalgebra::{Matrix6, Point3, Vector3};
+use armill_core::nalgebra::{Matrix3, Matrix6, Point3, Vector3};
 use armill_core::robot::spring::springs_of;
 use armill_core::robot::{Attachment, Axis, JointCompliance, Mass, Spring};
 use armill_core::units::{from_mm, from_um};
 use schemars::JsonSchema;
 use serde::Deserialize;
+
+use super::body_inertia::not_of_a_body;
 
 /// A coordinate axis of an attachment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
@@ -106,6 +108,9 @@ pub struct MassTable {
     /// Centre of mass in the frame of the attachment.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub centre_mm: [f64; 3],
+    /// Inertia about the centre of mass in the axes of the attachment, 3 x 3; a point if left out. Only vibration depends on it.
+    #[schemars(inner(inner(range(min = -1e9, max = 1e9))))]
+    pub inertia_kg_m2: Option<[[f64; 3]; 3]>,
     /// Source: the key of a source, in a study in words.
     pub source: String,
 }
@@ -253,12 +258,18 @@ impl MassTable {
     /// `joints` are the names of the arm's joints.
     ///
     /// # Errors
-    /// An attachment that the arm does not have.
+    /// An attachment that the arm does not have; an inertia that no body has.
     pub fn mass(&self, joints: &[&str]) -> Result<Mass, SpringTableError> {
+        let inertia = self.inertia_kg_m2.map(|rows| Matrix3::from_fn(|i, j| rows[i][j]));
+        if let Some(refused) = inertia.as_ref().and_then(not_of_a_body) {
+            let hint = "3 rows of 3 numbers, symmetric, about the centre of mass: [[Ixx, Ixy, Ixz], ...], with Ixy = -sum m x y";
+            return Err(SpringTableError::new("inertia_kg_m2", refused, hint));
+        }
         Ok(Mass {
             attachment: attachment(&self.at, joints)?,
             mass: self.mass_kg,
             centre: Point3::from(from_mm(Vector3::from(self.centre_mm))),
+            inertia,
         })
     }
 }

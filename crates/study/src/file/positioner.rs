@@ -96,6 +96,7 @@ pub(super) fn find(
         attachment: Attachment::Flange,
         mass: mass.mass_kg,
         centre: mass.centre_mm.map(from_mm).into(),
+        inertia: None,
     }));
     described.robot = described.robot.with_structure(structure).map_err(refused)?;
     Ok(Some(FoundPositioner {

@@ -6,7 +6,7 @@ a table as a data frame, an Arrow table or arrays by column name. ``armill.comma
 """
 
 from armill._commands._call import command_help
-from armill._commands.libraries import materials, pose, robots
+from armill._commands.libraries import materials, modes, pose, robots
 from armill._commands.measurements import (
     ballbar,
     calibrate,
@@ -31,6 +31,7 @@ __all__ = [
     "forces",
     "identify",
     "materials",
+    "modes",
     "motion",
     "path_accuracy",
     "place",

@@ -38,6 +38,23 @@ def materials(
 
 
 @command
+def modes(
+    robot: RobotLike,
+    *,
+    joints_deg: npt.ArrayLike,
+    tool_mm: npt.ArrayLike | None = None,
+    compliance_rad_per_n_m: npt.ArrayLike | None = None,
+    compliance_class: Literal["light", "medium", "heavy"] | None = None,
+    damping_ratio: float | None = None,
+    base: str | None = None,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> Answer:
+    """robot -> Answer: the modes of vibration in one posture: frequencies, directions, joints."""
+    return call("modes", [robot], locals())
+
+
+@command
 def pose(
     robot: RobotLike,
     *,

@@ -4,6 +4,7 @@
 //! Apart from the drives:
 //!   spring at ATTACHMENT: about AXIS, ... rad/(N m)       or: along AXIS, ... µm/N; or both, of a screw
 //!   mass at ATTACHMENT: ... kg, centre (x, y, z) mm
+//!   motor of JOINT: rotor ... kg m^2, ratio ...
 //!   torque curve of JOINT: ... pairs, both directions
 //!   gravity compensator of JOINT: ... N/mm
 //!   covariance of the compliances: known
@@ -12,7 +13,7 @@
 //! An attachment is the body to which a spring or mass belongs; axes and centres are in its frame.
 
 use armill_core::nalgebra::Vector3;
-use armill_core::robot::{JointCompliance, Robot};
+use armill_core::robot::{Damping, JointCompliance, Robot};
 use armill_core::units::{to_mm, to_per_mm, to_um};
 use armill_study::joint_unit::JointUnit;
 use armill_study::robot_answers::attachment_name;
@@ -53,14 +54,29 @@ pub(super) fn as_text(robot: &Robot) -> Vec<String> {
     for mass in &structure.masses {
         let centre = to_mm(mass.centre.coords);
         lines.push(format!(
-            "  mass at {}: {} kg, centre ({:.3}, {:.3}, {:.3}) mm",
+            "  mass at {}: {} kg, centre ({:.3}, {:.3}, {:.3}) mm{}",
             attachment_name(robot, mass.attachment),
             mass.mass,
             centre.x,
             centre.y,
-            centre.z
+            centre.z,
+            mass.inertia.map_or_else(String::new, |inertia| {
+                let [x, y, z]: [f64; 3] = inertia.diagonal().into();
+                format!(", inertia about it {x:.4}, {y:.4}, {z:.4} kg m^2")
+            })
         ));
     }
+    for motor in &structure.motors {
+        let name = &robot.joints()[motor.joint].name;
+        let (inertia, ratio) = (motor.rotor_inertia, motor.ratio);
+        lines.push(format!(
+            "  motor of {name}: rotor {inertia} kg m^2, ratio {ratio}"
+        ));
+    }
+    lines.extend(structure.damping.as_ref().map(|damping| match damping {
+        Damping::Ratio(ratio) => format!("  damping ratio of every mode: {ratio}"),
+        Damping::Joints(dampers) => format!("  viscous damping of the joints: {dampers:?} N m s/rad"),
+    }));
     for joint in 0..robot.joints().len() {
         let name = &robot.joints()[joint].name;
         lines.extend(structure.curve(joint).map(|curve| {

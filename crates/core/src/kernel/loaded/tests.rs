@@ -40,6 +40,7 @@ fn weighing() -> StiffnessModel {
         attachment: Attachment::Joint(2),
         mass: 60.0,
         centre: nalgebra::Point3::new(0.1, 0.0, 0.2),
+        inertia: None,
     }];
     model.gravity = Some(Gravity {
         acceleration: Vector3::new(0.0, 0.0, -9.81),

@@ -82,6 +82,7 @@ fn models() -> [(&'static str, StiffnessModel); 3] {
             attachment: Attachment::Joint(joint),
             mass: 25.0,
             centre: Point3::new(0.1, 0.02, 0.2),
+            inertia: None,
         })
         .to_vec();
     springs.gravity = Some(Gravity {

@@ -8,7 +8,7 @@ use crate::robot::forward::forward;
 use crate::robot::inverse::{ToolAt, postures, tool_on};
 use crate::robot::jacobian::wrist_bend;
 use crate::robot::positioner::tests::{model, state};
-use crate::robot::{Attachment, Backlash, BacklashSide, JointCompliance};
+use crate::robot::{Attachment, Backlash, BacklashSide, JointCompliance, Mass};
 use crate::source::{ArmState, StiffnessModel};
 use crate::spatial::Wrench;
 use crate::watch::Watch;
@@ -16,6 +16,14 @@ use crate::watch::Watch;
 /// The mount of a spindle in front of the arm.
 fn base_from_mount() -> Isometry {
     from_xyz_and_fixed_angles(Vector3::new(1.3, -0.2, 0.4), Vector3::new(0.2, -0.4, 2.0))
+}
+
+fn motor(joint: usize) -> Motor {
+    Motor {
+        joint,
+        rotor_inertia: 1e-3,
+        ratio: 100.0,
+    }
 }
 
 fn spring(attachment: Attachment, axis: Vector3<f64>) -> Spring {
@@ -32,6 +40,7 @@ fn arm() -> Robot {
         attachment,
         mass,
         centre: Point3::new(0.05, -0.1, 0.2),
+        inertia: None,
     };
     let gap = |side| {
         Some(Backlash {
@@ -58,6 +67,8 @@ fn arm() -> Robot {
             mass(Attachment::Joint(2), 90.0),
             mass(Attachment::Flange, 130.0),
         ],
+        motors: vec![motor(0), motor(4)],
+        damping: Some(Damping::Joints(vec![1.0, 2.0, 3.0])),
         compensator: Some(arms::compensator(1)),
         curves: vec![None, None, Some(arms::curves(2))],
         covariance: Some(correlated),
@@ -329,6 +340,7 @@ fn the_mount_deflects_under_the_weight_of_the_tool_and_the_load_on_it() {
         attachment: Attachment::Tool,
         mass: 60.0,
         centre: Point3::new(0.1, 0.0, 0.2),
+        inertia: None,
     }];
     let tool = Isometry::identity();
     let q = [0.3, -0.2, 0.4, 0.5, -0.6, 0.7];

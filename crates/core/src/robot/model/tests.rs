@@ -164,6 +164,7 @@ fn a_structure_is_checked_against_its_robot() {
             attachment: Attachment::Joint(3),
             mass: 1.0,
             centre: nalgebra::Point3::origin(),
+            inertia: None,
         }],
         ..Structure::EMPTY
     };

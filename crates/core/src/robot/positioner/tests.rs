@@ -38,6 +38,7 @@ fn two_axes() -> Robot {
         attachment,
         mass,
         centre: Point3::new(x, 0.02, 0.07),
+        inertia: None,
     };
     let structure = Structure {
         masses: vec![
@@ -69,6 +70,7 @@ fn arm() -> Robot {
         attachment,
         mass,
         centre: Point3::new(0.05, -0.1, 0.2),
+        inertia: None,
     };
     let structure = Structure {
         springs: vec![

@@ -1,11 +1,11 @@
 //! Invalid structures, each by the smallest change of a valid one.
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Matrix3, Point3, Vector3};
 
 use super::*;
 use crate::arms;
 use crate::robot::torque_curve::TorqueCurve;
-use crate::robot::{BacklashSide, JointCompliance};
+use crate::robot::{BacklashSide, Damping, JointCompliance, Motor};
 
 fn spring(value: f64) -> Spring {
     let compliance = JointCompliance {
@@ -39,6 +39,7 @@ fn mass(mass: f64) -> Mass {
         attachment: Attachment::Tool,
         mass,
         centre: Point3::new(0.0, 0.1, 0.2),
+        inertia: Some(Matrix3::identity() * 0.1),
     }
 }
 
@@ -47,12 +48,22 @@ fn sound() -> Structure {
     Structure {
         springs: vec![spring(1e-7), spring(2e-7)],
         masses: vec![mass(3.0), mass(0.0)],
+        motors: vec![motor(1e-3)],
+        damping: Some(Damping::Ratio(0.03)),
         compensator: Some(compensator()),
         curves: vec![None, None, curve()],
         covariance: Some(DMatrix::identity(8, 8) * 1e-14),
         backlash: vec![None, backlash(2e-4)],
         repeatability: 2e-5,
         model_error: 0.1,
+    }
+}
+
+fn motor(rotor_inertia: f64) -> Motor {
+    Motor {
+        joint: 1,
+        rotor_inertia,
+        ratio: -120.0,
     }
 }
 
@@ -272,4 +283,47 @@ fn a_covariance_is_symmetric_not_negative_and_of_compliances_that_exist() {
     covariance[(0, 1)] = 5e-21;
     printed.covariance = Some(covariance);
     assert_eq!(printed.check(arms::ALL[0].chain()), Ok(()));
+}
+
+#[test]
+fn an_inertia_is_symmetric_and_positive_about_every_axis() {
+    let with = |change: fn(&mut Matrix3<f64>)| {
+        refused(|s| {
+            let mut inertia = Matrix3::identity();
+            change(&mut inertia);
+            s.masses[1].inertia = Some(inertia);
+        })
+    };
+    let message = "mass number 2: its inertia is not finite, symmetric and positive about every axis";
+    assert_eq!(with(|i| i[(0, 1)] = 0.1), message);
+    assert_eq!(with(|i| i[(2, 2)] = -1e-3), message);
+    assert_eq!(with(|i| (i[(0, 1)], i[(1, 0)]) = (1.1, 1.1)), message);
+    assert_eq!(with(|i| i[(0, 0)] = f64::NAN), message);
+    let mut thin = sound();
+    thin.masses[0].inertia = Some(Matrix3::zeros());
+    assert_eq!(thin.check(arms::ALL[0].chain()), Ok(()));
+}
+
+#[test]
+fn motors_and_dampers_are_of_joints_and_within_their_range() {
+    for value in [-1e-9, f64::NAN, 1e6] {
+        assert!(
+            refused(|s| s.motors[0] = motor(value)).starts_with("motor of joint number 2: "),
+            "{value}"
+        );
+    }
+    assert_eq!(
+        refused(|s| s.motors[0].joint = 6),
+        "a motor names joint number 7, which does not exist or is prismatic"
+    );
+    for value in [-1e-9, 1.0, f64::NAN] {
+        let given = refused(|s| s.damping = Some(Damping::Ratio(value)));
+        assert_eq!(
+            given,
+            format!("a damping ratio of {value} is not a number from 0 to below 1")
+        );
+    }
+    let damped = |dampers: Vec<f64>| refused(|s| s.damping = Some(Damping::Joints(dampers)));
+    assert!(damped(vec![0.0, -1.0]).starts_with("damping of joint number 2: -1 is not"));
+    assert!(damped(vec![1.0; 7]).contains("joint number 7"));
 }

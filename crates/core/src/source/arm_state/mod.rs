@@ -16,11 +16,12 @@
 //! | `tau_g` | torque of gravity on it, compensator included | N m (N) |
 //!
 //! Made once, used for any number of postures and loads without allocation. `shares`: contribution of each part;
-//! `input_uncertainty`: uncertainty by load and tool; `backlash_and_geometry`: deviations that no load causes.
+//! `input_uncertainty`: uncertainty by load and tool; `backlash_and_geometry`: deviations that no load causes; `vibration`: mass matrix and modes.
 
 mod backlash_and_geometry;
 mod input_uncertainty;
 mod shares;
+mod vibration;
 
 pub use backlash_and_geometry::Links;
 pub use input_uncertainty::LoadedPosture;
@@ -28,14 +29,14 @@ pub use input_uncertainty::LoadedPosture;
 use nalgebra::{IsometryMatrix3, Matrix3, Matrix6, Point3, Rotation3, Vector3};
 
 use super::equilibrium::{AtRest, Equilibrium, Unstable};
-use super::gravity::{Carried, carry_into, torque, torque_in_front};
+use super::gravity::{Carried, carry_into, torque_by};
 use super::stiffness_model::{Arm, Gravity};
 use crate::load::TipCompliance;
 use crate::robot::deflected_arm::{attachment_frame, spring_screw};
 use crate::robot::forward::{Frames, forward_into};
 use crate::robot::inverse::tool_on;
 use crate::robot::jacobian::screws_into;
-use crate::robot::{Attachment, JointCompliance};
+use crate::robot::{Attachment, JointCompliance, MovedBy};
 use crate::spatial::{Twist, Wrench};
 
 /// An arm in one posture.
@@ -44,6 +45,8 @@ pub struct ArmState<'a> {
     arm: Arm<'a>,
     compliances: Vec<JointCompliance>,
     attachments: Vec<Attachment>,
+    /// What each drive, then each spring, moves.
+    moved: Vec<MovedBy>,
     flange_from_tool: Rotation3<f64>,
     /// Whether the deflection of every drive and spring is proportional to its torque, whatever the other loads on the
     /// arm.
@@ -94,6 +97,7 @@ impl<'a> ArmState<'a> {
             arm,
             compliances,
             attachments,
+            moved: arm.moved_by(),
             flange_from_tool: arm.flange_from_tool.rotation.to_rotation_matrix(),
             in_proportion: arm.model.is_affine() && arm.model.structure.compensator.is_none(),
             frames: None,
@@ -181,17 +185,8 @@ impl<'a> ArmState<'a> {
         };
         carry_into(&structure.masses, frame, tcp.coords, &mut weight.carried);
         let g = self.base_from_ground.rotation * weight.gravity.acceleration;
-        let each = self.before.iter_mut().zip(&self.screws).zip(&self.attachments);
-        for (k, ((before, screw), attachment)) in each.enumerate() {
-            let rank = attachment.rank(joints);
-            *before = if k < ground.joints {
-                torque_in_front(screw, &weight.carried, rank, &g)
-            } else if k >= joints && ground.spring_is_in_front(*attachment, joints) {
-                // It carries the masses of its own attachment too.
-                torque_in_front(screw, &weight.carried, rank + 1, &g)
-            } else {
-                torque(screw, &weight.carried[rank], &g)
-            };
+        for (k, (before, screw)) in self.before.iter_mut().zip(&self.screws).enumerate() {
+            *before = torque_by(screw, &weight.carried, self.moved[k], &g);
         }
         if let Some(c) = &structure.compensator {
             self.before[c.joint] += c.torque(self.theta[c.joint]);
@@ -282,19 +277,22 @@ impl<'a> ArmState<'a> {
     pub fn compliance(&self) -> Option<Matrix6<f64>> {
         let mut sum = Matrix6::zeros();
         for (k, screw) in self.screws.iter().enumerate() {
-            let c = match self.arm.model.structure.curve(k) {
-                Some(curve) => curve.slope(self.before[k], 0.0),
-                None => self.compliances[k].value,
-            };
-            let lost = 1.0 - c * self.compensator_slope(k);
-            if lost <= 0.0 {
-                return None;
-            }
             let s = screw.to_vector();
-            // A product by one keeps the bits of the simple model.
-            sum += s * s.transpose() * (c / lost);
+            sum += s * s.transpose() * self.tangent_compliance(k)?;
         }
         Some(sum)
+    }
+
+    /// Compliance of drive or spring `k` of the unloaded arm, with the slope of its torque curve and of the compensator; `None` where
+    /// the arm is unstable.
+    fn tangent_compliance(&self, k: usize) -> Option<f64> {
+        let c = match self.arm.model.structure.curve(k) {
+            Some(curve) => curve.slope(self.before[k], 0.0),
+            None => self.compliances[k].value,
+        };
+        let lost = 1.0 - c * self.compensator_slope(k);
+        // A quotient by one keeps the bits of the simple model.
+        (lost > 0.0).then(|| c / lost)
     }
 
     /// The tangent compliance under the last load, with a load-dependent model; 6 x 6 at the deflected TCP.

@@ -30,6 +30,7 @@ fn masses() -> Vec<Mass> {
         attachment,
         mass,
         centre: Point3::new(0.1, -0.05, z),
+        inertia: None,
     };
     vec![
         mass(Attachment::Joint(0), 260.0, -0.1),
@@ -69,6 +70,8 @@ fn everything() -> StiffnessModel {
         structure: Structure {
             springs: springs(),
             masses: masses(),
+            motors: Vec::new(),
+            damping: None,
             compensator: Some(compensator()),
             curves: vec![None, None, Some(curve())],
             covariance: None,

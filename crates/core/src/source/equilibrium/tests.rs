@@ -168,6 +168,7 @@ fn with_everything() -> StiffnessModel {
         attachment,
         mass,
         centre: Point3::new(0.1, -0.05, z),
+        inertia: None,
     };
     StiffnessModel {
         structure: Structure {

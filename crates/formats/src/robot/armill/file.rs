@@ -47,6 +47,12 @@ pub(super) struct RobotFile {
     pub body: Vec<BodyEntry>,
     /// Which of these bodies are apart.
     pub clearance: Option<ClearanceTable>,
+    /// Rotors of the motors, for vibration.
+    #[schemars(length(max = 64))]
+    #[serde(default)]
+    pub motor: Vec<MotorTable>,
+    /// Damping of the vibration.
+    pub damping: Option<DampingTable>,
     /// Spring that compensates gravity at a joint.
     pub compensator: Option<CompensatorTable>,
     /// Covariance of compliances that were identified together.
@@ -165,6 +171,14 @@ pub(super) struct JointEntry {
     pub backlash_side: Option<BacklashSideName>,
     /// Key of the source of the backlash.
     pub backlash_source: Option<String>,
+    /// Viscous damping between motor and link, for vibration.
+    #[schemars(range(min = 0.0, max = 1e12))]
+    pub damping_n_m_s_per_rad: Option<f64>,
+    /// Viscous damping between motor and link, prismatic joints.
+    #[schemars(range(min = 0.0, max = 1e12))]
+    pub damping_n_s_per_m: Option<f64>,
+    /// Key of the source of the damping.
+    pub damping_source: Option<String>,
     /// Limits by other sources; reported, never enforced.
     #[serde(default)]
     pub other_limits: Vec<OtherLimitsEntry>,
@@ -270,6 +284,38 @@ pub(super) struct ClearanceTable {
     /// Pairs of bodies that are apart in every posture, by name: these are not checked.
     #[schemars(length(max = 1000))]
     pub apart: Vec<[String; 2]>,
+    /// Key of the source.
+    #[serde(rename = "source")]
+    pub _source: String,
+}
+
+/// The rotor of a motor, which moves with its joint.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct MotorTable {
+    /// Name of its joint.
+    pub joint: String,
+    /// Inertia of the rotor about its axis, brake and input shaft included.
+    #[schemars(range(min = 0.0, max = 1e3))]
+    pub rotor_inertia_kg_m2: f64,
+    /// Turns of the motor per turn of the joint.
+    #[schemars(range(min = -1e5, max = 1e5))]
+    pub ratio: Option<f64>,
+    /// Travel per turn of the motor, prismatic joints.
+    #[schemars(range(min = 0.01, max = 1e6))]
+    pub lead_mm: Option<f64>,
+    /// Key of the source.
+    #[serde(rename = "source")]
+    pub _source: String,
+}
+
+/// Damping of the vibration of the arm, the same for every mode.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct DampingTable {
+    /// Damping ratio: damping over critical damping.
+    #[schemars(range(min = 0.0, max = 0.99))]
+    pub ratio: f64,
     /// Key of the source.
     #[serde(rename = "source")]
     pub _source: String,

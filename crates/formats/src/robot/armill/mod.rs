@@ -4,8 +4,8 @@
 //! deflects and has mass in addition to the drives (springs, masses, compensator, torque curves, covariance) is read by
 //! `structure`.
 //!
-//! In reading order: `file` (the tables as written), `checks` (what no schema can say, and SI), `structure`, `bodies`; `spelling`,
-//! `write_bodies`, `write` (a robot of another format as such a file), `identified` (such a file with compliances that were identified),
+//! In reading order: `file` (the tables as written), `checks` (what no schema can say, and SI), `structure`, `vibration`, `bodies`; `spelling`,
+//! `write_bodies`, `write_masses`, `write` (a robot of another format as such a file), `identified` (such a file with compliances that were identified),
 //! `calibrated` (with small motions that were), `learned` (with values of `[motion]` from joint logs).
 //!
 //! ```text
@@ -14,7 +14,7 @@
 //! [chain]       source, motions = [{ about = "z", joint = "S" }, { along = "z", length_mm = 450 }, ...]
 //! [[joint]]     name, sign, zero_offset_deg, limits_deg, max_speed_deg_per_s, compliance_rad_per_n_m, ...
 //! [[body]]      at, name, capsule_mm, accuracy_mm, source: the outline of a link; [clearance] apart
-//! [[frame]] [[spring]] [[mass]] [compensator] [covariance] [repeatability] [model_error] [payload] [controller] [motion]    each may be left out
+//! [[frame]] [[spring]] [[mass]] [[motor]] [damping] [compensator] [covariance] [repeatability] [model_error] [payload] [controller] [motion]    each may be left out
 //! [sources.KEY] what, where, licence: every KEY that a `source` names, and no other
 //! ```
 //!
@@ -28,8 +28,10 @@ mod identified;
 mod learned;
 mod spelling;
 mod structure;
+mod vibration;
 mod write;
 mod write_bodies;
+mod write_masses;
 
 use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
 use armill_core::nalgebra::Vector3;

@@ -1,4 +1,4 @@
-//! What a robot file specifies of an arm in addition to its drives: springs, masses, compensator, torque curves,
+//! What a robot file specifies of an arm in addition to its drives: springs, masses, motors, damping, compensator, torque curves,
 //! covariance, backlash, repeatability, model error.
 //!
 //! Compliances have the order of the core: the drives in the order of the joints, then the springs in the
@@ -40,6 +40,8 @@ impl Checks<'_> {
                 Err(fault) => self.fault(&path, &fault),
             }
         }
+        structure.motors = self.motors(file);
+        structure.damping = self.damping(file);
         structure.curves = (0..file.joint.len())
             .map(|joint| self.curve(file, joint))
             .collect();
@@ -222,7 +224,7 @@ impl Checks<'_> {
 }
 
 /// Whether the chain has a joint of this name that slides.
-fn slides(file: &RobotFile, joint: &str) -> bool {
+pub(super) fn slides(file: &RobotFile, joint: &str) -> bool {
     let own = |motion: &&super::file::MotionEntry| motion.joint.as_deref() == Some(joint);
     let motion = file.chain.motions.iter().find(own);
     motion.is_some_and(|motion| motion.along.is_some())

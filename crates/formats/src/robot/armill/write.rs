@@ -4,7 +4,7 @@
 //! 1e-15 m and rad, limits and speeds within 1e-9.
 //!
 //! Order: comments on origin, what was assumed and what is missing; `format`, `name`, `nominal_branch`, `note`;
-//! `[chain]`; a `[[joint]]` each; a `[[frame]]` each; a `[[body]]` each; `[clearance]`; `[sources]`. Keys that a user has to
+//! `[chain]`; a `[[joint]]` each; a `[[frame]]` each; a `[[mass]]` each; a `[[body]]` each; `[clearance]`; `[sources]`. Keys that a user has to
 //! fill in are in comments.
 
 use armill_core::frame::{Isometry, fixed_angles};
@@ -12,7 +12,7 @@ use armill_core::robot::{Amount, Joint, Motion};
 
 use super::super::description::RobotDescription;
 use super::spelling::{degrees, line, millimetres, quoted, source, sources};
-use super::write_bodies;
+use super::{write_bodies, write_masses};
 
 /// How far (m, rad) a number of the chain may be from its decimal.
 const CHAIN: f64 = 1e-15;
@@ -40,6 +40,7 @@ pub fn write(found: &RobotDescription) -> String {
         line(&mut text, &format!("rotation_deg = {angles}"));
         line(&mut text, &format!("source = {}", quoted(source(found))));
     }
+    write_masses::masses(&mut text, found);
     write_bodies::bodies(&mut text, found);
     sources(&mut text, found);
     text

@@ -14,7 +14,7 @@
 
 use std::ops::Range;
 
-use armill_core::frame::fixed_angles;
+use armill_core::frame::{Isometry, fixed_angles, from_xyz_and_fixed_angles};
 use armill_core::nalgebra::{Quaternion, UnitQuaternion};
 use armill_core::robot::chain::LONGEST;
 use roxmltree::Node;
@@ -64,6 +64,11 @@ pub(super) struct JointElement {
     pub place: Range<usize>,
     /// The name of its child link.
     pub child_place: Range<usize>,
+}
+
+/// Where a joint is in its parent link.
+pub(super) fn origin(joint: &JointElement) -> Isometry {
+    from_xyz_and_fixed_angles(joint.xyz.into(), joint.rpy.into())
 }
 
 /// More joints than this are not accepted: a whole cell has a few hundred.

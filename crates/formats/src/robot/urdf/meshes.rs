@@ -14,8 +14,8 @@ use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
 use armill_core::nalgebra::{Translation3, Unit, UnitQuaternion, Vector3};
 use roxmltree::Node;
 
-use super::joints::{self, JointElement, Kind, origin_of};
-use super::{origin, tree};
+use super::joints::{self, JointElement, Kind, origin, origin_of};
+use super::tree;
 use crate::document::{self, Problems};
 use crate::xml::{self, children, numbers, required, tag};
 

@@ -1,14 +1,14 @@
 //! URDF: XML robot descriptions of ROS, in m and rad.
 //!
 //! The chain runs from the root link to a tip: the one requested, or the one with the most moving joints
-//! (`tool0` among equals). Side branches are left out, as are masses, meshes and collision shapes. `origin rpy`
+//! (`tool0` among equals). Side branches are left out, except for masses of links that are fixed to the chain; so are meshes and collision shapes. `origin rpy`
 //! turns about fixed axes: `R = Rz(y) Ry(p) Rx(r)`. An axis opposite to a coordinate axis becomes a joint
 //! of negative sign. URDF has no compliance; `effort="0"` and `velocity="0"` mean not given. A link `base` that
 //! hangs rigidly on the root is the reference of the controller (ROS-Industrial): it becomes the frame
 //! `controller`.
 //!
 //! In reading order: `joints` (the elements as written), `tree` (links, joints and the chain to a tip), here the
-//! motions of that chain, and [`meshes`] (how its links look).
+//! motions of that chain, `inertials` (masses of its links), and [`meshes`] (how its links look).
 //!
 //! | element | motions |
 //! |---|---|
@@ -19,17 +19,18 @@
 //!
 //! Source: the XML specification of URDF (wiki.ros.org/urdf/XML).
 
+mod inertials;
 mod joints;
 pub mod meshes;
 mod tree;
 
-use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
+use armill_core::frame::Isometry;
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::joint::Sign;
 use armill_core::robot::model::NamedFrame;
-use armill_core::robot::{Amount, Axis, Joint, Limits, Motion, Robot};
+use armill_core::robot::{Amount, Axis, Joint, Limits, Motion, Robot, Structure};
 
-use self::joints::{JointElement, Kind};
+use self::joints::{JointElement, Kind, origin};
 use super::MOST_JOINTS;
 use super::description::RobotDescription;
 use crate::document::{self, Problems};
@@ -79,13 +80,22 @@ pub fn read_to_tip(
 
     let arm = arm(&file, &chain.joints)?;
     let frames = controller_frame(&tree);
-    let remarks = remarks(&tree, &chain, &arm, &frames);
+    let mut remarks = remarks(&tree, &chain, &arm, &frames);
     let robot = Robot::new(id, arm.motions, arm.joints)
         .map_err(|error| {
             let hint = "the file describes no robot that could move".to_owned();
             Problems::from(file.problem(xml::tag(root), error.to_string(), Some(hint)))
         })?
         .with_frames(frames);
+    let inertials = inertials::read(&file, root, &tree, (&chain, &robot));
+    remarks.extend(inertials.remarks);
+    let structure = Structure {
+        masses: inertials.masses,
+        ..Structure::EMPTY
+    };
+    let robot = robot
+        .with_structure(structure)
+        .map_err(|error| Problems::from(file.problem(xml::tag(root), error.to_string(), None)))?;
     let mut found = RobotDescription::of_one_source(robot, "urdf", path, "chain, limits and speeds");
     if let Some(name) = root.attribute("name").filter(|name| !name.trim().is_empty()) {
         found.title = name.to_owned();
@@ -278,11 +288,6 @@ impl Arm {
             ..Joint::plain(&joint.name)
         });
     }
-}
-
-/// Where a joint is in its parent link.
-fn origin(joint: &JointElement) -> Isometry {
-    from_xyz_and_fixed_angles(joint.xyz.into(), joint.rpy.into())
 }
 
 /// From the parent link to the joint, constants that are zero left out.

@@ -1,5 +1,5 @@
 use super::*;
-use armill_core::frame::Isometry;
+use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
 use armill_core::nalgebra::UnitQuaternion;
 use armill_core::robot::inverse::posture_at;
 

@@ -5,7 +5,7 @@
 //! |---|---|
 //! | `<xacro:include>` | the contents of that file, or nothing where it is not needed |
 //! | any other `xacro:` element | itself, with the prefix `xacro` |
-//! | `<link>` | its name alone; on request also the meshes of `<visual>` and `<collision>` with their origins |
+//! | `<link>` | its name alone; on request also its `<inertial>`, or the meshes of `<visual>` and `<collision>` with their origins |
 //! | `<joint>` | itself, with origin, parent, child, axis, limit and mimic |
 //! | `<material>`, `<gazebo>`, `<transmission>`, `<ros2_control>`, `<sensor>` | nothing |
 //! | comments, attributes with a namespace | nothing |
@@ -51,6 +51,8 @@ const OF_SHAPES: [&str; 5] = ["visual", "collision", "origin", "geometry", "mesh
 pub(super) enum OfLinks {
     /// Its name: nothing of its shapes can then fail.
     Names,
+    /// Its name and its mass.
+    Inertials,
     /// Its name and its meshes.
     Meshes,
 }
@@ -217,11 +219,35 @@ impl Writer<'_> {
         for child in node.children() {
             if !is_link {
                 self.node(file, child);
-            } else if self.of_links == OfLinks::Meshes {
-                self.shape(child);
+            } else {
+                match self.of_links {
+                    OfLinks::Names => {}
+                    OfLinks::Inertials => self.inertial(file, child),
+                    OfLinks::Meshes => self.shape(child),
+                }
             }
         }
         self.xml.push_str(&format!("</{prefix}{name}>"));
+    }
+
+    /// An element of a link, if it is or makes its `<inertial>`: a macro says so by its name.
+    fn inertial(&mut self, file: &Source, node: Node<'_, '_>) {
+        let name = node.tag_name().name();
+        let of_mass = |name: &str| name.contains("inerti") || name.contains("mass");
+        if !node.is_element() {
+            return;
+        }
+        if (is_plain(node, "inertial")) || (is_xacro(node) && of_mass(&name.to_lowercase())) {
+            self.element(file, node);
+        } else if is_xacro(node) && ["if", "unless"].contains(&name) {
+            let value = node.attribute("value").unwrap_or_default();
+            self.xml
+                .push_str(&format!("<xacro:{name} value=\"{}\">", escaped(value)));
+            for child in node.children() {
+                self.inertial(file, child);
+            }
+            self.xml.push_str(&format!("</xacro:{name}>"));
+        }
     }
 
     /// An element of the shape of a link, if a mesh needs it.

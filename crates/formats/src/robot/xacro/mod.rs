@@ -5,7 +5,7 @@
 //! simulation are remarks. `$(env ...)` is not evaluated.
 //!
 //! In reading order: `packages` (where included files may be), `elements` (which elements are of xacro), `flatten` (one
-//! text of all files; what links look like and weigh is dropped, so that nothing of it can fail, except for meshes on request), `values` (what each
+//! text of all files; what links look like is dropped, so that nothing of it can fail, except for meshes on request; where masses fail they are dropped too), `values` (what each
 //! name is given anywhere), `load_yaml` (data of YAML files, checked before it is used), `growth` (refuses macros that
 //! could grow without bound), `expand` (macros and expressions, evaluated by the crate `xacro-rs`).
 
@@ -44,7 +44,7 @@ pub fn read_to_tip(
     let Expanded {
         urdf: expanded,
         remarks,
-    } = expand(path, text)?;
+    } = expand_with_inertials(path, text)?;
     let mut found = urdf::read_to_tip(&format!("{shown} (expanded)"), id, &expanded, tip)?;
     for source in &mut found.sources {
         source.key = "xacro".to_owned();
@@ -84,6 +84,24 @@ pub fn expand(path: &Path, text: &str) -> Result<Expanded, Problems> {
 /// As of [`expand`].
 pub fn expand_with_meshes(path: &Path, text: &str) -> Result<Expanded, Problems> {
     expanded(path, text, OfLinks::Meshes)
+}
+
+/// [`expand`] with the masses of the links; without them, and with a remark, where their expressions fail.
+///
+/// # Errors
+/// As of [`expand`].
+pub fn expand_with_inertials(path: &Path, text: &str) -> Result<Expanded, Problems> {
+    expanded(path, text, OfLinks::Inertials).or_else(|problems| {
+        let mut without = expand(path, text)?;
+        let why = problems
+            .as_slice()
+            .first()
+            .map_or("", |problem| problem.message());
+        without
+            .remarks
+            .push(format!("masses of links are left out: {why}"));
+        Ok(without)
+    })
 }
 
 fn expanded(path: &Path, text: &str, of_links: OfLinks) -> Result<Expanded, Problems> {

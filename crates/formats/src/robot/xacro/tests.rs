@@ -62,6 +62,42 @@ fn one_macro_becomes_the_robot_with_an_empty_prefix() {
 }
 
 #[test]
+fn masses_of_links_are_read_and_left_out_with_a_remark_where_an_expression_fails() {
+    let found = read("/nowhere/arm.xacro", "arm", MACRO).unwrap();
+    assert!(found.robot.structure().masses.is_empty());
+    let remark = |found: &RobotDescription| {
+        found
+            .remarks
+            .iter()
+            .any(|given| given.starts_with("masses of links are left out: "))
+    };
+    assert!(remark(&found), "{:?}", found.remarks);
+    // Directly, by a macro with a name of masses, and inside a condition.
+    let property = "<xacro:property name=\"unknown_mass\" value=\"4.5\"/><xacro:macro name=\"rod_inertia\" params=\"mass\">\
+         <inertial><mass value=\"${mass}\"/><inertia ixx=\"${mass*0.1}\" iyy=\"${mass*0.1}\" izz=\"${mass*0.1}\"/></inertial></xacro:macro>";
+    let text = MACRO
+        .replace("<xacro:property name=\"h\"", &format!("{property}<xacro:property name=\"h\""))
+        .replace(
+            "<link name=\"${prefix}link_1\"/>",
+            "<link name=\"${prefix}link_1\"><xacro:rod_inertia mass=\"${2*3}\"/></link>",
+        )
+        .replace(
+            "<link name=\"${prefix}tool0\"/>",
+            "<link name=\"${prefix}tool0\"><xacro:if value=\"${1 == 1}\"><inertial><mass value=\"2\"/></inertial></xacro:if></link>",
+        );
+    let found = read("/nowhere/arm.xacro", "arm", &text).unwrap();
+    assert!(!remark(&found), "{:?}", found.remarks);
+    let masses: Vec<f64> = found
+        .robot
+        .structure()
+        .masses
+        .iter()
+        .map(|mass| mass.mass)
+        .collect();
+    assert_eq!(masses, [4.5, 6.0, 2.0]);
+}
+
+#[test]
 fn meshes_are_kept_on_request_and_nothing_else_of_a_shape() {
     let path = Path::new("/nowhere/arm.xacro");
     let expanded = expand_with_meshes(path, MACRO).unwrap().urdf;

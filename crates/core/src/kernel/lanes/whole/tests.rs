@@ -63,6 +63,7 @@ fn model(joints: usize) -> StiffnessModel {
             attachment,
             mass: 30.0,
             centre: Point3::new(0.1, 0.02, 0.2),
+            inertia: None,
         })
         .to_vec();
     model.gravity = Some(Gravity {
@@ -223,6 +224,7 @@ fn worst_case_shares_and_uncertainty_are_those_of_the_plain_row() {
             attachment: Attachment::Tool,
             mass: 4.0,
             centre: Point3::new(0.0, 0.03, -0.02),
+            inertia: None,
         });
         bend(&mut model, robot);
         if !weighs {
