@@ -58,7 +58,7 @@ pub struct Floquet {
 /// Steps of a period from given ones, or as many as the modes need.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Steps {
-    /// A quarter of a radian of the fastest mode in each, between 40 and 800.
+    /// A quarter of a radian of the fastest mode in each, from 40 to 800; more, to 3000, if fewer than 40 of them are in the cut.
     ByFastestMode,
     /// This many, at least 1.
     Given(usize),
@@ -85,6 +85,9 @@ type Step = Option<[Matrix3<f64>; 2]>;
 /// Turn of the fastest mode in a step, rad, and bounds of the number of steps.
 const TURN: f64 = 0.25;
 const STEPS: [f64; 2] = [40.0, 800.0];
+/// Least number of steps in which a tooth cuts, and most steps for that.
+const IN_CUT: usize = 40;
+const MOST_STEPS: usize = 3000;
 /// Imaginary part over modulus below which a multiplier is real.
 const REAL: f64 = 1e-5;
 /// Depths tried in geometric steps, the least over the deepest, and halvings of the interval found.
@@ -198,16 +201,20 @@ pub fn boundary(
 impl Period {
     fn new(modes: &[Mode], milling: &Milling, spindle: f64, steps: Steps) -> Period {
         let duration = milling.cutter().pitch() / spindle;
-        let count = match steps {
-            Steps::Given(count) => count.max(1),
+        let directional = match steps {
+            Steps::Given(count) => milling.directional_over_pitch(count.max(1)),
             Steps::ByFastestMode => {
-                let fastest = modes
-                    .iter()
-                    .map(|mode| mode.angular_frequency)
-                    .fold(0.0, f64::max);
-                (fastest * duration / TURN).ceil().clamp(STEPS[0], STEPS[1]) as usize
+                let fastest = modes.iter().map(|mode| mode.angular_frequency).fold(0.0, f64::max);
+                let count = (fastest * duration / TURN).ceil().clamp(STEPS[0], STEPS[1]) as usize;
+                let first = milling.directional_over_pitch(count);
+                let cuts = first.iter().filter(|step| step.amax() > 0.0).count();
+                match cuts {
+                    0 | IN_CUT.. => first,
+                    _ => milling.directional_over_pitch((count * IN_CUT / cuts).min(MOST_STEPS)),
+                }
             }
         };
+        let count = directional.len();
         let h = duration / count as f64;
         let transitions: Vec<ModalStep> = modes.iter().map(|mode| ModalStep::new(mode, h)).collect();
         let shapes: Vec<Vector3<f64>> = modes
@@ -216,8 +223,7 @@ impl Period {
             .collect();
         let of_mode = |(shape, step): (&Vector3<f64>, &ModalStep)| shape * shape.transpose() * step.last[0];
         let compliance: Matrix3<f64> = shapes.iter().zip(&transitions).map(of_mode).sum();
-        let steps: Vec<Step> = milling
-            .directional_over_pitch(count)
+        let steps: Vec<Step> = directional
             .into_iter()
             .map(|directional| {
                 let inverse = (Matrix3::identity() - compliance * directional).try_inverse();

@@ -11,7 +11,8 @@
 //! | `w_T`, `T` | tooth passing frequency, period of the teeth | rad/s, s |
 //! | `A_r`, `b` | harmonic of the directional matrix, depth of cut | N/m, m |
 //!
-//! `w` and `w + w_T` are the same motion, so `w` from 0 to `w_T/2` has all boundaries; at `w_T/2` they are period doublings. The
+//! `w` and `w + w_T` are the same motion, so `w` from 0 to `w_T/2` has all boundaries; at `w_T/2`, evaluated with `p`
+//! from `-r - 1` so that frequencies are in pairs, they are period doublings (not sought with `r = 0`). The
 //! depth is found as in [`super::zeroth_order`]: a reciprocal eigenvalue `x` with `Im(x e^(i (w T/2 - pi/2))) = 0`. The frequency is
 //! scanned at [`SCAN`] places and halved where an eigenvalue changes by more than a third of itself, at most [`MOST_HALVINGS`] times.
 //!
@@ -44,7 +45,7 @@ const REAL: f64 = 1e-7;
 /// The system at one spindle speed.
 struct System<'a> {
     modes: &'a [Mode],
-    /// `A_r` over the depth, from `-2 r` to `2 r`.
+    /// `A_r` over the depth, from `-2 r - 1` to `2 r + 1`.
     harmonics: Vec<Matrix3<Complex<f64>>>,
     order: usize,
     period: f64,
@@ -74,8 +75,12 @@ pub fn boundary(
         system.roots_between([&before, &here], MOST_HALVINGS, &mut consider);
         before = here;
     }
-    for x in before.1.iter().filter(|x| x.im.abs() <= REAL * x.norm()) {
-        consider(0.5 * x.re, half);
+    if order > 0 {
+        // With frequencies in pairs about zero, where period doubling has real eigenvalues.
+        let depths = system.depths_of(half, order + 1);
+        for x in depths.iter().filter(|x| x.im.abs() <= REAL * x.norm()) {
+            consider(0.5 * x.re, half);
+        }
     }
     best
 }
@@ -93,7 +98,7 @@ impl System<'_> {
             }
             sum
         };
-        let most = 2 * order as isize;
+        let most = 2 * order as isize + 1;
         System {
             modes,
             harmonics: (-most..=most).map(harmonic).collect(),
@@ -104,14 +109,19 @@ impl System<'_> {
 
     /// Reciprocal eigenvalues at `w`, the smaller moduli first.
     fn depths(&self, w: f64) -> Vec<Complex<f64>> {
-        let blocks = 2 * self.order + 1;
+        self.depths_of(w, self.order)
+    }
+
+    /// The same with orders of the tooth passing frequency from `-below` upwards.
+    fn depths_of(&self, w: f64, below: usize) -> Vec<Complex<f64>> {
+        let blocks = below + self.order + 1;
         let passing = 2.0 * PI / self.period;
         let mut matrix = DMatrix::<Complex<f64>>::zeros(3 * blocks, 3 * blocks);
         for p in 0..blocks {
-            let at_tip = receptance(self.modes, w + (p as f64 - self.order as f64) * passing);
+            let at_tip = receptance(self.modes, w + (p as f64 - below as f64) * passing);
             let at_tip: Matrix3<Complex<f64>> = at_tip.fixed_view::<3, 3>(0, 0).into();
             for q in 0..blocks {
-                let harmonic = self.harmonics[p + 2 * self.order - q];
+                let harmonic = self.harmonics[p + 2 * self.order + 1 - q];
                 matrix
                     .fixed_view_mut::<3, 3>(3 * p, 3 * q)
                     .copy_from(&(at_tip * harmonic));
