@@ -29,7 +29,7 @@ use std::f64::consts::TAU;
 use nalgebra::{Complex, DVector, Matrix3, Vector3};
 
 use super::arnoldi::dominant;
-use super::cutting::Cutting;
+use super::cut_of_any_depth::CutOfAnyDepth;
 use super::modal_step::ModalStep;
 use super::zeroth_order::Boundary;
 use crate::dynamics::Mode;
@@ -55,9 +55,9 @@ pub struct Floquet {
     pub instability: Instability,
 }
 
-/// Steps of a period from given ones, or as many as the modes need.
+/// PeriodSteps of a period from given ones, or as many as the modes need.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Steps {
+pub enum PeriodSteps {
     /// A quarter of a radian of the fastest mode in each, from 40 to 800; more, to 3000, if fewer than 40 of them are in the cut.
     ByFastestMode,
     /// This many, at least 1.
@@ -124,7 +124,7 @@ impl Floquet {
 }
 
 /// The multiplier of largest modulus of these modes (shapes in the feed frame) in this cut at this spindle speed (rad/s, above zero).
-pub fn floquet(modes: &[Mode], milling: &Milling, spindle: f64, steps: Steps) -> Floquet {
+pub fn floquet(modes: &[Mode], milling: &Milling, spindle: f64, steps: PeriodSteps) -> Floquet {
     let period = Period::new(modes, milling, spindle, steps);
     let multiplier = dominant(period.dimension, |state| period.transition(state));
     let instability = match multiplier.im.abs() > REAL * multiplier.norm() {
@@ -146,7 +146,7 @@ pub fn floquet(modes: &[Mode], milling: &Milling, spindle: f64, steps: Steps) ->
 /// As [`Milling::new`].
 pub fn boundary(
     modes: &[Mode],
-    cutting: &Cutting,
+    cutting: &CutOfAnyDepth,
     spindle: f64,
     deepest: f64,
 ) -> Result<Option<(Boundary, Instability)>, CuttingError> {
@@ -155,7 +155,7 @@ pub fn boundary(
             modes,
             &cutting.at_depth(depth)?,
             spindle,
-            Steps::ByFastestMode,
+            PeriodSteps::ByFastestMode,
         ))
     };
     let mut low = LEAST_DEPTH * deepest;
@@ -199,12 +199,15 @@ pub fn boundary(
 }
 
 impl Period {
-    fn new(modes: &[Mode], milling: &Milling, spindle: f64, steps: Steps) -> Period {
+    fn new(modes: &[Mode], milling: &Milling, spindle: f64, steps: PeriodSteps) -> Period {
         let duration = milling.cutter().pitch() / spindle;
         let directional = match steps {
-            Steps::Given(count) => milling.directional_over_pitch(count.max(1)),
-            Steps::ByFastestMode => {
-                let fastest = modes.iter().map(|mode| mode.angular_frequency).fold(0.0, f64::max);
+            PeriodSteps::Given(count) => milling.directional_over_pitch(count.max(1)),
+            PeriodSteps::ByFastestMode => {
+                let fastest = modes
+                    .iter()
+                    .map(|mode| mode.angular_frequency)
+                    .fold(0.0, f64::max);
                 let count = (fastest * duration / TURN).ceil().clamp(STEPS[0], STEPS[1]) as usize;
                 let first = milling.directional_over_pitch(count);
                 let cuts = first.iter().filter(|step| step.amax() > 0.0).count();

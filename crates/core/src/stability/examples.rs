@@ -2,7 +2,7 @@
 
 use nalgebra::{Vector3, Vector6};
 
-use super::cutting::Cutting;
+use super::cut_of_any_depth::CutOfAnyDepth;
 use crate::dynamics::Mode;
 use crate::load::{Cut, Cutter, CuttingLaw, Engagement, Immersion, LeanInCut, Mechanistic, Milling};
 
@@ -23,12 +23,12 @@ pub(super) fn mode([hertz, damping_ratio]: [f64; 2], shape: Vector3<f64>) -> Mod
 }
 
 /// The benchmark cut: two straight teeth, Kt 6e8 Pa, Kn 2e8 Pa; this depth is 1 mm.
-pub(super) fn benchmark(immersion: Immersion) -> Cutting {
+pub(super) fn benchmark(immersion: Immersion) -> CutOfAnyDepth {
     cutting(Cutter::flat(DIAMETER, 2).unwrap(), immersion, [600e6, 200e6, 0.0])
 }
 
 /// This cutter under a linear law with these shear coefficients (Pa), 1 mm deep, 0.1 mm per tooth.
-pub(super) fn cutting(cutter: Cutter, immersion: Immersion, shear: [f64; 3]) -> Cutting {
+pub(super) fn cutting(cutter: Cutter, immersion: Immersion, shear: [f64; 3]) -> CutOfAnyDepth {
     let law = Mechanistic::new(Vector3::from(shear), Vector3::zeros()).unwrap();
     let depth = 1e-3;
     let cut = Cut {
@@ -38,7 +38,7 @@ pub(super) fn cutting(cutter: Cutter, immersion: Immersion, shear: [f64; 3]) -> 
         rise: 0.0,
         lean: LeanInCut::default(),
     };
-    Cutting::new(&Milling::new(cutter, CuttingLaw::Mechanistic(law), cut).unwrap())
+    CutOfAnyDepth::new(&Milling::new(cutter, CuttingLaw::Mechanistic(law), cut).unwrap())
 }
 
 /// rpm in rad/s.

@@ -11,7 +11,7 @@
 //! The lowest boundary is taken. At one speed it is found by bisection; over many speeds by interpolation of `log b'/b` over `log b`,
 //! which is exact where the matrix follows a power of the depth.
 
-use super::cutting::Cutting;
+use super::cut_of_any_depth::CutOfAnyDepth;
 use super::zeroth_order::{Boundary, ZerothOrder};
 use crate::dynamics::Mode;
 use crate::load::CuttingError;
@@ -27,10 +27,10 @@ pub struct Lobe {
 
 /// The boundary of stability of some modes in a cut.
 #[derive(Clone, Debug)]
-pub struct Lobes {
+pub struct StabilityLobes {
     /// By depth of cut (m), ascending; a single one at any depth where the force is proportional to it.
     tables: Vec<(f64, ZerothOrder)>,
-    cutting: Cutting,
+    cutting: CutOfAnyDepth,
     modes: Vec<Mode>,
 }
 
@@ -43,12 +43,16 @@ const AHEAD: f64 = 4.0;
 /// Halvings that find the boundary at one speed: to a millionth of a step of the depths.
 const HALVINGS: usize = 20;
 
-impl Lobes {
+impl StabilityLobes {
     /// Of these modes (shapes in the feed frame) in this cut; boundaries deeper than `deepest` (m, above zero) are not sought.
     ///
     /// # Errors
     /// As [`crate::load::Milling::new`] at the deepest cut.
-    pub fn new(modes: &[Mode], cutting: &Cutting, deepest: f64) -> Result<Lobes, CuttingError> {
+    pub fn new(
+        modes: &[Mode],
+        cutting: &CutOfAnyDepth,
+        deepest: f64,
+    ) -> Result<StabilityLobes, CuttingError> {
         let depths: Vec<f64> = if cutting.is_proportional() {
             vec![deepest]
         } else {
@@ -61,7 +65,7 @@ impl Lobes {
             .into_iter()
             .map(|depth| Ok((depth, table(modes, cutting, depth)?)))
             .collect::<Result<_, CuttingError>>()?;
-        Ok(Lobes {
+        Ok(StabilityLobes {
             tables,
             cutting: *cutting,
             modes: modes.to_vec(),
@@ -150,7 +154,7 @@ impl Lobes {
 }
 
 /// The solution in proportion to the matrix at this depth (m).
-fn table(modes: &[Mode], cutting: &Cutting, depth: f64) -> Result<ZerothOrder, CuttingError> {
+fn table(modes: &[Mode], cutting: &CutOfAnyDepth, depth: f64) -> Result<ZerothOrder, CuttingError> {
     let per_depth = cutting.per_depth(depth)?;
     let deepest = if cutting.is_proportional() {
         depth

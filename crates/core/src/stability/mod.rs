@@ -1,6 +1,6 @@
 //! Stability of milling, and the vibration under the teeth.
 //!
-//! Read in this order: [`named_mode`] (modes at the tip), [`cutting`] (the cut at any depth), `loop_gain` with `cubic` (displacement by
+//! Read in this order: [`named_mode`] (modes at the tip), [`cut_of_any_depth`] (the cut at any depth), `loop_gain` with `cubic` (displacement by
 //! the force that a displacement makes), `branches` (that over the frequency), [`zeroth_order`] (boundary from mean directional
 //! factors), [`lobes`] (boundary over the spindle speed), [`multi_frequency`] (with harmonics of the directional factors),
 //! [`discretisation`] with `modal_step` and `arnoldi` (multipliers of one period of the teeth), [`probability`] (uncertainty of the boundary),
@@ -12,7 +12,7 @@
 mod arnoldi;
 mod branches;
 mod cubic;
-pub mod cutting;
+pub mod cut_of_any_depth;
 pub mod discretisation;
 pub mod forced;
 pub mod lobes;
@@ -23,10 +23,10 @@ pub mod named_mode;
 pub mod probability;
 pub mod zeroth_order;
 
-pub use cutting::Cutting;
-pub use discretisation::{Floquet, Instability};
+pub use cut_of_any_depth::CutOfAnyDepth;
+pub use discretisation::{Floquet, Instability, PeriodSteps};
 pub use forced::{Forced, SurfaceError, WallSide};
-pub use lobes::{Lobe, Lobes};
+pub use lobes::{Lobe, StabilityLobes};
 pub use named_mode::{ModeUncertainty, NamedMode};
 pub use probability::BoundaryUncertainty;
 pub use zeroth_order::{Boundary, ZerothOrder};

@@ -35,7 +35,7 @@ pub const SCAN: usize = 128;
 pub const MOST_HALVINGS: u32 = 8;
 /// Largest change of an eigenvalue from place to place, in parts of itself.
 const STEP: f64 = 0.33;
-/// Steps of a pitch from which harmonics are computed.
+/// PeriodSteps of a pitch from which harmonics are computed.
 const STEPS: usize = 512;
 /// Iterations of the Schur decomposition per dimension.
 const ITERATIONS: usize = 100;

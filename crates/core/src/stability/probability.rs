@@ -18,8 +18,8 @@
 
 use nalgebra::Vector6;
 
-use super::cutting::Cutting;
-use super::lobes::Lobes;
+use super::cut_of_any_depth::CutOfAnyDepth;
+use super::lobes::StabilityLobes;
 use super::named_mode::{Factors, NamedMode, modes};
 use super::zeroth_order::Boundary;
 use crate::load::CuttingError;
@@ -46,16 +46,17 @@ impl BoundaryUncertainty {
     /// As [`crate::load::Milling::new`].
     pub fn at_speed(
         named: &[NamedMode],
-        cutting: &Cutting,
+        cutting: &CutOfAnyDepth,
         spindle: f64,
         deepest: f64,
     ) -> Result<Option<BoundaryUncertainty>, CuttingError> {
         let best = modes(named);
-        let depth_of = |modes: &[crate::dynamics::Mode], cutting: &Cutting| -> Result<f64, CuttingError> {
-            let found = Lobes::new(modes, cutting, deepest)?.at_speed(spindle);
-            Ok(found.map_or(deepest, |boundary| boundary.depth).ln())
-        };
-        let Some(boundary) = Lobes::new(&best, cutting, deepest)?.at_speed(spindle) else {
+        let depth_of =
+            |modes: &[crate::dynamics::Mode], cutting: &CutOfAnyDepth| -> Result<f64, CuttingError> {
+                let found = StabilityLobes::new(modes, cutting, deepest)?.at_speed(spindle);
+                Ok(found.map_or(deepest, |boundary| boundary.depth).ln())
+            };
+        let Some(boundary) = StabilityLobes::new(&best, cutting, deepest)?.at_speed(spindle) else {
             return Ok(None);
         };
         let mut variances = Vec::with_capacity(named.len() + 1);

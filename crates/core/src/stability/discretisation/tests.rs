@@ -9,7 +9,7 @@ use crate::stability::{ZerothOrder, multi_frequency};
 ///
 /// Straight teeth alone; nothing is shared with the solution under test: the angle of each tooth is followed, its factor computed at that
 /// angle, and the delayed displacement taken from a record.
-fn growth(modes: &[Mode], cut: &Cutting, spindle: f64, depth: f64) -> f64 {
+fn growth(modes: &[Mode], cut: &CutOfAnyDepth, spindle: f64, depth: f64) -> f64 {
     let cutter = *cut.milling().cutter();
     let shear = cut.milling().law().by_thickness(1e-4);
     let arc = cut.milling().cut().engagement.arc_at(cutter.radius()).unwrap();
@@ -144,7 +144,7 @@ fn the_multiplier_is_the_growth_of_a_simulation_in_time() {
         let cut = cutting(flat, immersion, [700e6, 250e6, 100e6]);
         let spindle = rpm(7000.0);
         let milling = cut.at_depth(depth).unwrap();
-        let found = floquet(&modes, &milling, spindle, Steps::ByFastestMode);
+        let found = floquet(&modes, &milling, spindle, PeriodSteps::ByFastestMode);
         let grown = growth(&modes, &cut, spindle, depth);
         // The largest displacement of a period wobbles by the angle of the multiplier: about 2 in all periods that are compared.
         assert!(
@@ -158,9 +158,14 @@ fn the_multiplier_is_the_growth_of_a_simulation_in_time() {
 fn the_boundary_converges_with_the_square_of_the_step() {
     let cut = benchmark(Immersion::Up(0.001)).at_depth(2e-3).unwrap();
     let at = |steps: usize| {
-        floquet(&[benchmark_mode()], &cut, rpm(18_000.0), Steps::Given(steps))
-            .multiplier
-            .norm()
+        floquet(
+            &[benchmark_mode()],
+            &cut,
+            rpm(18_000.0),
+            PeriodSteps::Given(steps),
+        )
+        .multiplier
+        .norm()
     };
     let fine = at(1280);
     let errors = [40, 80, 160].map(|steps| (at(steps) - fine).abs());
@@ -181,7 +186,7 @@ fn without_cut_the_multiplier_is_the_decay_of_the_least_damped_mode() {
     );
     let spindle = rpm(6000.0);
     let milling = cut.at_depth(1e-9).unwrap();
-    let found = floquet(&modes, &milling, spindle, Steps::ByFastestMode);
+    let found = floquet(&modes, &milling, spindle, PeriodSteps::ByFastestMode);
     let period = cut.pitch() / spindle;
     let decay = |mode: &Mode| (-mode.damping_ratio * mode.angular_frequency * period).exp();
     let slowest = modes.iter().map(decay).fold(0.0, f64::max);
@@ -264,7 +269,7 @@ fn a_helix_with_the_lead_of_the_pitch_removes_period_doubling() {
     let zeroth = ZerothOrder::new(&soft, &per_depth, cut.pitch(), 1.0).at_speed(spindle);
     let is_stable = zeroth.is_none_or(|boundary| boundary.depth > axial_pitch);
     assert_eq!(
-        floquet(&soft, &milling, spindle, Steps::ByFastestMode).is_stable(),
+        floquet(&soft, &milling, spindle, PeriodSteps::ByFastestMode).is_stable(),
         is_stable
     );
 }

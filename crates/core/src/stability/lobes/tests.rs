@@ -12,7 +12,7 @@ fn speeds_together_and_one_by_one_give_the_same_boundary() {
     let ball = Cutter::ball(0.012, 2).unwrap();
     for (cutter, bound) in [(flat, 1e-12), (ball, 0.03)] {
         let cut = cutting(cutter, Immersion::Down(0.002), [700e6, 250e6, 100e6]);
-        let lobes = Lobes::new(&modes, &cut, 0.02).unwrap();
+        let lobes = StabilityLobes::new(&modes, &cut, 0.02).unwrap();
         let speeds: Vec<f64> = (0..60).map(|k| rpm(2000.0 + 300.0 * f64::from(k))).collect();
         for lobe in lobes.at_speeds(&speeds) {
             let exact = lobes.at_speed(lobe.spindle);
@@ -42,7 +42,7 @@ fn at_the_boundary_of_a_ball_the_loop_gain_of_that_depth_is_critical() {
         Immersion::Slot,
         [700e6, 250e6, 100e6],
     );
-    let lobes = Lobes::new(&modes, &cut, 0.02).unwrap();
+    let lobes = StabilityLobes::new(&modes, &cut, 0.02).unwrap();
     let spindle = rpm(7300.0);
     let found = lobes.at_speed(spindle).unwrap();
     let there = ZerothOrder::new(&modes, &cut.per_depth(found.depth).unwrap(), cut.pitch(), 1.0);
@@ -59,8 +59,8 @@ fn a_bull_nose_with_a_tiny_corner_has_the_boundary_of_a_flat_end_mill() {
         Immersion::Slot,
         [600e6, 200e6, 0.0],
     );
-    let at = |cut: &crate::stability::Cutting| {
-        Lobes::new(&[benchmark_mode()], cut, 0.05)
+    let at = |cut: &crate::stability::CutOfAnyDepth| {
+        StabilityLobes::new(&[benchmark_mode()], cut, 0.05)
             .unwrap()
             .at_speed(rpm(9000.0))
             .unwrap()
@@ -88,7 +88,9 @@ fn a_boundary_below_the_first_depth_of_a_ball_is_reported() {
         Immersion::Slot,
         [700e6, 250e6, 100e6],
     );
-    let found = Lobes::new(&soft, &cut, 0.02).unwrap().at_speed(rpm(7300.0));
+    let found = StabilityLobes::new(&soft, &cut, 0.02)
+        .unwrap()
+        .at_speed(rpm(7300.0));
     assert!(
         found.is_some_and(|boundary| boundary.depth < 0.02 * 2e-3),
         "{found:?}"

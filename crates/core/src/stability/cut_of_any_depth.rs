@@ -6,16 +6,16 @@ use crate::load::{Cut, CuttingError, CuttingLaw, Lean, Milling};
 
 /// A cut whose depth is free: cutter, law, engagement and feed of a given one.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cutting {
+pub struct CutOfAnyDepth {
     milling: Milling,
     is_proportional: bool,
 }
 
-impl Cutting {
+impl CutOfAnyDepth {
     /// The cut of this milling; runout is neglected.
-    pub fn new(milling: &Milling) -> Cutting {
+    pub fn new(milling: &Milling) -> CutOfAnyDepth {
         let cutter = milling.cutter();
-        Cutting {
+        CutOfAnyDepth {
             milling: *milling,
             is_proportional: cutter.corner_radius() == 0.0 && milling.cut().lean.lean == Lean::NONE,
         }
@@ -25,9 +25,9 @@ impl Cutting {
     ///
     /// # Errors
     /// As [`Milling::new`].
-    pub fn with_law(&self, law: CuttingLaw) -> Result<Cutting, CuttingError> {
+    pub fn with_law(&self, law: CuttingLaw) -> Result<CutOfAnyDepth, CuttingError> {
         let milling = Milling::new(*self.milling.cutter(), law, *self.milling.cut())?;
-        Ok(Cutting { milling, ..*self })
+        Ok(CutOfAnyDepth { milling, ..*self })
     }
 
     /// As given.
