@@ -58,6 +58,8 @@ mod nist_circles;
 mod path_accuracy;
 #[path = "../plane-split/case.rs"]
 mod plane_split;
+#[path = "../stability-lobes/case.rs"]
+mod stability_lobes;
 #[path = "../thermal-growth/case.rs"]
 mod thermal_growth;
 #[path = "../tx200-compliance/case.rs"]
@@ -133,6 +135,10 @@ pub const CASES: &[Case] = &[
     Case {
         folder: "irb6640-logs",
         checks: irb6640_logs::checks,
+    },
+    Case {
+        folder: "stability-lobes",
+        checks: stability_lobes::checks,
     },
     Case {
         folder: "inverse-vs-opw",

@@ -48,6 +48,7 @@ from armill._commands import (
     posture,
     robots,
     roundness,
+    stability,
 )
 
 __all__ = [
@@ -84,4 +85,5 @@ __all__ = [
     "read_path",
     "robots",
     "roundness",
+    "stability",
 ]
