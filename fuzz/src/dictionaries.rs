@@ -195,6 +195,13 @@ pub const MATERIAL: &[&str] = &[
     "kae_n_per_mm = ", "kc1_n_per_mm2 = ", "mc_exponent = ", "group = ", "condition = ", "note = ", "[sources.x]\n", "nan", "inf", "1e308",
 ];
 
+/// Keys of a file of modal data.
+#[rustfmt::skip]
+pub const MODAL: &[&str] = &[
+    "[[mode]]\n", "name = ", "source = ", "note = ", "frequency_hz = ", "frequency_u_hz = ", "damping_percent = ", "damping_u_percent = ", "damping_ratio = ", "direction = [0, 1, 0]\n",
+    "modal_mass_kg = ", "stiffness_n_per_um = ", "stiffness_u_percent = ", "nan", "inf", "1e308",
+];
+
 /// Words of every format of tool paths, and words that distinguish them.
 #[rustfmt::skip]
 pub const PROGRAM: &[&str] = &[

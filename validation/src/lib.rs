@@ -60,6 +60,8 @@ mod path_accuracy;
 mod planar_modes;
 #[path = "../plane-split/case.rs"]
 mod plane_split;
+#[path = "../stability-lobes/case.rs"]
+mod stability_lobes;
 #[path = "../thermal-growth/case.rs"]
 mod thermal_growth;
 #[path = "../tx200-compliance/case.rs"]
@@ -141,6 +143,10 @@ pub const CASES: &[Case] = &[
     Case {
         folder: "irb6640-logs",
         checks: irb6640_logs::checks,
+    },
+    Case {
+        folder: "stability-lobes",
+        checks: stability_lobes::checks,
     },
     Case {
         folder: "inverse-vs-opw",

@@ -6,6 +6,7 @@
 //! - [`controller`]: how a cell writes its robot programs.
 //! - [`motion`]: how a controller moves an arm.
 //! - [`convention`]: poses as six makers write them.
+//! - [`modal`]: modes of vibration at the tip of a cutter: our file of modal data.
 //! - [`material`]: what materials take to cut: our material file.
 //! - [`sources`]: where the numbers of these files come from.
 //! - [`table`]: columns of results as CSV, Parquet and VTK.
@@ -31,6 +32,7 @@ pub mod language;
 pub mod material;
 pub mod measurement;
 pub mod mesh;
+pub mod modal;
 pub mod motion;
 pub mod robot;
 pub mod sources;

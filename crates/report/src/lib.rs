@@ -16,6 +16,7 @@
 //! | what becomes of a corner of a path? | [`PathDetail`] |
 //! | what is the deviation of each hole? | [`HoleMap`] |
 //! | what depth and feed meet the tolerance? | [`ProcessMap`] |
+//! | up to which depth is a cut stable? | [`StabilityPlot`] |
 //! | how may the tool be turned along the path; what is around a place? | [`CellMap`] |
 //! | what was measured, and what became of it? | [`ForcePlot`] |
 //! | which cell meets the tolerance? | [`Comparison`] |
@@ -48,6 +49,7 @@ mod path_detail;
 mod path_plot;
 mod polar_plot;
 mod process_map;
+mod stability_plot;
 mod track;
 mod vector_field;
 
@@ -111,6 +113,7 @@ pub use polar_plot::{PolarPlot, RadialReference, RadialSeries};
 pub use process_map::ProcessMap;
 pub use region::{CircleMm, RectangleMm, RegionMap};
 pub use shares::{ShareBar, ShareBars};
+pub use stability_plot::StabilityPlot;
 pub use track::{Stretch, TrackMap};
 pub use vector_field::{Arrow, ArrowCase, VectorField};
 pub use wave_bars::{WaveBar, WaveBars};

@@ -3,7 +3,7 @@
 //! A study file is read and checked ([`file`](mod@file), with the measurements that it names, [`measured`]), its
 //! analyses are run ([`run`]), compared with a measurement ([`budget`]), answered as one JSON value ([`answer`]), and
 //! written as tables, pictures and a report ([`output`]; [`finished`] stores results for later requests). [`pose`]
-//! evaluates a single pose ([`pose_answer`]), [`pendant`] compares a robot file with the display of its pendant, [`live`] answers the
+//! evaluates a single pose ([`pose_answer`]), [`stability`] the stability of a cut, [`pendant`] compares a robot file with the display of its pendant, [`live`] answers the
 //! queries of a page that shows a study while it is edited, [`program_out`] writes a path as a robot program. The robot
 //! library and the example studies are embedded in the program ([`library`]); [`compliance_class`] assumes joint
 //! compliances if none are known. [`robots`] and [`studies`] find what a user names, [`robot_answers`] and
@@ -43,6 +43,7 @@ pub mod program_out;
 pub mod robot_answers;
 pub mod robots;
 pub mod run;
+pub mod stability;
 pub mod structure_answers;
 pub mod studies;
 pub mod uncertainty_words;

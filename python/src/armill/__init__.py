@@ -49,6 +49,7 @@ from armill._commands import (
     posture,
     robots,
     roundness,
+    stability,
 )
 
 __all__ = [
@@ -86,4 +87,5 @@ __all__ = [
     "read_path",
     "robots",
     "roundness",
+    "stability",
 ]

@@ -2,7 +2,7 @@
 //!
 //! `run`, `check`, `compare`, `new`, `robots`, `materials`, `pose`, `posture`, `place`, `advise`, `compensate`,
 //! `identify`, `calibrate`, `forces`, `roundness`, `ballbar`, `backlash`, `budget`, `pose_accuracy`, `path_accuracy`, `motion`, `modes`,
-//! `serve`, `completions`, `man`; `poses` and `program` are used by two of them each, `writing` by all that write
+//! `stability`, `serve`, `completions`, `man`; `poses` and `program` are used by two of them each, `writing` by all that write
 //! files.
 //!
 //! Doc comments of fields and variants are the text of `--help`: one line without a full stop, the unit in the
@@ -40,6 +40,7 @@ mod robots;
 mod roundness;
 mod run;
 mod serve;
+mod stability;
 mod writing;
 
 pub(crate) use advise::AdviseArguments;
@@ -71,6 +72,7 @@ pub(crate) use robots::{
 pub(crate) use roundness::RoundnessArguments;
 pub(crate) use run::{RunArguments, RunOptions};
 pub(crate) use serve::ServeArguments;
+pub(crate) use stability::StabilityArguments;
 
 use clap::{Parser, Subcommand};
 
@@ -133,6 +135,8 @@ pub(crate) enum Command {
     PathAccuracy(PathAccuracyArguments),
     /// Learn from joint logs how a controller moves an arm: accelerations, smoothing, lag, zones
     Motion(MotionArguments),
+    /// Evaluate the stability of a cut against chatter: lobes, limits of the depth, vibration
+    Stability(Box<StabilityArguments>),
     /// Compare the measured error of a circle with its predicted contributions
     Budget(BudgetArguments),
     /// Serve the live page of a study to the browser on this machine
@@ -173,6 +177,7 @@ impl Command {
             Command::PoseAccuracy(a) => a.json,
             Command::PathAccuracy(a) => a.json,
             Command::Motion(a) => a.json,
+            Command::Stability(a) => a.json,
             Command::Budget(a) => a.json,
             Command::Serve(_) | Command::Completions(_) | Command::Man(_) => false,
         }

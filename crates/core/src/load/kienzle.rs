@@ -18,7 +18,7 @@
 //! Range: chips of 0.03 to 1 mm. Thinner chips are rubbed more than cut, which no power of `h` describes.
 //! Source: Kienzle's law as tool makers print it; the rake factor after Sandvik Coromant's notes on cutting force.
 
-use nalgebra::{Matrix3x4, Matrix6, SMatrix, Vector3, Vector4};
+use nalgebra::{Matrix3x4, Matrix6, SMatrix, Vector3, Vector4, Vector6};
 
 use super::error::{CuttingError, checked};
 
@@ -126,6 +126,30 @@ impl Kienzle {
             return Vector3::zeros();
         }
         self.ratios() * (self.specific_force(h) * h)
+    }
+
+    /// Derivative of [`Kienzle::force`] by the thickness `h` (m, above zero), Pa.
+    pub(super) fn by_thickness(&self, h: f64) -> Vector3<f64> {
+        self.ratios() * (self.specific_force(h) * (1.0 - self.values.exponent.value))
+    }
+
+    /// The same with `kc1`, `mc` and the two ratios changed by the first four of `change`, if that is a valid law.
+    #[must_use]
+    pub(super) fn changed(self, change: &Vector6<f64>) -> Kienzle {
+        let by = |estimate: Estimate, index: usize| Estimate {
+            value: estimate.value + change[index],
+            ..estimate
+        };
+        let values = KienzleValues {
+            specific_force: by(self.values.specific_force, 0),
+            exponent: by(self.values.exponent, 1),
+            radial_ratio: by(self.values.radial_ratio, 2),
+            axial_ratio: by(self.values.axial_ratio, 3),
+        };
+        Kienzle::new(values).map_or(self, |law| Kienzle {
+            rake_factor: self.rake_factor,
+            ..law
+        })
     }
 
     /// Derivatives of [`Kienzle::force`] by `kc1`, `mc` and the two ratios.

@@ -7,10 +7,13 @@
 //! | `h`, `db` | thickness and width of the chip | m |
 //! | `k`, `S` | parameters of the law, at most six, and their covariance | as the law has them |
 
-use nalgebra::{Matrix6, SMatrix, Vector3};
+use nalgebra::{Matrix6, SMatrix, Vector3, Vector6};
 
 use super::kienzle::Kienzle;
 use super::mechanistic::Mechanistic;
+
+/// Thinnest chip at which a power law is differentiated, m: below the radius of an edge no law of a sharp edge is valid.
+const LEAST_CHIP: f64 = 1e-6;
 
 /// Force of an edge over the thickness of its chip.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,6 +56,24 @@ impl CuttingLaw {
         }
     }
 
+    /// Derivative of [`CuttingLaw::force`] by the thickness `h`, Pa; of Kienzle's law below 1 um that at 1 um.
+    pub fn by_thickness(&self, h: f64) -> Vector3<f64> {
+        match self {
+            CuttingLaw::Mechanistic(law) => law.coefficients().fixed_rows::<3>(0).into_owned(),
+            CuttingLaw::Kienzle(law) => law.by_thickness(h.max(LEAST_CHIP)),
+        }
+    }
+
+    /// The same law with its parameters changed by `change`, in the order of [`CuttingLaw::covariance`]; a law that would not be
+    /// valid stays as it is.
+    #[must_use]
+    pub fn changed(&self, change: &Vector6<f64>) -> CuttingLaw {
+        match self {
+            CuttingLaw::Mechanistic(law) => CuttingLaw::Mechanistic(law.changed(change)),
+            CuttingLaw::Kienzle(law) => CuttingLaw::Kienzle(law.changed(change)),
+        }
+    }
+
     /// Derivatives of [`CuttingLaw::force`] by the parameters of the law, at most six.
     pub(super) fn derivatives(&self, h: f64) -> SMatrix<f64, 3, 6> {
         match self {
@@ -62,7 +83,7 @@ impl CuttingLaw {
     }
 
     /// Covariance of these parameters.
-    pub(super) fn covariance(&self) -> Matrix6<f64> {
+    pub fn covariance(&self) -> Matrix6<f64> {
         match self {
             CuttingLaw::Mechanistic(law) => *law.covariance(),
             CuttingLaw::Kienzle(law) => law.covariance(),

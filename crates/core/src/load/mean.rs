@@ -118,7 +118,7 @@ impl Milling {
     }
 
     /// Axial immersion angles at which pieces of the corner end, rising, the last of them `end`.
-    fn kinks(&self, end: f64) -> [f64; 4] {
+    pub(super) fn kinks(&self, end: f64) -> [f64; 4] {
         let r = self.cutter.corner_radius();
         let begin_of_corner = self.cutter.radius() - r;
         let at_radius = |radius: f64| ((radius - begin_of_corner) / r).clamp(0.0, 1.0).asin();

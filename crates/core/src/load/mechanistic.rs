@@ -87,6 +87,13 @@ impl Mechanistic {
         self
     }
 
+    /// The same with its coefficients changed by `change`, in their order.
+    #[must_use]
+    pub(super) fn changed(mut self, change: &Vector6<f64>) -> Mechanistic {
+        self.coefficients += change;
+        self
+    }
+
     /// Ktc, Krc, Kac (Pa), Kte, Kre, Kae (N/m).
     pub fn coefficients(&self) -> &Vector6<f64> {
         &self.coefficients

@@ -112,6 +112,16 @@ impl Milling {
         })
     }
 
+    /// The tool.
+    pub fn cutter(&self) -> &Cutter {
+        &self.cutter
+    }
+
+    /// Force of a chip, at the rake of the cutter.
+    pub fn law(&self) -> &CuttingLaw {
+        &self.law
+    }
+
     /// What is cut.
     pub fn cut(&self) -> &Cut {
         &self.cut

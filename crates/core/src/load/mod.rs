@@ -7,7 +7,7 @@
 //! chip thickness), [`lean`], [`cut`], `arcs_of_point`, `pass_before`, `engaged_arcs` and
 //! `edge_part` (the same of a leaning tool), [`mechanistic`] and [`kienzle`] (force of a chip; [`law`] is either, [`sets`] several of one
 //! material), [`milling`] (force at a spindle angle and over a revolution), [`mean`] (its mean, with uncertainty),
-//! `peak` (its greatest over a revolution), `spindle` (torque, chip thickness, removal rate),
+//! `directional` (its derivative by a displacement of the tool), `peak` (its greatest over a revolution), `spindle` (torque, chip thickness, removal rate),
 //! [`drilling`], [`process`] (a tool with its cutting data and feed), [`force_equilibrium`] (the force on a tool that
 //! the cut deflects).
 //!
@@ -22,6 +22,7 @@ mod arcs_of_point;
 pub mod cases;
 pub mod cut;
 pub mod cutter;
+mod directional;
 pub mod drilling;
 mod edge_part;
 pub mod end_mill_body;

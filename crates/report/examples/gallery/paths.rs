@@ -3,7 +3,7 @@
 use armill_report::{
     Arrow, ArrowCase, AxisLabels, BallbarPlot, BallbarTrace, Cell, CellMap, ColourScale, ComparedCell,
     Comparison, Envelope, ForcePlot, ForceTrace, Growth, HoleMap, HoleMark, Marker, MarkerKind, PathPlot,
-    PolarPlot, ProcessMap, RadialReference, RadialSeries, Sense, Series, ShareBar, ShareBars,
+    PolarPlot, ProcessMap, RadialReference, RadialSeries, Sense, Series, ShareBar, ShareBars, StabilityPlot,
     StiffnessEllipse, Stretch, TrackMap, VectorField,
 };
 
@@ -26,6 +26,7 @@ pub fn pictures() -> Vec<(&'static str, String)> {
         ("track_map", track_map().to_svg()),
         ("hole_map", hole_map().to_svg()),
         ("process_map", process_map().to_svg()),
+        ("stability_plot", stability_plot().to_svg()),
         ("cell_map", cell_map().to_svg()),
         ("force_plot", force_plot().to_svg()),
         ("polar_plot", polar_plot().to_svg()),
@@ -35,6 +36,32 @@ pub fn pictures() -> Vec<(&'static str, String)> {
         ("shares", shares().to_svg()),
         ("ellipse", ellipse().to_svg()),
     ]
+}
+
+/// One mode at 922 Hz, four teeth: closed lobes.
+fn stability_plot() -> StabilityPlot {
+    let speeds_rpm: Vec<f64> = (0..500).map(|k| 3000.0 + 24.0 * f64::from(k)).collect();
+    let depth = |rpm: f64| {
+        (1..4000)
+            .map(|step| 1.0 + f64::from(step) * 1e-4)
+            .fold(f64::INFINITY, |least, part| {
+                let turns = 922.0 * part / (rpm / 60.0 * 4.0);
+                let x = (1.0 - part * part, 0.022 * part);
+                let whole = turns - (std::f64::consts::FRAC_PI_2 - x.0.atan2(x.1)) / std::f64::consts::PI;
+                let on_lobe = (whole - whole.round()).abs() < 2e-3;
+                let depth = 4.0 * (x.0 * x.0 + x.1 * x.1) / -x.0;
+                if on_lobe { depth.min(least) } else { least }
+            })
+    };
+    StabilityPlot {
+        title: "Stability of the cut".into(),
+        subtitle: "Cutter of 16 mm with 4 flutes, down-milling, one mode at 922 Hz".into(),
+        depths_mm: speeds_rpm.iter().map(|rpm| depth(*rpm)).collect(),
+        speeds_rpm,
+        deepest_mm: Some(2.0),
+        mode_coupling_mm: Some(1.4),
+        programmed: Some([9500.0, 0.8]),
+    }
 }
 
 fn vector_field() -> VectorField {

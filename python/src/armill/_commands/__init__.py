@@ -17,7 +17,7 @@ from armill._commands.measurements import (
     pose_accuracy,
     roundness,
 )
-from armill._commands.studies import advise, backlash, budget, compare, compensate, place, posture
+from armill._commands.studies import advise, backlash, budget, compare, compensate, place, posture, stability
 
 __all__ = [
     "advise",
@@ -40,4 +40,5 @@ __all__ = [
     "posture",
     "robots",
     "roundness",
+    "stability",
 ]

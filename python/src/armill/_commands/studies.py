@@ -38,6 +38,26 @@ def posture(
 
 
 @command
+def stability(
+    study: StudyLike,
+    *,
+    modes: Path,
+    path: str | None = None,
+    spindle_rpm: float | None = None,
+    feed_mm_per_min: float | None = None,
+    depth_mm: float | None = None,
+    speeds_rpm: npt.ArrayLike | None = None,
+    deepest_mm: float | None = None,
+    drawing: Path | None = None,
+    force: bool = False,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> Answer:
+    """study, modal data -> Answer: stability of the cut against chatter: lobes, limits of the depth, vibration."""
+    return call("stability", [study], locals())
+
+
+@command
 def place(
     study: StudyLike,
     *,

@@ -1,0 +1,76 @@
+use super::*;
+
+const HEAD: &str = "format = 1\nname = \"cutter\"\nsource = \"impact test\"\n";
+
+fn problems(modes: &str) -> String {
+    read("tool.toml", &format!("{HEAD}{modes}"))
+        .unwrap_err()
+        .to_string()
+}
+
+#[test]
+fn mass_and_stiffness_of_the_same_mode_give_the_same_shape() {
+    let by_mass = "[[mode]]\nfrequency_hz = 922\ndamping_percent = 1.1\ndirection = [2, 0, 0]\nmodal_mass_kg = 0.03993\n";
+    // 0.03993 kg (2 pi 922 Hz)^2 = 1.3400496 N/um.
+    let by_stiffness = "[[mode]]\nname = \"b\"\nfrequency_hz = 922\nfrequency_u_hz = 9.22\ndamping_ratio = 0.011\n\
+                        damping_u_percent = 0.22\ndirection = [1, 0, 0]\nstiffness_n_per_um = 1.3400496\n\
+                        stiffness_u_percent = 5\n";
+    let found = read("tool.toml", &format!("{HEAD}{by_mass}{by_stiffness}")).unwrap();
+    let [first, second] = &found.modes[..] else {
+        panic!("two modes")
+    };
+    assert!((first.mode.shape - second.mode.shape).norm() < 1e-6 * first.mode.shape.norm());
+    assert!((first.mode.shape.x - 1.0 / 0.03993_f64.sqrt()).abs() < 1e-12);
+    assert!((first.mode.angular_frequency - 5_793.0969).abs() < 1e-3);
+    assert!((first.mode.damping_ratio - 0.011).abs() < 1e-15);
+    assert_eq!([first.name.as_str(), second.name.as_str()], ["1", "b"]);
+    assert_eq!(first.uncertainty, ModeUncertainty::default());
+    let u = second.uncertainty;
+    assert!(
+        (u.frequency - 0.01).abs() < 1e-15
+            && (u.damping - 0.2).abs() < 1e-12
+            && (u.stiffness - 0.05).abs() < 1e-15
+    );
+}
+
+#[test]
+fn all_problems_are_reported_together_with_their_lines() {
+    let text = problems(
+        "[[mode]]\nfrequency_hz = 922\ndirection = [0, 0, 0]\n\
+         [[mode]]\nfrequency_hz = 30\ndamping_percent = 2\ndamping_ratio = 0.02\ndirection = [0, 1, 0]\n\
+         modal_mass_kg = 1\nstiffness_n_per_um = 1\n",
+    );
+    for expected in [
+        "tool.toml:4",
+        "no damping",
+        "neither modal mass nor stiffness",
+        "`direction` is zero",
+        "`damping_percent` and `damping_ratio` are both given",
+        "`modal_mass_kg` and `stiffness_n_per_um` are both given",
+    ] {
+        assert!(text.contains(expected), "{expected}: {text}");
+    }
+}
+
+#[test]
+fn values_out_of_range_unknown_keys_and_no_mode_are_refused() {
+    let mode = |line: &str| {
+        format!(
+            "[[mode]]\nfrequency_hz = 922\ndamping_percent = 2\ndirection = [1, 0, 0]\nmodal_mass_kg = 1\n{line}\n"
+        )
+    };
+    assert!(read("tool.toml", &format!("{HEAD}{}", mode(""))).is_ok());
+    for line in [
+        "damping = 1",
+        "frequency_u_hz = -1",
+        "stiffness_u_percent = 200",
+        "name = \"\"",
+    ] {
+        assert!(!problems(&mode(line)).is_empty(), "{line}");
+    }
+    let fast = mode("").replace("922", "1e9");
+    assert!(problems(&fast).contains("frequency_hz"), "{}", problems(&fast));
+    assert!(!problems("mode = []\n").is_empty());
+    assert!(!problems("").is_empty());
+    assert!(read("tool.toml", "format = 1\n[[mode").is_err());
+}

@@ -1,0 +1,18 @@
+//! Stability of the cut of a study: lobes, limits of the depth, uncertainty, vibration under the teeth.
+//!
+//! [`question`]: the cut of a path and the modes, with options; [`evaluate`](mod@evaluate): all of it from the core; [`answer`]: the values for
+//! people, with the verdict; [`picture`]: the lobes.
+//!
+//! ```text
+//! study [cut] + modal data + spindle speed -> Question -> evaluate -> Evaluation -> StabilityAnswer, picture
+//! ```
+
+pub mod answer;
+pub mod evaluate;
+pub mod picture;
+pub mod question;
+
+pub use answer::{StabilityAnswer, answer};
+pub use evaluate::{Evaluation, evaluate};
+pub use picture::picture;
+pub use question::{Options, Question, modes_of};

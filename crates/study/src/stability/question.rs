@@ -1,0 +1,159 @@
+//! What is evaluated: the cut of a path of a study at a spindle speed, and modes at the tip.
+
+use std::f64::consts::TAU;
+use std::path::Path;
+
+use armill_core::load::{Cut, CuttingError, Engagement, LeanInCut, Milling};
+use armill_core::stability::NamedMode;
+use armill_core::units::from_mm;
+use armill_formats::input;
+use armill_formats::modal::{self, ModalData};
+
+use crate::analysis::path::Cut as StudyCut;
+use crate::{Study, StudyError};
+
+/// Options in place of values of the study; SI.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Options {
+    /// Spindle speed, rad/s.
+    pub spindle: Option<f64>,
+    /// Feed, m/s.
+    pub feed: Option<f64>,
+    /// Axial depth of cut, m.
+    pub depth: Option<f64>,
+    /// Range of spindle speeds of the lobes, rad/s; half to twice the programmed speed if left out.
+    pub speeds: Option<[f64; 2]>,
+    /// Deepest limit sought, m; twice the diameter of the cutter if left out, and at least three times the depth.
+    pub deepest: Option<f64>,
+}
+
+/// A cut and the modes at its tool; SI.
+#[derive(Clone, Debug)]
+pub struct Question {
+    /// Name of the path.
+    pub path: String,
+    /// The cut at the programmed depth and feed.
+    pub milling: Milling,
+    /// Spindle speed, rad/s.
+    pub spindle: f64,
+    /// Range of the lobes, rad/s.
+    pub speeds: [f64; 2],
+    /// Deepest limit sought, m.
+    pub deepest: f64,
+    /// The modes, in the feed frame.
+    pub modes: Vec<NamedMode>,
+    /// What they are and where they come from.
+    pub modes_from: String,
+    /// Notes for the user on the cut and the modes.
+    pub remarks: Vec<String>,
+}
+
+/// Lowest and highest speed of the lobes over the programmed one.
+const SPEEDS: [f64; 2] = [0.5, 2.0];
+/// Deepest limit sought in diameters, and in programmed depths.
+const DEEPEST: [f64; 2] = [2.0, 3.0];
+
+/// The modal data of this file.
+///
+/// # Errors
+/// A file that cannot be read, or all its problems.
+pub fn modes_of(path: &Path) -> Result<ModalData, StudyError> {
+    let shown = path.display().to_string();
+    let text = input::read_text(path).map_err(|error| {
+        StudyError::value(
+            format!("{shown}: {error}"),
+            "give a file of modal data, see docs/guide/stability.md",
+        )
+    })?;
+    Ok(modal::read(&shown, &text)?)
+}
+
+impl Question {
+    /// The cut of the path called `name`, or of the first path that has one, with these modes.
+    ///
+    /// # Errors
+    /// No such path; a path without a cut; a spindle speed or feed that neither the study nor an option gives; values outside what can be cut.
+    pub fn of_study(
+        study: &Study,
+        name: Option<&str>,
+        data: ModalData,
+        options: &Options,
+    ) -> Result<Question, StudyError> {
+        let mut found = study
+            .paths(name)
+            .filter_map(|(name, path)| path.cut.as_ref().map(|cut| (name, cut)));
+        let Some((path, cut)) = found.next() else {
+            return Err(match name {
+                Some(name) => StudyError::value(
+                    format!("the study has no path `{name}` with a cut"),
+                    "give the name of a path analysis, and [cut] with cutter, material and depths",
+                ),
+                None => StudyError::value(
+                    "no path of the study has a cut",
+                    "give [cut] with cutter, material and depths, and a path that it applies to",
+                ),
+            });
+        };
+        let missing = |what: &str, option: &str, key: &str| {
+            StudyError::value(
+                format!("the {what} of the cut of `{path}` is not known"),
+                format!("give {option}, or `{key}` in [cut]"),
+            )
+        };
+        let spindle = options
+            .spindle
+            .or(cut.cutting.spindle)
+            .ok_or_else(|| missing("spindle speed", "--spindle-rpm", "spindle_rpm"))?;
+        let feed = options
+            .feed
+            .or(cut.cutting.feed)
+            .ok_or_else(|| missing("feed", "--feed-mm-per-min", "feed_mm_per_min"))?;
+        let milling = milling(cut, [spindle, feed], options.depth).map_err(of_cut)?;
+        let depth = milling.cut().depth;
+        let diameter = cut.cutting.cutter.diameter();
+        let sought = (DEEPEST[0] * diameter).max(DEEPEST[1] * depth);
+        let mut remarks = cut.remarks.clone();
+        remarks.extend(data.note.iter().cloned());
+        Ok(Question {
+            path: path.to_owned(),
+            milling,
+            spindle,
+            speeds: options.speeds.unwrap_or(SPEEDS.map(|part| part * spindle)),
+            deepest: options.deepest.unwrap_or(sought),
+            modes: data.modes,
+            modes_from: format!("{} ({})", data.name, data.source),
+            remarks,
+        })
+    }
+}
+
+/// The cut of the study at this spindle speed (rad/s) and feed (m/s).
+fn milling(cut: &StudyCut, [spindle, feed]: [f64; 2], depth: Option<f64>) -> Result<Milling, CuttingError> {
+    let cutting = &cut.cutting;
+    let depth = depth.unwrap_or(cutting.depth);
+    let per_tooth = feed * TAU / (spindle * f64::from(cutting.cutter.flutes()));
+    let cut = Cut {
+        depth,
+        engagement: Engagement::at_depth(cutting.immersion, &cutting.cutter, depth)?,
+        feed: per_tooth,
+        rise: 0.0,
+        lean: LeanInCut::default(),
+    };
+    Milling::new(cutting.cutter, cutting.law, cut)
+}
+
+/// The error of a cut, as one of the study.
+pub(super) fn of_cut(error: CuttingError) -> StudyError {
+    StudyError::value(
+        error.to_string(),
+        "check depth, feed and spindle speed of the cut",
+    )
+}
+
+/// Least feed per tooth for which a law of a power of the chip is differentiated, m.
+pub(super) fn is_thin(milling: &Milling) -> bool {
+    milling.cut().feed < from_mm(THIN_MM)
+}
+
+/// Chip thickness below which edges plough rather than cut, mm.
+const THIN_MM: f64 = 0.005;
