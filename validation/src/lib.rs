@@ -28,6 +28,8 @@ mod budget_circles;
 mod clearance_coal;
 #[path = "../compliance-two-ways/case.rs"]
 mod compliance_two_ways;
+#[path = "../drilled-holes/case.rs"]
+mod drilled_holes;
 #[path = "../fanuc-identification/case.rs"]
 mod fanuc_identification;
 #[path = "../fanuc-rows/case.rs"]
@@ -119,6 +121,10 @@ pub const CASES: &[Case] = &[
     Case {
         folder: "fanuc-rows",
         checks: fanuc_rows::checks,
+    },
+    Case {
+        folder: "drilled-holes",
+        checks: drilled_holes::checks,
     },
     Case {
         folder: "fanuc-identification",

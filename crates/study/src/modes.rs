@@ -216,7 +216,7 @@ fn needs_mass(robot: &Robot, model: &StiffnessModel) -> Result<(), StudyError> {
 }
 
 /// Covariance of the compliances of an arm: independent where the file gives none.
-fn compliance_covariance<'a>(arm: &Arm<'a>) -> impl Fn(usize, usize) -> f64 + use<'a> {
+pub(crate) fn compliance_covariance<'a>(arm: &Arm<'a>) -> impl Fn(usize, usize) -> f64 + use<'a> {
     let own: Vec<f64> = arm
         .compliances()
         .iter()

@@ -20,7 +20,18 @@ pub(crate) struct StabilityArguments {
     pub study: PathBuf,
     /// File of modal data of the tool (TOML)
     #[arg(long, value_name = "FILE")]
-    pub modes: PathBuf,
+    pub modes: Option<PathBuf>,
+    /// Posture whose modes of the arm are added; the arm needs masses
+    #[arg(
+        long,
+        value_name = "Q1,Q2,...",
+        value_delimiter = ',',
+        allow_hyphen_values = true
+    )]
+    pub joints_deg: Option<Vec<f64>>,
+    /// Point of the path with the feed direction for this posture, from 1
+    #[arg(long, value_name = "N", default_value_t = 1, requires = "joints_deg")]
+    pub point: usize,
     /// Name of the path [default: the first with a cut]
     #[arg(long, value_name = "NAME")]
     pub path: Option<String>,

@@ -11,7 +11,9 @@
 use std::f64::consts::TAU;
 
 use armill_core::units::from_mm;
-use armill_study::stability::{Options, Question, StabilityAnswer, answer, evaluate, modes_of, picture};
+use armill_study::stability::{
+    ArmPosture, Options, Question, StabilityAnswer, answer, evaluate, modes_of, picture,
+};
 use armill_study::{StudyError, studies};
 
 use super::drawing;
@@ -29,9 +31,21 @@ const LARGEST: [f64; 3] = [1e6, 1e6, 1e3];
 /// Problems of the study or of the modal data; no cut; invalid options; a file that cannot be written.
 pub(crate) fn run(arguments: &StabilityArguments) -> Result<Outcome, StudyError> {
     let options = options(arguments)?;
-    let data = modes_of(&arguments.modes)?;
+    let data = arguments.modes.as_deref().map(modes_of).transpose()?;
+    if let Some(joints) = &arguments.joints_deg {
+        finite("--joints-deg", joints)?;
+    }
+    let posture = arguments.joints_deg.clone().map(|joints_deg| ArmPosture {
+        joints_deg,
+        point: arguments.point,
+    });
     let study = studies::find(&arguments.study)?.read()?;
-    let question = Question::of_study(&study, arguments.path.as_deref(), data, &options)?;
+    let question = Question::of_study(
+        &study,
+        arguments.path.as_deref(),
+        (data, posture.as_ref()),
+        &options,
+    )?;
     let answer = answer(&question, &evaluate(&question)?);
     if let Some(file) = &arguments.drawing {
         let writer = arguments.writing.writer("stability").for_new_files();

@@ -14,7 +14,7 @@
 //!
 //! The modal mass in a direction `n` of the tool's translation is `1/(n.phi)^2`, kg. Source: Ewins, Modal testing (recalled); any text on vibration.
 
-use nalgebra::Vector6;
+use nalgebra::{Rotation3, Vector3, Vector6};
 
 /// A mode of vibration at the tool.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,5 +31,16 @@ impl Mode {
     /// Undamped natural frequency, Hz.
     pub fn frequency_hz(&self) -> f64 {
         self.angular_frequency / std::f64::consts::TAU
+    }
+
+    /// The same with its shape in other axes, which `from` turns into those of this one.
+    #[must_use]
+    pub fn in_axes(&self, from: &Rotation3<f64>) -> Mode {
+        let turned = |first: usize| from.inverse() * Vector3::from(self.shape.fixed_rows::<3>(first));
+        let (translation, rotation) = (turned(0), turned(3));
+        Mode {
+            shape: Vector6::from_fn(|k, _| if k < 3 { translation[k] } else { rotation[k - 3] }),
+            ..*self
+        }
     }
 }

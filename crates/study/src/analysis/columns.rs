@@ -123,6 +123,7 @@ pub fn numbers_of<'a>(
     let contributors = rows.setting.contributor_names(robot);
     let mut columns = found.own_columns(robot);
     columns.extend(numbers(robot, contributors, rows.answers));
+    columns.extend(found.vibration_columns(robot, rows.setting));
     columns
 }
 

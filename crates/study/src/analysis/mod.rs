@@ -11,11 +11,12 @@
 //! A file is missing where a kind has nothing of its own. [`map`], [`sections`], [`volume`], [`path`], [`holes`]; this
 //! file is the list of them. What they share: [`table`] `[[analysis]]`, [`study_tables`] what the study gives to each,
 //! [`resolve`] the values of the study and those of the analysis, `sheet` a plane with its grid, [`runner`] the question
-//! to the core, [`point`] a point of an answer, [`quantity`] what is known of a point (`quantity_entry`: an entry of that list; `motion_quantity`: those of a motion), [`clearance`] their clearance, [`rows`], [`numbers`] and
-//! [`columns`] the points as a table, [`picture`], [`panels`] and [`arm`] for pictures, [`cells`] for tables of a
+//! to the core, [`point`] a point of an answer, [`quantity`] what is known of a point (`quantity_entry`: an entry of that list; `motion_quantity`, `vibration_quantity`: those of a motion and of vibration), [`clearance`] their clearance, [`rows`], [`numbers`] and
+//! [`columns`] the points as a table, [`vibration`] modes and stability there, `breakthrough` of a drill, [`picture`], [`panels`] and [`arm`] for pictures, [`cells`] for tables of a
 //! report, [`words`] for sentences.
 
 pub mod arm;
+mod breakthrough;
 pub mod cells;
 pub mod clearance;
 pub mod columns;
@@ -36,6 +37,8 @@ pub mod sections;
 mod sheet;
 pub mod study_tables;
 pub mod table;
+pub mod vibration;
+mod vibration_quantity;
 pub mod volume;
 pub mod words;
 
@@ -241,9 +244,17 @@ impl AnalysisData<'_> {
     /// The columns that only its kind has.
     pub fn own_columns<'a>(&'a self, robot: &'a Robot) -> Vec<Numbers<'a>> {
         match self {
-            AnalysisData::Path(analysis, found) => path::columns::columns(analysis, found),
+            AnalysisData::Path(analysis, found) => path::columns::columns(robot, analysis, found),
             AnalysisData::Holes(analysis, found) => holes::columns::columns(robot, analysis, found),
             AnalysisData::Map(..) | AnalysisData::Sections(_) | AnalysisData::Volume(..) => Vec::new(),
+        }
+    }
+
+    /// Columns of the vibration of points on a plane, in a box or in a hole; those of a path are its own.
+    pub fn vibration_columns<'a>(&self, robot: &'a Robot, setting: &Setting) -> Vec<Numbers<'a>> {
+        match self {
+            AnalysisData::Path(..) => Vec::new(),
+            _ => vibration::columns_on_plane(robot, setting),
         }
     }
 }

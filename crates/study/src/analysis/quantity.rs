@@ -6,8 +6,8 @@
 //!
 //! Capitals in a key stand for a name or number: `share_NAME_um` is one column for each contributor.
 
-use crate::analysis::motion_quantity;
 pub use crate::analysis::quantity_entry::{Origin, Quantity};
+use crate::analysis::{motion_quantity, vibration_quantity};
 
 /// A deviation, from the sum of all sources.
 const fn deviation(key: &'static str, words: &'static str, origin: Origin) -> Quantity {
@@ -372,7 +372,7 @@ pub const HOLE_Y: Quantity = deviation(
 pub const DEPTH: Quantity = deviation("depth_um", "deviation out of the part: too shallow", IN_HOLE);
 
 /// All quantities, in the order of the tables: of a path, of holes, of every analysis.
-pub const ALL: [&Quantity; 39] = [
+pub const ALL: [&Quantity; 44] = [
     &LINE,
     &DISTANCE,
     &FEED,
@@ -400,6 +400,9 @@ pub const ALL: [&Quantity; 39] = [
     &HOLE_X,
     &HOLE_Y,
     &DEPTH,
+    &vibration_quantity::BREAKTHROUGH_SPEED,
+    &vibration_quantity::BREAKTHROUGH_OVERSHOOT,
+    &vibration_quantity::BREAKTHROUGH_FEED,
     &LIMIT_MARGIN,
     &CLEARANCE,
     &WORST_CASE,
@@ -410,6 +413,8 @@ pub const ALL: [&Quantity; 39] = [
     &FULL,
     &JOINT_DEG,
     &JOINT_MM,
+    &vibration_quantity::LOWEST_MODE,
+    &vibration_quantity::STABLE_DEPTH,
     &SHARE,
     &OF_CASE,
 ];

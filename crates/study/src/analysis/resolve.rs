@@ -15,14 +15,17 @@ use armill_core::clearance::ArmBody;
 use armill_core::frame::Isometry;
 use armill_core::kernel::BranchChoice;
 use armill_core::load::{InputUncertainty, LoadCases, LoadFrame};
+use armill_core::nalgebra::{Matrix3, Rotation3, Vector3};
 use armill_core::optimize::PostureSearch;
-use armill_core::robot::{BranchPattern, Robot};
-use armill_core::units::{from_mm, from_um};
-use armill_core::workpiece::Grid;
+use armill_core::robot::{BranchPattern, Damping, Robot};
+use armill_core::source::StiffnessModel;
+use armill_core::units::{from_deg, from_mm, from_um};
+use armill_core::workpiece::{Grid, Plane};
 use armill_formats::robot::RobotDescription;
 
 use crate::StudyError;
-use crate::analysis::path::LoadSource;
+use crate::analysis::path::cut::CutTable;
+use crate::analysis::path::{LoadSource, cut};
 use crate::analysis::study_tables::StudyTables;
 use crate::analysis::table::{AnalysisKind, AnalysisTable};
 use crate::analysis::{Sheet, Subject};
@@ -37,6 +40,7 @@ use crate::input::quantities::{grid, load_cases, plane_at, pose_mm_deg};
 use crate::input::setting::Setting;
 use crate::input::stiffness;
 use crate::input::tables::{LoadFrameName, PlaneTable, PostureTable, ToolTable};
+use crate::input::vibration::{CutOnPlane, VibrationSetting, VibrationTable, modes_of};
 use crate::naming::usual_reference;
 
 /// The plane of the study with the changes of the analysis.
@@ -51,6 +55,34 @@ pub fn plane_of(plane: &PlaneTable, analysis: &AnalysisTable) -> PlaneTable {
         plane.step_mm = change.step_mm.unwrap_or(plane.step_mm);
     }
     plane
+}
+
+/// The cut of the study with its feed along one direction of the plane; `None` if it has problems.
+fn cut_on_plane(
+    log: &mut ProblemLog<'_>,
+    table: &CutTable,
+    plane: &Plane,
+    feed_deg: f64,
+) -> Option<CutOnPlane> {
+    let cut = cut::resolve(log, table)?;
+    let (Some(spindle), Some(feed)) = (cut.cutting.spindle, cut.cutting.feed) else {
+        let message = "the stable depth at a point of a map needs the spindle speed and the feed of the cut";
+        log.problem("cut", message, "spindle_rpm = 12000, feed_mm_per_min = 1800");
+        return None;
+    };
+    let milling = cut.milling([spindle, feed], None).map_err(|error| {
+        log.problem("cut", error.to_string(), "check depth, feed and spindle speed");
+    });
+    // y' = -x and z' = y of the part frame; z is the outward normal.
+    let (sin, cos) = from_deg(feed_deg).sin_cos();
+    let along = Vector3::new(-cos, sin, 0.0);
+    let axes = Matrix3::from_columns(&[along, Vector3::z().cross(&along), Vector3::z()]);
+    let part_from_feed = Rotation3::from_matrix_unchecked(axes);
+    Some(CutOnPlane {
+        milling: milling.ok()?,
+        spindle,
+        base_from_feed: plane.base_from_part.rotation.to_rotation_matrix() * part_from_feed,
+    })
 }
 
 /// One analysis and its study.
@@ -232,7 +264,11 @@ impl Resolver<'_> {
             .robot
             .and_then(|found| stiffness::model(log, &self.common.stiffness, tool, &found.robot, self.actual));
         let (base_from_reference, choice, (plane, tilt)) = (base_from_reference?, choice?, plane?);
-        let (model, load) = (model?, load?);
+        let (mut model, load) = (model?, load?);
+        let vibration = match self.common.vibration {
+            Some(table) => Some(self.vibration(log, table, &plane, &mut model)?),
+            None => None,
+        };
         let uncertainty = InputUncertainty {
             relative: given.and_then(|load| load.u_percent).unwrap_or(0.0) / 100.0,
             tool_length: from_mm(tool.and_then(|t| t.length_u_mm).unwrap_or(0.0)),
@@ -276,8 +312,48 @@ impl Resolver<'_> {
             open,
             search,
             motion: None,
+            vibration,
             cell: None,
         })
+    }
+
+    /// What is asked of the vibration, with the damping of its table in `model`; `None` if it has problems.
+    fn vibration(
+        &self,
+        log: &mut ProblemLog<'_>,
+        table: &VibrationTable,
+        plane: &Plane,
+        model: &mut StiffnessModel,
+    ) -> Option<VibrationSetting> {
+        if let Some(ratio) = table.damping_ratio {
+            model.structure.damping = Some(Damping::Ratio(ratio));
+        }
+        let mut found = VibrationSetting::default();
+        if let Some(file) = &table.tool_modes {
+            match modes_of(&self.folder.join(file)) {
+                Ok(data) => {
+                    found.tool_modes_from = Some(format!("{} ({})", data.name, data.source));
+                    found.tool_modes = data.modes;
+                }
+                Err(error) => {
+                    log.problem("vibration.tool_modes", error.to_string(), "a file of modal data");
+                    return None;
+                }
+            }
+        }
+        let structure = &model.structure;
+        if found.tool_modes.is_empty() && structure.masses.is_empty() && structure.motors.is_empty() {
+            let message =
+                "nothing vibrates: neither robot nor tool has a mass, and there are no modes of the tool";
+            let hint = "add [[mass]] to the robot file, or tool_modes = \"modes.toml\" here";
+            log.problem("vibration", message, hint);
+            return None;
+        }
+        let on_plane = self.table.kind != AnalysisKind::Path && self.table.kind != AnalysisKind::Holes;
+        if let Some(cut) = self.common.cut.filter(|_| on_plane) {
+            found.on_plane = Some(cut_on_plane(log, cut, plane, table.feed_deg.unwrap_or(0.0))?);
+        }
+        Some(found)
     }
 
     /// The bodies of the tool; `None` if they have problems.

@@ -6,6 +6,7 @@ use crate::analysis::path::cut::CutTable;
 use crate::input::improvement::ImprovementTable;
 use crate::input::stiffness::StiffnessTables;
 use crate::input::tables::{LoadTable, PlaneTable, PostureTable, ToolTable};
+use crate::input::vibration::VibrationTable;
 
 /// What the study gives to every analysis, as written.
 #[derive(Clone, Copy, Debug)]
@@ -28,6 +29,8 @@ pub struct StudyTables<'a> {
     pub improvement: Option<ImprovementTable>,
     /// How the controller moves the arm, with the values of the robot file; none if motions are not requested.
     pub motion: Option<&'a MotionTable>,
+    /// What is asked of the vibration at each point.
+    pub vibration: Option<&'a VibrationTable>,
     /// Speed of rapids, m/s.
     pub rapid: f64,
     /// Parts of the stiffness model.

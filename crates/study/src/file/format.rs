@@ -17,6 +17,7 @@ use crate::input::cell::tables::{FloorTable, ObstacleTable, PartTable, PedestalT
 use crate::input::improvement::ImprovementTable;
 use crate::input::stiffness::StiffnessTables;
 use crate::input::tables::{GravityTable, LoadTable, PlaneTable, PostureTable, ThermalTable, ToolTable};
+use crate::input::vibration::VibrationTable;
 
 /// A study: robot, tool, workpiece plane, load, tolerance and analyses.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
@@ -89,6 +90,8 @@ pub struct StudyFile {
     /// What the controller makes of paths: speeds, times, rounded corners; replaces values of the robot file. Without this table the
     /// programmed feed is assumed.
     pub motion: Option<MotionTable>,
+    /// Asks for the lowest mode of the arm and the stable depth of cut at each point; without this table neither is computed.
+    pub vibration: Option<VibrationTable>,
     /// Permitted placements of the part, for `armill place`.
     pub place: Option<PlaceTable>,
     /// Measurements of one circle, to compare with the prediction.
@@ -133,6 +136,7 @@ impl StudyFile {
             tolerance_um: self.tolerance_um,
             improvement: self.improvement,
             motion: None,
+            vibration: self.vibration.as_ref(),
             rapid: ControllerTable::default().rapid(),
             stiffness: StiffnessTables {
                 gravity: self.gravity.as_ref(),

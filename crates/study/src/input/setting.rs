@@ -13,6 +13,7 @@ use armill_core::workpiece::Plane;
 
 use crate::input::cell::AnalysisCell;
 use crate::input::motion::MotionSetting;
+use crate::input::vibration::VibrationSetting;
 use crate::joint_order::contributor_names;
 use crate::uncertainty_words::inputs_without_uncertainty;
 
@@ -55,6 +56,8 @@ pub struct Setting {
     pub search: Option<PostureSearch>,
     /// Along a path: how the controller moves the arm, if the motion is requested.
     pub motion: Option<MotionSetting>,
+    /// What is asked of the vibration at each point, if it is requested.
+    pub vibration: Option<VibrationSetting>,
     /// The bodies of the cell, and the demanded clearance; none where the study has no bodies.
     pub cell: Option<AnalysisCell>,
 }

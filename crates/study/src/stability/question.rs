@@ -1,15 +1,11 @@
 //! What is evaluated: the cut of a path of a study at a spindle speed, and modes at the tip.
 
-use std::f64::consts::TAU;
-use std::path::Path;
-
-use armill_core::load::{Cut, CuttingError, Engagement, LeanInCut, Milling};
+use armill_core::load::{CuttingError, Milling};
 use armill_core::stability::NamedMode;
 use armill_core::units::from_mm;
-use armill_formats::input;
-use armill_formats::modal::{self, ModalData};
+use armill_formats::modal::ModalData;
 
-use crate::analysis::path::Cut as StudyCut;
+use super::arm_modes::{ArmPosture, arm_modes};
 use crate::{Study, StudyError};
 
 /// Options in place of values of the study; SI.
@@ -53,36 +49,21 @@ const SPEEDS: [f64; 2] = [0.5, 2.0];
 /// Deepest limit sought in diameters, and in programmed depths.
 const DEEPEST: [f64; 2] = [2.0, 3.0];
 
-/// The modal data of this file.
-///
-/// # Errors
-/// A file that cannot be read, or all its problems.
-pub fn modes_of(path: &Path) -> Result<ModalData, StudyError> {
-    let shown = path.display().to_string();
-    let text = input::read_text(path).map_err(|error| {
-        StudyError::value(
-            format!("{shown}: {error}"),
-            "give a file of modal data, see docs/guide/stability.md",
-        )
-    })?;
-    Ok(modal::read(&shown, &text)?)
-}
-
 impl Question {
-    /// The cut of the path called `name`, or of the first path that has one, with these modes.
+    /// The cut of the path called `name`, or of the first path that has one, with these modes and those of the arm in a posture.
     ///
     /// # Errors
-    /// No such path; a path without a cut; a spindle speed or feed that neither the study nor an option gives; values outside what can be cut.
+    /// Neither modes nor posture; what [`arm_modes`] refuses; no such path; a path without a cut; a spindle speed or feed that neither the study nor an option gives; values outside what can be cut.
     pub fn of_study(
         study: &Study,
         name: Option<&str>,
-        data: ModalData,
+        (data, posture): (Option<ModalData>, Option<&ArmPosture>),
         options: &Options,
     ) -> Result<Question, StudyError> {
         let mut found = study
             .paths(name)
-            .filter_map(|(name, path)| path.cut.as_ref().map(|cut| (name, cut)));
-        let Some((path, cut)) = found.next() else {
+            .filter_map(|(name, path)| path.cut.as_ref().map(|cut| (name, path, cut)));
+        let Some((path, analysis, cut)) = found.next() else {
             return Err(match name {
                 Some(name) => StudyError::value(
                     format!("the study has no path `{name}` with a cut"),
@@ -108,38 +89,39 @@ impl Question {
             .feed
             .or(cut.cutting.feed)
             .ok_or_else(|| missing("feed", "--feed-mm-per-min", "feed_mm_per_min"))?;
-        let milling = milling(cut, [spindle, feed], options.depth).map_err(of_cut)?;
+        let milling = cut.milling([spindle, feed], options.depth).map_err(of_cut)?;
         let depth = milling.cut().depth;
         let diameter = cut.cutting.cutter.diameter();
         let sought = (DEEPEST[0] * diameter).max(DEEPEST[1] * depth);
         let mut remarks = cut.remarks.clone();
-        remarks.extend(data.note.iter().cloned());
+        let mut modes = Vec::new();
+        let mut from = Vec::new();
+        if let Some(posture) = posture {
+            modes.extend(arm_modes(study, analysis, posture)?);
+            from.push(format!("{} in the given posture", study.robot.robot.name()));
+        }
+        if let Some(data) = data {
+            remarks.extend(data.note);
+            modes.extend(data.modes);
+            from.push(format!("{} ({})", data.name, data.source));
+        }
+        if modes.is_empty() {
+            return Err(StudyError::value(
+                "no modes are given",
+                "give --modes FILE with modal data of the tool, or --joints-deg for those of an arm with masses",
+            ));
+        }
         Ok(Question {
             path: path.to_owned(),
             milling,
             spindle,
             speeds: options.speeds.unwrap_or(SPEEDS.map(|part| part * spindle)),
             deepest: options.deepest.unwrap_or(sought),
-            modes: data.modes,
-            modes_from: format!("{} ({})", data.name, data.source),
+            modes,
+            modes_from: from.join(", "),
             remarks,
         })
     }
-}
-
-/// The cut of the study at this spindle speed (rad/s) and feed (m/s).
-fn milling(cut: &StudyCut, [spindle, feed]: [f64; 2], depth: Option<f64>) -> Result<Milling, CuttingError> {
-    let cutting = &cut.cutting;
-    let depth = depth.unwrap_or(cutting.depth);
-    let per_tooth = feed * TAU / (spindle * f64::from(cutting.cutter.flutes()));
-    let cut = Cut {
-        depth,
-        engagement: Engagement::at_depth(cutting.immersion, &cutting.cutter, depth)?,
-        feed: per_tooth,
-        rise: 0.0,
-        lean: LeanInCut::default(),
-    };
-    Milling::new(cutting.cutter, cutting.law, cut)
 }
 
 /// The error of a cut, as one of the study.

@@ -1,7 +1,7 @@
 //! Small studies through the library: results compared with each other, with counting, and with invariants.
 //!
 //! `around`: floor, pedestal, what rides on a rail; `cell`: clearances; `counts`: points and the tolerance; `same_points`: one point computed in two ways; `paths`: shapes; `spin_curves`: a spin that changes along a path; `freedoms`: lean and external axes of a search; `deviations`:
-//! what changes them; `statements`: sentences, sources, warnings; `running`: reading, progress, files.
+//! what changes them; `statements`: sentences, sources, warnings; `vibration`: modes and stability at points; `running`: reading, progress, files.
 
 // A panic is how a test says that its claim is false; helper functions too.
 #![allow(clippy::unwrap_used, clippy::panic)]
@@ -17,6 +17,7 @@ mod running;
 mod same_points;
 mod spin_curves;
 mod statements;
+mod vibration;
 
 use std::path::Path;
 

@@ -41,7 +41,9 @@ def posture(
 def stability(
     study: StudyLike,
     *,
-    modes: Path,
+    modes: Path | None = None,
+    joints_deg: npt.ArrayLike | None = None,
+    point: int | None = None,
     path: str | None = None,
     spindle_rpm: float | None = None,
     feed_mm_per_min: float | None = None,

@@ -6,6 +6,7 @@ use armill_core::robot::Robot;
 use armill_core::robot::jacobian::wrist_bend;
 use armill_core::units::{to_deg, to_um};
 
+use crate::analysis::breakthrough;
 use crate::analysis::holes::HolesAnalysis;
 use crate::analysis::holes::answer::error;
 use crate::analysis::numbers::Numbers;
@@ -19,7 +20,7 @@ pub fn columns<'a>(robot: &'a Robot, analysis: &'a HolesAnalysis, found: &'a Hol
             to_um(error(analysis, found, index, evaluation)[axis])
         })
     };
-    vec![
+    let mut columns = vec![
         Numbers::of(&quantity::HOLE, |_, index, _| index as f64 + 1.0),
         Numbers::of(&quantity::LINE, move |_, index, _| f64::from(points[index].line)),
         Numbers::of(&quantity::TURN, move |_, index, _| to_deg(found.spins[index])),
@@ -30,5 +31,7 @@ pub fn columns<'a>(robot: &'a Robot, analysis: &'a HolesAnalysis, found: &'a Hol
         part(&quantity::HOLE_X, 0),
         part(&quantity::HOLE_Y, 1),
         part(&quantity::DEPTH, 2),
-    ]
+    ];
+    columns.extend(breakthrough::columns(robot, analysis));
+    columns
 }

@@ -11,8 +11,8 @@
 use std::f64::consts::TAU;
 
 use armill_core::load::{
-    Cutter, CuttingError, CuttingLaw, Estimate, Hand, Immersion, Kienzle, KienzleValues, Mechanistic, Runout,
-    SetStatistics,
+    Cutter, CuttingError, CuttingLaw, Engagement, Estimate, Hand, Immersion, Kienzle, KienzleValues,
+    LeanInCut, Mechanistic, Milling, Runout, SetStatistics,
 };
 use armill_core::nalgebra::Point3;
 use armill_core::path::{Cutting, GreatestForce, Stock, StockError};
@@ -159,6 +159,26 @@ pub struct Cut {
     pub remarks: Vec<String>,
     /// The uncut stock, if the study specifies it.
     pub stock: Option<Stock>,
+}
+
+impl Cut {
+    /// The milling at this spindle speed (rad/s) and feed (m/s), with this depth (m) in place of its own.
+    ///
+    /// # Errors
+    /// Values outside what can be cut.
+    pub fn milling(&self, [spindle, feed]: [f64; 2], depth: Option<f64>) -> Result<Milling, CuttingError> {
+        let cutting = &self.cutting;
+        let depth = depth.unwrap_or(cutting.depth);
+        let per_tooth = feed * TAU / (spindle * f64::from(cutting.cutter.flutes()));
+        let cut = armill_core::load::Cut {
+            depth,
+            engagement: Engagement::at_depth(cutting.immersion, &cutting.cutter, depth)?,
+            feed: per_tooth,
+            rise: 0.0,
+            lean: LeanInCut::default(),
+        };
+        Milling::new(cutting.cutter, cutting.law, cut)
+    }
 }
 
 /// The cut of this table; `None` if it has problems.
