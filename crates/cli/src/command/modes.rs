@@ -11,7 +11,6 @@
 
 use armill_study::StudyError;
 use armill_study::modes::{ModeAnswer, ModesAnswer, ModesQuestion};
-use armill_study::number::digits;
 
 use super::pose_subject::{PoseSubject, with_compliances};
 use crate::arguments::ModesArguments;
@@ -51,7 +50,7 @@ pub(crate) fn run(arguments: &ModesArguments) -> Result<Outcome, StudyError> {
 fn as_text(answer: &ModesAnswer) -> String {
     let joints = answer.joint_names.iter().zip(&answer.joints_deg);
     let joints: Vec<String> = joints
-        .map(|(name, q)| format!("{name} {}", digits(*q, 4)))
+        .map(|(name, q)| format!("{name} {}", significant(*q, 4)))
         .collect();
     let [x, y, z] = answer.tcp_mm;
     let mut lines = vec![
@@ -84,15 +83,19 @@ fn as_text(answer: &ModesAnswer) -> String {
 /// A row of the table.
 fn row(number: usize, mode: &ModeAnswer) -> String {
     let frequency = match mode.frequency_u_hz {
-        Some(u) => format!("{} Hz (u {})", digits(mode.frequency_hz, 4), digits(u, 2)),
-        None => format!("{} Hz", digits(mode.frequency_hz, 4)),
+        Some(u) => format!(
+            "{} Hz (u {})",
+            significant(mode.frequency_hz, 4),
+            significant(u, 2)
+        ),
+        None => format!("{} Hz", significant(mode.frequency_hz, 4)),
     };
     let direction = mode.direction.map_or_else(
         || "not at all".to_owned(),
         |[x, y, z]| format!("({x:.2}, {y:.2}, {z:.2})"),
     );
     let of = |value: Option<f64>, unit: &str| {
-        value.map_or(String::new(), |value| format!("{} {unit}", digits(value, 3)))
+        value.map_or(String::new(), |value| format!("{} {unit}", significant(value, 3)))
     };
     format!(
         "{number:>4}  {frequency:>20}  {:>7.3}  {direction:<22}  {:>10}  {:>12}  {}",
@@ -126,11 +129,32 @@ fn sentence(mode: &ModeAnswer) -> String {
             format!("moves the tool along {along}")
         }
     };
-    format!("lowest mode {} Hz: {by}, {moves}", digits(mode.frequency_hz, 3))
+    format!(
+        "lowest mode {} Hz: {by}, {moves}",
+        significant(mode.frequency_hz, 3)
+    )
 }
 
 /// A direction whose component along an axis is at least this is called by the axis: within 18 degrees.
 const ALONG: f64 = 0.95;
+
+/// A number with at least this many significant digits, without an exponent.
+fn significant(value: f64, digits: i32) -> String {
+    let before_point = match value == 0.0 {
+        true => 1,
+        // unit: none, the number of digits before the point
+        false => value.abs().log10().floor() as i32 + 1,
+    };
+    format!(
+        "{value:.*}",
+        usize::try_from(digits - before_point)
+            .unwrap_or(0)
+            .min(MOST_DECIMALS)
+    )
+}
+
+/// More decimals are not shown.
+const MOST_DECIMALS: usize = 9;
 
 /// Contributors with five per cent or more, the largest first.
 fn largest_shares(mode: &ModeAnswer) -> Vec<String> {
