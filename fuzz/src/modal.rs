@@ -11,7 +11,12 @@ pub fn modal_data(bytes: &[u8]) {
         Ok(found) => {
             let is_finite = |shape: &[f64]| shape.iter().all(|part| part.is_finite());
             assert!(!found.modes.is_empty());
-            assert!(found.modes.iter().all(|named| is_finite(named.mode.shape.as_slice())));
+            assert!(
+                found
+                    .modes
+                    .iter()
+                    .all(|named| is_finite(named.mode.shape.as_slice()))
+            );
         }
     }
 }
