@@ -337,14 +337,6 @@ pub fn joint_logs() -> Vec<Vec<u8>> {
     ])
 }
 
-/// Two modes of a cutter, by mass and by stiffness.
-pub fn modal_data() -> Vec<Vec<u8>> {
-    seeds(&[
-        "format = 1\nname = \"cutter\"\nsource = \"impact test\"\n[[mode]]\nfrequency_hz = 922\ndamping_percent = 1.1\ndirection = [1, 0, 0]\nmodal_mass_kg = 0.04\n\
-         [[mode]]\nname = \"b\"\nfrequency_hz = 700\nfrequency_u_hz = 5\ndamping_ratio = 0.02\ndamping_u_percent = 0.3\ndirection = [0, 1, 0]\nstiffness_n_per_um = 8\nstiffness_u_percent = 5\n",
-    ])
-}
-
 /// The library of materials.
 pub fn materials() -> Vec<Vec<u8>> {
     MATERIALS.iter().map(|material| material.text.into()).collect()

@@ -20,6 +20,7 @@ mod dictionaries;
 mod edited;
 mod fixtures;
 mod meshes;
+mod modal;
 mod signal_stack;
 mod targets;
 mod tracked;

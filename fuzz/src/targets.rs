@@ -5,7 +5,7 @@ use armill_study::file::format::StudyFile;
 
 use crate::dictionaries as words;
 use crate::fixtures;
-use crate::{edited, meshes, tracked, verdicts};
+use crate::{edited, meshes, modal, tracked, verdicts};
 
 /// One parser.
 pub struct Target {
@@ -92,5 +92,5 @@ pub const TARGETS: &[Target] = &[
     target("mesh-model", meshes::three_mf_model, fixtures::mesh_3mf_model, &["model"], words::MESH_3MF),
     target("mesh-dae", meshes::dae, fixtures::mesh_dae, &["dae"], words::MESH_DAE),
     target("material", verdicts::material, fixtures::materials, &[], words::MATERIAL),
-    target("modal", verdicts::modal, fixtures::modal_data, &[], words::MODAL),
+    target("modal", modal::modal_data, modal::seeds, &[], words::MODAL),
 ];

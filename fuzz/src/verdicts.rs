@@ -14,7 +14,6 @@ use armill_core::roundness::{Plane, Profile};
 use armill_formats::convention::Convention;
 use armill_formats::document::Problems;
 use armill_formats::material;
-use armill_formats::modal;
 use armill_formats::measurement::ballbar;
 use armill_formats::measurement::format::{self as forces, ForceRecords};
 use armill_formats::measurement::{csv as force_csv, dynoware, load_tests as tests, profile};
@@ -423,16 +422,6 @@ pub fn material(bytes: &[u8]) {
             assert!(found.mechanistic().is_none() || !found.mechanistic.is_empty());
             assert_eq!(found.kienzle().is_some(), !found.kienzle.is_empty());
         }
-    }
-}
-
-/// A file of modal data.
-pub fn modal(bytes: &[u8]) {
-    match modal::read("tool.toml", &String::from_utf8_lossy(bytes)) {
-        Err(problems) => refused(&problems),
-        Ok(found) => assert!(
-            !found.modes.is_empty() && found.modes.iter().all(|mode| mode.mode.shape.iter().all(|part| part.is_finite()))
-        ),
     }
 }
 

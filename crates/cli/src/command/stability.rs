@@ -114,10 +114,8 @@ fn as_text(answer: &StabilityAnswer) -> String {
         ),
     ];
     if let Some([low, high]) = ends(answer) {
-        lines.push(format!(
-            "lowest, {low:.0} to {high:.0} rpm  {}",
-            depth(answer.lowest_depth_mm)
-        ));
+        let range = format!("lowest, {low:.0} to {high:.0} rpm");
+        lines.push(format!("{range:<28}{}", depth(answer.lowest_depth_mm)));
     }
     lines.push(format!(
         "lowest at any speed         {}",

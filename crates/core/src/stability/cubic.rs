@@ -63,7 +63,7 @@ pub(super) fn roots_of_cubic([c2, c1, c0]: [Complex<f64>; 3], absent: f64) -> [C
         }
         mu
     });
-    let largest = found.iter().map(|mu| mu.norm_sqr()).fold(0.0, f64::max);
+    let largest = found.iter().map(Complex::norm_sqr).fold(0.0, f64::max);
     found.map(|mu| {
         if mu.norm_sqr() <= ZERO * ZERO * largest || mu.norm_sqr() == 0.0 || !mu.is_finite() {
             Complex::new(absent, 0.0)

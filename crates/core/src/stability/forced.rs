@@ -12,7 +12,7 @@
 //! |---|---|---|
 //! | `F`, `u` | force on the tool, displacement of its tip; feed frame | N, m |
 //! | `G` | receptance at the tip (translation) | m/N |
-//! | `error` | positive where the wall lies deeper in the part than without vibration | m |
+//! | `error` | positive where the wall is deeper in the part than without vibration | m |
 //!
 //! With a helix the point of the edge at the height `z` makes the wall when the tip is ahead by the lag `psi(z)`. The error is evaluated at
 //! [`HEIGHTS`] heights of the cylinder. The displacement of all heights is that of the tip. The mean force is included: `k = 0` is the static
@@ -39,7 +39,7 @@ pub enum WallSide {
     Right,
 }
 
-/// Error of a wall: positive where it lies deeper in the part (overcut).
+/// Error of a wall: positive where it is deeper in the part (overcut).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceError {
     /// Side of the wall.

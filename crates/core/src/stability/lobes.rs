@@ -39,7 +39,7 @@ const DEPTHS: usize = 64;
 /// Least of them over the deepest.
 const LEAST_DEPTH: f64 = 1e-3;
 /// Depth in parts of that of a table up to which its boundaries are sought: what is deeper is stable there.
-const AHEAD: f64 = 4.0;
+const AHEAD: f64 = 1.6;
 /// Halvings that find the boundary at one speed: to a millionth of a step of the depths.
 const HALVINGS: usize = 20;
 

@@ -114,7 +114,7 @@ pub struct VibrationAnswer {
     pub walls: Vec<WallAnswer>,
 }
 
-/// Surface location error: positive where the wall lies deeper in the part.
+/// Surface location error: positive where the wall is deeper in the part.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct WallAnswer {
     /// `left` or `right` of the feed.
@@ -304,6 +304,15 @@ fn notes(question: &Question, found: &Evaluation) -> Vec<String> {
                 .to_owned(),
         ),
         _ => {}
+    }
+    if let Some(coupling) = found
+        .mode_coupling
+        .filter(|coupling| coupling.depth < question.milling.cut().depth)
+    {
+        notes.push(format!(
+            "The depth exceeds the limit by mode coupling, {:.3} mm: it is stable only as far as each tooth cuts the waves of the tooth before.",
+            to_mm(coupling.depth)
+        ));
     }
     if question.milling.cutter().runout().offset > 0.0 {
         notes.push("The runout of the cutter is neglected: every tooth cuts the same chip.".to_owned());

@@ -13,9 +13,11 @@ pub fn picture(answer: &StabilityAnswer) -> StabilityPlot {
         .lobes
         .iter()
         .map(|lobe| lobe.depth_mm.unwrap_or(f64::INFINITY));
-    let shown = answer
-        .lowest_depth_mm
-        .map(|lowest| (SHOWN[0] * lowest).max(SHOWN[1] * answer.depth_mm));
+    let shown = answer.lowest_depth_mm.map(|lowest| {
+        (SHOWN[0] * lowest)
+            .max(SHOWN[1] * answer.depth_mm)
+            .min(answer.deepest_mm)
+    });
     StabilityPlot {
         title: format!("Stability of the cut of {}", answer.path),
         subtitle: format!("{}; {}", answer.modes_from, answer.verdict),

@@ -59,7 +59,7 @@ fn a_bull_nose_with_a_tiny_corner_has_the_boundary_of_a_flat_end_mill() {
         Immersion::Slot,
         [600e6, 200e6, 0.0],
     );
-    let at = |cut: &crate::stability::CutOfAnyDepth| {
+    let at = |cut: &CutOfAnyDepth| {
         StabilityLobes::new(&[benchmark_mode()], cut, 0.05)
             .unwrap()
             .at_speed(rpm(9000.0))
