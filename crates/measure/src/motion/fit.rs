@@ -6,7 +6,7 @@
 
 use armill_core::motion::MotionModel;
 
-use super::leads::{Leads, leads, off_lines};
+use super::leads::{Leads, WRIST, off_lines, rms_of_vectors};
 use super::least_squares::{Fitted, Parameter, least_squares};
 use super::observed::Observed;
 use super::simulate::{Arm, Predicted, predicted, with};
@@ -15,6 +15,8 @@ use super::simulate::{Arm, Predicted, predicted, with};
 const START: [f64; 3] = [0.03, 0.01, 0.01];
 /// Least acceleration, m/s^2.
 const LEAST: f64 = 0.05;
+/// Step of the derivatives by a lead, s^2.
+const LEAD_STEP: f64 = 1e-5;
 /// Parameters of all stretches together.
 const COMMON: usize = 4;
 
@@ -50,7 +52,8 @@ pub(super) fn fit(arm: Arm<'_>, stretches: &[&Observed], model: &MotionModel) ->
     };
     let own = fitting(&without);
     let by_speed = own.by_speed();
-    match leads(&own, &by_speed) {
+    let first = own.leads(&by_speed);
+    match Some(first).filter(Leads::explain) {
         Some(first) => own.together(&by_speed, &first),
         // Those of the robot file.
         None if !model.motor_leads.is_empty() => fitting(model).by_speed(),
@@ -59,10 +62,10 @@ pub(super) fn fit(arm: Arm<'_>, stretches: &[&Observed], model: &MotionModel) ->
 }
 
 /// What is fitted.
-pub(super) struct Fitting<'a> {
-    pub arm: Arm<'a>,
-    pub stretches: &'a [&'a Observed],
-    pub model: &'a MotionModel,
+struct Fitting<'a> {
+    arm: Arm<'a>,
+    stretches: &'a [&'a Observed],
+    model: &'a MotionModel,
 }
 
 impl Fitting<'_> {
@@ -82,6 +85,28 @@ impl Fitting<'_> {
         let found = least_squares(&parameters, |p| self.speeds(p, COMMON, &self.model.motor_leads));
         let speeds = self.speeds(&found.values, COMMON, &self.model.motor_leads);
         learnt(&found, COMMON, &speeds)
+    }
+
+    /// The leads alone, for the offsets from the lines, with the speeds that were fitted.
+    fn leads(&self, fitted: &LearntModel) -> Leads {
+        let joints = self.arm.robot.joints().len();
+        let free = joints.saturating_sub(WRIST).max(1);
+        let own = fitted.feeds.iter().zip(&fitted.starts);
+        let common: Vec<f64> = fitted
+            .values
+            .into_iter()
+            .chain(own.flat_map(|(feed, start)| [*feed, *start]))
+            .collect();
+        let offsets = |leads: &[f64]| self.offsets(&common, COMMON, leads);
+        let parameter = Parameter {
+            start: 0.0,
+            step: LEAD_STEP,
+            least: f64::NEG_INFINITY,
+        };
+        let before = rms_of_vectors(&offsets(&vec![0.0; free]));
+        let found = least_squares(&vec![parameter; free], offsets);
+        let left = rms_of_vectors(&offsets(&found.values));
+        Leads::none(joints, before).with(&found.values, &found.u, left)
     }
 
     /// All together.
@@ -122,7 +147,7 @@ impl Fitting<'_> {
     }
 
     /// Predicted less logged offsets from the lines, m, three coordinates each.
-    pub(super) fn offsets(&self, p: &[f64], common: usize, leads: &[f64]) -> Vec<f64> {
+    fn offsets(&self, p: &[f64], common: usize, leads: &[f64]) -> Vec<f64> {
         self.each(p, common, leads, off_lines)
     }
 
@@ -166,12 +191,6 @@ fn learnt(found: &Fitted, common: usize, speeds: &[f64]) -> LearntModel {
     }
 }
 
-/// Length of vectors of which these are the coordinates, root mean square.
-pub(super) fn rms_of_vectors(residuals: &[f64]) -> f64 {
-    let sum: f64 = residuals.iter().map(|r| r * r).sum();
-    (3.0 * sum / residuals.len().max(1) as f64).sqrt()
-}
-
 /// Parameters that begin there: acceleration, window, lag and time to settle, leads, and feed and start of each stretch.
 fn parameters(
     [acceleration, window, lag, settling]: [f64; 4],
@@ -185,7 +204,9 @@ fn parameters(
         parameter(lag, 2e-4, 0.0),
         parameter(settling, 5e-4, 0.0),
     ];
-    let leads = leads.iter().map(|lead| parameter(*lead, 1e-5, f64::NEG_INFINITY));
+    let leads = leads
+        .iter()
+        .map(|lead| parameter(*lead, LEAD_STEP, f64::NEG_INFINITY));
     let own = own.iter().flat_map(|[feed, start]| {
         [
             parameter(*feed, 1e-3 * feed, 0.1 * feed),

@@ -11,15 +11,11 @@
 
 use armill_core::nalgebra::{Point3, Vector3};
 
-use super::fit::{Fitting, LearntModel, rms_of_vectors};
-use super::least_squares::{Parameter, least_squares};
 use super::observed::Observed;
 use super::simulate::Predicted;
 
 /// Joints of the wrist.
-const WRIST: usize = 3;
-/// Step of the derivatives, s^2.
-const STEP: f64 = 1e-5;
+pub(super) const WRIST: usize = 3;
 /// Leads that leave more of the variance of the offsets explain nothing.
 const MOST_LEFT: f64 = 0.25;
 /// Smaller offsets need no explanation, m.
@@ -37,6 +33,21 @@ pub(super) struct Leads {
 }
 
 impl Leads {
+    /// Without leads, for `joints` joints, with these offsets, m.
+    pub(super) fn none(joints: usize, off_line: f64) -> Leads {
+        Leads {
+            values: vec![0.0; joints],
+            u: vec![None; joints],
+            off_line: [off_line, off_line],
+        }
+    }
+
+    /// Whether they explain the offsets from the lines.
+    pub(super) fn explain(&self) -> bool {
+        let [before, left] = self.off_line;
+        before > LEAST && left * left < MOST_LEFT * before * before
+    }
+
     /// Joints before the wrist.
     pub(super) fn free(&self) -> usize {
         self.u.iter().flatten().count()
@@ -53,32 +64,10 @@ impl Leads {
     }
 }
 
-/// The leads with which the model leaves the lines as the logs do, with the speeds that were fitted; `None` if they explain nothing.
-pub(super) fn leads(fitting: &Fitting<'_>, fitted: &LearntModel) -> Option<Leads> {
-    let joints = fitting.arm.robot.joints().len();
-    let free = joints.saturating_sub(WRIST).max(1);
-    let own = fitted.feeds.iter().zip(&fitted.starts);
-    let common: Vec<f64> = fitted
-        .values
-        .into_iter()
-        .chain(own.flat_map(|(feed, start)| [*feed, *start]))
-        .collect();
-    let offsets = |leads: &[f64]| fitting.offsets(&common, fitted.values.len(), leads);
-    let parameter = Parameter {
-        start: 0.0,
-        step: STEP,
-        least: f64::NEG_INFINITY,
-    };
-    let before = rms_of_vectors(&offsets(&vec![0.0; free]));
-    let found = least_squares(&vec![parameter; free], offsets);
-    let left = rms_of_vectors(&offsets(&found.values));
-    let none = Leads {
-        values: vec![0.0; joints],
-        u: vec![None; joints],
-        off_line: [before, before],
-    };
-    let explained = before > LEAST && left * left < MOST_LEFT * before * before;
-    explained.then(|| none.with(&found.values, &found.u, left))
+/// Length of vectors of which these are the coordinates, root mean square.
+pub(super) fn rms_of_vectors(residuals: &[f64]) -> f64 {
+    let sum: f64 = residuals.iter().map(|r| r * r).sum();
+    (3.0 * sum / residuals.len().max(1) as f64).sqrt()
 }
 
 /// Predicted less logged offsets from the lines, m, three coordinates each, if the motion starts at the time `start`, s.
