@@ -13,7 +13,7 @@
 //! Source: the XML specification of URDF (wiki.ros.org/urdf/XML/link).
 
 use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
-use armill_core::nalgebra::{Matrix3, Vector3};
+use armill_core::nalgebra::{Matrix3, Vector3, convert};
 use armill_core::robot::chain::LONGEST;
 use armill_core::robot::deflected_arm::attachment_frame;
 use armill_core::robot::forward::forward;
@@ -63,8 +63,7 @@ pub(super) fn read(
         let base_from_link = way
             .iter()
             .fold(Isometry::identity(), |pose, joint| pose * origin(joint));
-        let base_from_attachment: Isometry =
-            armill_core::nalgebra::convert(attachment_frame(attachment, &frames, &base_from_tool));
+        let base_from_attachment: Isometry = convert(attachment_frame(attachment, &frames, &base_from_tool));
         match mass(file, inertial) {
             Ok((mass, refused)) => {
                 found
