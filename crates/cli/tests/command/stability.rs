@@ -139,7 +139,7 @@ fn invalid_input_is_refused_with_its_reason() {
             "bare.toml",
             "modes.toml",
             &[],
-            &["spindle speed of the cut of `slot` is not known", "--spindle-rpm"],
+            &["no spindle speed is given for this cut"],
         ),
         ("study.toml", "none.toml", &[], &["none.toml"]),
         (

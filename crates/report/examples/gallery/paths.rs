@@ -42,13 +42,13 @@ pub fn pictures() -> Vec<(&'static str, String)> {
 fn stability_plot() -> StabilityPlot {
     let speeds_rpm: Vec<f64> = (0..500).map(|k| 3000.0 + 24.0 * f64::from(k)).collect();
     let depth = |rpm: f64| {
-        (1..4000)
+        (1..20_000)
             .map(|step| 1.0 + f64::from(step) * 1e-4)
             .fold(f64::INFINITY, |least, part| {
                 let turns = 922.0 * part / (rpm / 60.0 * 4.0);
                 let x = (1.0 - part * part, 0.022 * part);
                 let whole = turns - (std::f64::consts::FRAC_PI_2 - x.0.atan2(x.1)) / std::f64::consts::PI;
-                let on_lobe = (whole - whole.round()).abs() < 2e-3;
+                let on_lobe = (whole - whole.round()).abs() < 5e-4;
                 let depth = 4.0 * (x.0 * x.0 + x.1 * x.1) / -x.0;
                 if on_lobe { depth.min(least) } else { least }
             })
