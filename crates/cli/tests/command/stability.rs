@@ -44,7 +44,7 @@ stiffness_n_per_um = 40
 
 fn cell() -> Cell {
     let cell = Cell::new();
-    cell.file("study.toml", &format!("{SMALL}{CUT}"));
+    cell.file("study.toml", format!("{SMALL}{CUT}"));
     cell.file("modes.toml", MODES);
     cell
 }
@@ -120,11 +120,11 @@ fn invalid_input_is_refused_with_its_reason() {
     cell.file("plain.toml", SMALL);
     cell.file(
         "bare.toml",
-        &format!("{SMALL}{}", CUT.replace("spindle_rpm = 12000\n", "")),
+        format!("{SMALL}{}", CUT.replace("spindle_rpm = 12000\n", "")),
     );
     cell.file(
         "wrong.toml",
-        &MODES
+        MODES
             .replace("damping_percent = 1.1\n", "")
             .replace("[0, 1, 0]", "[0, 0, 0]"),
     );

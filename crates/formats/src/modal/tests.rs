@@ -21,7 +21,7 @@ fn mass_and_stiffness_of_the_same_mode_give_the_same_shape() {
     };
     assert!((first.mode.shape - second.mode.shape).norm() < 1e-6 * first.mode.shape.norm());
     assert!((first.mode.shape.x - 1.0 / 0.03993_f64.sqrt()).abs() < 1e-12);
-    assert!((first.mode.angular_frequency - 5_793.0969).abs() < 1e-3);
+    assert!((first.mode.angular_frequency - 5793.0969).abs() < 1e-3);
     assert!((first.mode.damping_ratio - 0.011).abs() < 1e-15);
     assert_eq!([first.name.as_str(), second.name.as_str()], ["1", "b"]);
     assert_eq!(first.uncertainty, ModeUncertainty::default());
