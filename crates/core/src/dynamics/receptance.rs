@@ -40,7 +40,7 @@ mod tests {
         assert!((at_zero.map(|z| z.re) - still).norm() < 1e-15);
         assert!(at_zero.map(|z| z.im).norm() < 1e-15);
         let at_resonance = receptance(&[mode], 60.0);
-        assert!((at_resonance.map(|z| z.norm()) - still.abs() / 0.04).norm() < 1e-12);
+        assert!((at_resonance.map(Complex::norm) - still.abs() / 0.04).norm() < 1e-12);
         assert!(at_resonance[(1, 1)].im < 0.0, "the displacement is late");
     }
 }

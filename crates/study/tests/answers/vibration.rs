@@ -79,7 +79,7 @@ fn a_mass_at_the_tip_vibrates_as_its_compliance_says_and_cuts_as_deep_as_its_mod
     let mut compared = 0;
     for row in rows.iter().filter(|row| !row[mode].is_empty()).step_by(7) {
         let q: Vec<f64> = (0..6)
-            .map(|k| from_deg(row[joints + k].parse().unwrap()))
+            .map(|k| from_deg(row[joints + k].parse::<f64>().unwrap()))
             .collect();
         let compliance = setting.compliance_at(&study.robot.robot, &q);
         let modes = modes_of_a_mass_at_the_tip(&compliance, &axes.inverse());
@@ -148,7 +148,7 @@ fn a_drill_springs_forward_by_the_release_of_its_thrust() {
     for (index, row) in rows.iter().enumerate() {
         let number = |key: &str| row[at(key)].parse::<f64>().unwrap();
         let q: Vec<f64> = (0..6)
-            .map(|k| from_deg(row[at("joint_S_deg") + k].parse().unwrap()))
+            .map(|k| from_deg(row[at("joint_S_deg") + k].parse::<f64>().unwrap()))
             .collect();
         let compliance = analysis.path.setting.compliance_at(&study.robot.robot, &q);
         let modes = modes_of_a_mass_at_the_tip(&compliance, &Rotation3::identity());
