@@ -84,6 +84,7 @@ pub const TARGETS: &[Target] = &[
     target("ballbar-results", verdicts::ballbar_results, fixtures::ballbar_results, &["b5r"], words::BALLBAR),
     target("poses", tracked::poses, fixtures::poses, &[], words::POSES),
     target("trace", tracked::trace, fixtures::traces, &[], words::TRACE),
+    target("frf", tracked::frf, fixtures::frfs, &[], words::FRF),
     target("joint-log", tracked::joint_log, fixtures::joint_logs, &[], words::JOINT_LOG),
     target("mesh-stl", meshes::stl, fixtures::mesh_stl, &["stl"], words::MESH_STL),
     target("mesh-obj", meshes::obj, fixtures::mesh_obj, &["obj"], words::MESH_OBJ),

@@ -97,7 +97,10 @@ fn frf_text(frf: &FrfAnswer) -> String {
 }
 
 fn mode_text(mode: &FrfModeAnswer) -> String {
-    let modal = mode.direction.zip(mode.modal_mass_kg).zip(mode.stiffness_n_per_um.zip(mode.stiffness_u_percent));
+    let modal = mode
+        .direction
+        .zip(mode.modal_mass_kg)
+        .zip(mode.stiffness_n_per_um.zip(mode.stiffness_u_percent));
     let modal = match modal {
         Some((([x, y, z], mass), (stiffness, u))) => format!(
             "{mass:>9.4} kg {:>22}  ({x:.3}, {y:.3}, {z:.3})",

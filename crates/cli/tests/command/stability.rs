@@ -65,7 +65,11 @@ fn a_cut_is_stable_below_its_limit_and_unstable_above_it() {
         let depth = format!("{}", part * limit);
         let there = with(&["--depth-mm", &depth]);
         assert_eq!(there["is_stable"], is_stable, "{part}: {}", there["verdict"]);
-        let begin = if is_stable { "stable at 12000 rpm" } else { "unstable at 12000 rpm" };
+        let begin = if is_stable {
+            "stable at 12000 rpm"
+        } else {
+            "unstable at 12000 rpm"
+        };
         assert!(there["verdict"].as_str().unwrap().starts_with(begin));
         let probability = number(&there["probability_stable"]);
         assert!((probability > 0.5) == is_stable, "{probability}");
@@ -86,7 +90,13 @@ fn a_cut_is_stable_below_its_limit_and_unstable_above_it() {
 fn the_text_names_the_limits_and_a_picture_is_written() {
     let cell = cell();
     let said = cell
-        .armill(&[&CALL[..], &["--speeds-rpm", "6000,20000", "--drawing", "lobes.svg"]].concat())
+        .armill(
+            &[
+                &CALL[..],
+                &["--speeds-rpm", "6000,20000", "--drawing", "lobes.svg"],
+            ]
+            .concat(),
+        )
         .fine();
     for words in [
         "limit at this speed",
@@ -108,19 +118,67 @@ fn the_text_names_the_limits_and_a_picture_is_written() {
 fn invalid_input_is_refused_with_its_reason() {
     let cell = cell();
     cell.file("plain.toml", SMALL);
-    cell.file("bare.toml", &format!("{SMALL}{}", CUT.replace("spindle_rpm = 12000\n", "")));
-    cell.file("wrong.toml", &MODES.replace("damping_percent = 1.1\n", "").replace("[0, 1, 0]", "[0, 0, 0]"));
+    cell.file(
+        "bare.toml",
+        &format!("{SMALL}{}", CUT.replace("spindle_rpm = 12000\n", "")),
+    );
+    cell.file(
+        "wrong.toml",
+        &MODES
+            .replace("damping_percent = 1.1\n", "")
+            .replace("[0, 1, 0]", "[0, 0, 0]"),
+    );
     for (study, modes, more, parts) in [
-        ("plain.toml", "modes.toml", &[][..], &["no path of the study has a cut"][..]),
-        ("bare.toml", "modes.toml", &[], &["spindle speed of the cut of `slot` is not known", "--spindle-rpm"]),
+        (
+            "plain.toml",
+            "modes.toml",
+            &[][..],
+            &["no path of the study has a cut"][..],
+        ),
+        (
+            "bare.toml",
+            "modes.toml",
+            &[],
+            &["spindle speed of the cut of `slot` is not known", "--spindle-rpm"],
+        ),
         ("study.toml", "none.toml", &[], &["none.toml"]),
-        ("study.toml", "wrong.toml", &[], &["wrong.toml:5", "no damping", "`direction` is zero"]),
-        ("study.toml", "modes.toml", &["--path", "other"], &["no path `other` with a cut"]),
-        ("study.toml", "modes.toml", &["--speeds-rpm", "6000"], &["--speeds-rpm: 1 numbers"]),
-        ("study.toml", "modes.toml", &["--speeds-rpm", "9000,6000"], &["--speeds-rpm: 6000"]),
+        (
+            "study.toml",
+            "wrong.toml",
+            &[],
+            &["wrong.toml:5", "no damping", "`direction` is zero"],
+        ),
+        (
+            "study.toml",
+            "modes.toml",
+            &["--path", "other"],
+            &["no path `other` with a cut"],
+        ),
+        (
+            "study.toml",
+            "modes.toml",
+            &["--speeds-rpm", "6000"],
+            &["--speeds-rpm: 1 numbers"],
+        ),
+        (
+            "study.toml",
+            "modes.toml",
+            &["--speeds-rpm", "9000,6000"],
+            &["--speeds-rpm: 6000"],
+        ),
         ("study.toml", "modes.toml", &["--depth-mm", "0"], &["--depth-mm"]),
-        ("study.toml", "modes.toml", &["--spindle-rpm", "nan"], &["--spindle-rpm"]),
-        ("study.toml", "modes.toml", &["--drawing", "lobes.pdf"], &["does not end in .svg or .png"]),
+        (
+            "study.toml",
+            "modes.toml",
+            &["--spindle-rpm", "nan"],
+            &["--spindle-rpm"],
+        ),
+        (
+            "study.toml",
+            "modes.toml",
+            &["--drawing", "lobes.pdf"],
+            &["does not end in .svg or .png"],
+        ),
     ] {
         let call = [&["stability", study, "--modes", modes], more].concat();
         cell.armill(&call).refused(parts);

@@ -114,7 +114,12 @@ pub fn answer(read: &ReadFrfs, fitted: &Fitted) -> FrfModesAnswer {
         for (index, place) in set.places.iter().enumerate() {
             frfs.push((*place, frf(read, set, index, number + 1)));
         }
-        modes.extend(set.fit.modes.iter().map(|own| mode(own, set, number + 1, fitted.tip)));
+        modes.extend(
+            set.fit
+                .modes
+                .iter()
+                .map(|own| mode(own, set, number + 1, fitted.tip)),
+        );
     }
     frfs.sort_by_key(|(place, _)| *place);
     modes.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));
@@ -153,7 +158,8 @@ fn frf(read: &ReadFrfs, set: &FittedSet, index: usize, number_of_set: usize) -> 
 fn mode(own: &FittedMode, set: &FittedSet, number_of_set: usize, tip: i64) -> FrfModeAnswer {
     let found = shape_of(own, &set.frfs);
     let at_tip = found.as_ref().map_err(NoShape::to_string).and_then(|shape| {
-        tip_shape(shape, tip).ok_or_else(|| format!("point {tip} does not move in this mode, or is not measured"))
+        tip_shape(shape, tip)
+            .ok_or_else(|| format!("point {tip} does not move in this mode, or is not measured"))
     });
     let omega = own.angular_frequency;
     let shape = found.as_ref().ok();
@@ -164,7 +170,10 @@ fn mode(own: &FittedMode, set: &FittedSet, number_of_set: usize, tip: i64) -> Fr
         damping_percent: number(100.0 * own.damping_ratio),
         damping_u_percent: number(100.0 * own.damping_ratio_u),
         shape: shape.map_or_else(Vec::new, shape_answer),
-        direction: at_tip.as_ref().ok().map(|tip| <[f64; 3]>::from(tip.direction).map(number)),
+        direction: at_tip
+            .as_ref()
+            .ok()
+            .map(|tip| <[f64; 3]>::from(tip.direction).map(number)),
         modal_mass_kg: at_tip.as_ref().ok().map(|tip| number(1.0 / tip.length.powi(2))),
         stiffness_n_per_um: at_tip
             .as_ref()

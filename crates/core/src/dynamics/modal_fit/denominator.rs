@@ -95,7 +95,11 @@ pub(super) fn poles_by_order(frfs: &[Frf], band: [f64; 2], highest: usize) -> Ve
             matrix += own.reduced(order)?;
         }
         let last: DVector<Complex<f64>> = -matrix.view((0, order), (order, 1)).column(0).into_owned();
-        let lower = matrix.view((0, 0), (order, order)).into_owned().lu().solve(&last)?;
+        let lower = matrix
+            .view((0, 0), (order, order))
+            .into_owned()
+            .lu()
+            .solve(&last)?;
         let found = roots(&lower)?.into_iter().filter_map(|z| {
             let mut pole = -z.ln() / step + Complex::new(0.0, band[0]);
             // The logarithm has angles of half a turn to both sides; those of the band are all above it.
@@ -120,7 +124,10 @@ pub(super) fn poles_by_order(frfs: &[Frf], band: [f64; 2], highest: usize) -> Ve
 /// Roots of `z^n + c_(n-1) z^(n-1) + ... + c_0`; `None` if they are not found.
 fn roots(coefficients: &DVector<Complex<f64>>) -> Option<Vec<Complex<f64>>> {
     let order = coefficients.len();
-    if coefficients.iter().any(|c| !(c.re.is_finite() && c.im.is_finite())) {
+    if coefficients
+        .iter()
+        .any(|c| !(c.re.is_finite() && c.im.is_finite()))
+    {
         return None;
     }
     let mut companion = DMatrix::<Complex<f64>>::zeros(order, order);

@@ -140,11 +140,7 @@ pub fn fit(frfs: &[Frf], options: &FitOptions) -> Result<ModalFit, FitError> {
     let found = candidates(&poles_by_order(&frfs, options.band, highest));
     let count = found.len();
     let most = MOST_CANDIDATES.min(fewest / PER_ORDER);
-    let poles: Vec<Pole> = found
-        .iter()
-        .take(most)
-        .map(|candidate| candidate.pole)
-        .collect();
+    let poles: Vec<Pole> = found.iter().take(most).map(|candidate| candidate.pole).collect();
     let refined = select(&frfs, options.band, &poles, options.modes).ok_or(FitError::NoMode)?;
     let fitted: Vec<FittedFrf> = frfs
         .iter()
@@ -213,7 +209,11 @@ fn modes_of(refined: &Refined, fitted: &[FittedFrf]) -> Option<Vec<FittedMode>> 
             angular_frequency_u: covariance[(2 * r, 2 * r)].max(0.0).sqrt(),
             damping_ratio: pole.damping_ratio,
             damping_ratio_u: covariance[(2 * r + 1, 2 * r + 1)].max(0.0).sqrt(),
-            residues: refined.solved.iter().map(|solved| solved.coefficients[r]).collect(),
+            residues: refined
+                .solved
+                .iter()
+                .map(|solved| solved.coefficients[r])
+                .collect(),
             residues_covariance: of_residues,
             phase_deviation: None,
             collinearity: None,

@@ -69,7 +69,10 @@ pub(super) fn solve(frf: &Frf, columns: &[Vec<Complex<f64>>]) -> Option<Solved> 
     }
     let values = weighted(&frf.receptance);
     let (basis, triangle) = matrix.qr().unpack();
-    let least = triangle.diagonal().iter().fold(f64::INFINITY, |a, b| a.min(b.abs()));
+    let least = triangle
+        .diagonal()
+        .iter()
+        .fold(f64::INFINITY, |a, b| a.min(b.abs()));
     if !(least > f64::EPSILON) {
         return None;
     }

@@ -70,7 +70,10 @@ pub(super) fn refine(frfs: &[Frf], start: &[Pole]) -> Option<Refined> {
 
 /// The sum of squares of the weighted residuals of an FRF, at least that of rounding errors.
 pub(super) fn squares(frf: &Frf, solved: &Solved) -> f64 {
-    solved.residuals.norm_squared().max(ROUNDING * ROUNDING * frf.energy())
+    solved
+        .residuals
+        .norm_squared()
+        .max(ROUNDING * ROUNDING * frf.energy())
 }
 
 fn solve_all(frfs: &[Frf], poles: &[Pole]) -> Option<Vec<Solved>> {
@@ -140,8 +143,7 @@ fn moved(poles: &[Pole], step: &DVector<f64>) -> Option<Vec<Pole>> {
             damping_ratio: pole.damping_ratio + step[2 * k + 1],
         };
         let ratio = next.angular_frequency / pole.angular_frequency;
-        let is_valid =
-            (0.5..2.0).contains(&ratio) && (DAMPING[0]..DAMPING[1]).contains(&next.damping_ratio);
+        let is_valid = (0.5..2.0).contains(&ratio) && (DAMPING[0]..DAMPING[1]).contains(&next.damping_ratio);
         is_valid.then_some(next)
     });
     moved.collect()

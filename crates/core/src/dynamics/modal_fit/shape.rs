@@ -39,7 +39,9 @@ pub struct MeasuredShape {
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
 pub enum NoShape {
     /// No FRF has force and displacement at the same degree of freedom.
-    #[error("no drive point: no FRF has its force and its displacement at the same point in the same direction")]
+    #[error(
+        "no drive point: no FRF has its force and its displacement at the same point in the same direction"
+    )]
     NoDrivePoint,
     /// Residues of drive points are not positive.
     #[error("the mode is not visible at a drive point, or force and displacement there have opposite signs")]
@@ -77,7 +79,10 @@ pub fn connected(frfs: &[Frf]) -> Vec<Vec<usize>> {
 /// # Panics
 /// If `mode` was fitted to fewer FRFs.
 pub fn shape_of(mode: &FittedMode, frfs: &[Frf]) -> Result<MeasuredShape, NoShape> {
-    let mut dofs: Vec<Dof> = frfs.iter().flat_map(|frf| [frf.response, frf.reference]).collect();
+    let mut dofs: Vec<Dof> = frfs
+        .iter()
+        .flat_map(|frf| [frf.response, frf.reference])
+        .collect();
     dofs.sort_unstable();
     dofs.dedup();
     let place = |dof: Dof| dofs.binary_search(&dof).unwrap_or_default();

@@ -131,7 +131,11 @@ fn modes_with_noise_are_within_their_uncertainty_and_close_ones_are_distinguishe
     let found = fitted(&measured, &LINES, None);
     assert_eq!(found.modes.len(), 4, "{found:?}");
     for (own, expected) in found.modes.iter().zip(&modes) {
-        is_within(own.angular_frequency, expected.angular_frequency, own.angular_frequency_u);
+        is_within(
+            own.angular_frequency,
+            expected.angular_frequency,
+            own.angular_frequency_u,
+        );
         is_within(own.damping_ratio, expected.damping_ratio, own.damping_ratio_u);
         assert!(own.angular_frequency_u < 2e-3 * own.angular_frequency);
         let shape = shape_of(own, &measured).unwrap();
@@ -161,10 +165,34 @@ fn modes_are_those_of_another_program() {
     // sequence of noise, made in Python): frequency in Hz, damping ratio, residues of xx, yx, yy in 1/kg; standard uncertainties from its
     // Jacobian.
     let expected = [
-        [420.010_345_5, 0.019_963_911_3, 0.249_840_39, 0.049_923_04, 0.010_164_5],
-        [1150.002_681_1, 0.012_003_099_9, 16.004_750_8, 3.997_878_5, 1.005_911_7],
-        [1161.504_232_0, 0.012_996_463_8, 0.997_468_6, -3.497_555_1, 12.243_120_1],
-        [2299.965_973_3, 0.030_043_456_7, 4.000_532_2, -3.998_321_0, 4.003_395_9],
+        [
+            420.010_345_5,
+            0.019_963_911_3,
+            0.249_840_39,
+            0.049_923_04,
+            0.010_164_5,
+        ],
+        [
+            1150.002_681_1,
+            0.012_003_099_9,
+            16.004_750_8,
+            3.997_878_5,
+            1.005_911_7,
+        ],
+        [
+            1161.504_232_0,
+            0.012_996_463_8,
+            0.997_468_6,
+            -3.497_555_1,
+            12.243_120_1,
+        ],
+        [
+            2299.965_973_3,
+            0.030_043_456_7,
+            4.000_532_2,
+            -3.998_321_0,
+            4.003_395_9,
+        ],
     ];
     let uncertainties = [
         [1.062_949e-2, 3.654_136e-5],
@@ -176,9 +204,18 @@ fn modes_are_those_of_another_program() {
     let found = fitted(&measured, &LINES, Some(4));
     for ((own, expected), [u_frequency, u_damping]) in found.modes.iter().zip(&expected).zip(&uncertainties) {
         // Its weights of the three FRFs are equal, ours are from their residuals: within a tenth of the uncertainty.
-        assert!((own.angular_frequency / TAU - expected[0]).abs() < 0.1 * u_frequency, "{own:?}");
-        assert!((own.damping_ratio - expected[1]).abs() < 0.1 * u_damping, "{own:?}");
-        assert!((own.angular_frequency_u / TAU / u_frequency - 1.0).abs() < 0.1, "{own:?}");
+        assert!(
+            (own.angular_frequency / TAU - expected[0]).abs() < 0.1 * u_frequency,
+            "{own:?}"
+        );
+        assert!(
+            (own.damping_ratio - expected[1]).abs() < 0.1 * u_damping,
+            "{own:?}"
+        );
+        assert!(
+            (own.angular_frequency_u / TAU / u_frequency - 1.0).abs() < 0.1,
+            "{own:?}"
+        );
         assert!((own.damping_ratio_u / u_damping - 1.0).abs() < 0.1, "{own:?}");
         for k in 0..3 {
             let u = own.residues_covariance[(k, k)].sqrt();
@@ -189,7 +226,10 @@ fn modes_are_those_of_another_program() {
 
 #[test]
 fn uncertainties_are_the_scatter_of_repeated_measurements() {
-    let modes = [mode(150.0, 0.02, [0.3, 0.0, 0.0]), mode(166.0, 0.025, [0.25, 0.0, 0.0])];
+    let modes = [
+        mode(150.0, 0.02, [0.3, 0.0, 0.0]),
+        mode(166.0, 0.025, [0.25, 0.0, 0.0]),
+    ];
     let lines = Lines {
         low: 100.0,
         high: 220.0,
@@ -220,7 +260,10 @@ fn uncertainties_are_the_scatter_of_repeated_measurements() {
         }
     }
     // Of 60 runs the mean square of a normalised error has the standard deviation sqrt(2/60) = 0.18.
-    assert!(squares.iter().all(|square| (0.45..1.6).contains(square)), "{squares:?}");
+    assert!(
+        squares.iter().all(|square| (0.45..1.6).contains(square)),
+        "{squares:?}"
+    );
 }
 
 #[test]
@@ -236,7 +279,10 @@ fn residuals_describe_modes_outside_the_band_and_narrow_bands_are_fitted() {
     let found = fitted(&measured, &lines, Some(1));
     assert_eq!(found.modes.len(), 1);
     let own = &found.modes[0];
-    assert!((own.angular_frequency / (TAU * 2300.0) - 1.0).abs() < 1e-3, "{own:?}");
+    assert!(
+        (own.angular_frequency / (TAU * 2300.0) - 1.0).abs() < 1e-3,
+        "{own:?}"
+    );
     assert!((own.damping_ratio - 0.03).abs() < 5e-4, "{own:?}");
     assert!((own.residues[0] - 4.0).abs() < 0.15, "{own:?}");
     // Receptance with the two residuals; without them the modes below and above are missing: 7.8e-9 m/N by the one above alone.
@@ -253,7 +299,12 @@ fn a_complex_mode_is_reported() {
         high: 150.0,
         step: 0.25,
     };
-    let mut measured = frfs(&[mode(100.0, 0.02, [0.2, 0.1, 0.0])], &lines, &[[0, 0], [1, 0]], 1e-10);
+    let mut measured = frfs(
+        &[mode(100.0, 0.02, [0.2, 0.1, 0.0])],
+        &lines,
+        &[[0, 0], [1, 0]],
+        1e-10,
+    );
     // The residue of the second FRF turned by 30 degrees: R e^(i 30 deg) in place of R.
     let (omega, zeta) = (TAU * 100.0, 0.02);
     let damped = omega * (1.0_f64 - zeta * zeta).sqrt();
@@ -307,7 +358,10 @@ fn the_drive_point_gives_the_scale_of_a_shape_and_its_uncertainty() {
     let measured = frfs(&cutter(), &LINES, &[[0, 0], [1, 0]], 0.0);
     let shape = shape_of(&with_residues(&[4.0, -6.0]), &measured).unwrap();
     // The larger part is positive: phi = (-2, 3).
-    assert!((shape.shape[0] + 2.0).abs() < 1e-12 && (shape.shape[1] - 3.0).abs() < 1e-12, "{shape:?}");
+    assert!(
+        (shape.shape[0] + 2.0).abs() < 1e-12 && (shape.shape[1] - 3.0).abs() < 1e-12,
+        "{shape:?}"
+    );
     // u(phi_x) = u(a) / (2 phi_x); u(phi_y)^2 = (u(a)/phi_x)^2 + (phi_y u(phi_x)/phi_x)^2
     assert!((shape.covariance[(0, 0)] - 0.01 / 16.0).abs() < 1e-12);
     let expected = 0.01 / 4.0 + (1.5_f64).powi(2) * 0.01 / 16.0;
@@ -315,9 +369,18 @@ fn the_drive_point_gives_the_scale_of_a_shape_and_its_uncertainty() {
 
     let off = frfs(&cutter(), &LINES, &[[1, 0]], 0.0);
     assert_eq!(shape_of(&with_residues(&[1.0]), &off), Err(NoShape::NoDrivePoint));
-    assert_eq!(shape_of(&with_residues(&[-4.0, 6.0]), &measured), Err(NoShape::NotVisible));
+    assert_eq!(
+        shape_of(&with_residues(&[-4.0, 6.0]), &measured),
+        Err(NoShape::NotVisible)
+    );
     let apart = frfs(&cutter(), &LINES, &[[0, 0], [2, 1]], 0.0);
-    assert_eq!(shape_of(&with_residues(&[4.0, 1.0]), &apart), Err(NoShape::NotDetermined));
+    assert_eq!(
+        shape_of(&with_residues(&[4.0, 1.0]), &apart),
+        Err(NoShape::NotDetermined)
+    );
     assert_eq!(connected(&apart), [vec![0], vec![1]]);
-    assert_eq!(connected(&frfs(&cutter(), &LINES, &[[0, 0], [1, 1], [1, 0]], 0.0)), [vec![0, 1, 2]]);
+    assert_eq!(
+        connected(&frfs(&cutter(), &LINES, &[[0, 0], [1, 1], [1, 0]], 0.0)),
+        [vec![0, 1, 2]]
+    );
 }

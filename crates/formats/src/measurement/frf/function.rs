@@ -131,10 +131,13 @@ pub(super) fn read(lines: &mut Lines<impl BufRead>, most: usize) -> Result<Funct
     let numbers = numbers(lines, &shape)?;
     let per_value = shape.per_value();
     let parts = numbers.chunks_exact(per_value);
-    let abscissa = parts.clone().enumerate().map(|(index, value)| match shape.is_uneven {
-        true => value[0],
-        false => first + step * index as f64,
-    });
+    let abscissa = parts
+        .clone()
+        .enumerate()
+        .map(|(index, value)| match shape.is_uneven {
+            true => value[0],
+            false => first + step * index as f64,
+        });
     Ok(Function {
         line,
         kind,
@@ -181,7 +184,9 @@ fn numbers(lines: &mut Lines<impl BufRead>, shape: &Shape) -> Result<Vec<f64>, P
         if is_delimiter(&line.text) {
             let message = format!("the dataset ends after {} of {needed} numbers", found.len());
             let hint = "the file is not complete: export it again";
-            return Err(line.problem(lines.name(), 0..line.text.len(), message, hint).into());
+            return Err(line
+                .problem(lines.name(), 0..line.text.len(), message, hint)
+                .into());
         }
         let words: Option<Vec<f64>> = line.text.split_ascii_whitespace().map(fortran).collect();
         match words {
@@ -203,7 +208,9 @@ fn numbers(lines: &mut Lines<impl BufRead>, shape: &Shape) -> Result<Vec<f64>, P
         }
         if found.len() > needed {
             let message = format!("more than {needed} numbers");
-            return Err(line.problem(lines.name(), 0..line.text.len(), message, HINT).into());
+            return Err(line
+                .problem(lines.name(), 0..line.text.len(), message, HINT)
+                .into());
         }
     }
     Ok(found)

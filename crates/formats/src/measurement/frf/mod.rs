@@ -28,7 +28,10 @@ const MOST_FREQUENCIES: usize = 2_000_000;
 /// All problems of the file, at most 200.
 pub fn read(path: &str, mut reader: impl BufRead) -> Result<MeasuredFrfs, Problems> {
     let head = reader.fill_buf().map_err(|error| unreadable(path, &error))?;
-    let head = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(head).trim_ascii_start();
+    let head = head
+        .strip_prefix(b"\xef\xbb\xbf")
+        .unwrap_or(head)
+        .trim_ascii_start();
     match head.strip_prefix(b"-1") {
         Some(rest) if rest.first().is_none_or(u8::is_ascii_whitespace) => universal::read(path, reader),
         _ => table::read(path, reader),

@@ -24,8 +24,7 @@ use crate::document::lines::{Line, Lines};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
 use crate::table::sheet::{is_blank_row, named_columns, number, row_cells, separator_of};
 
-const HINT: &str =
-    "columns such as frequency_hz, receptance_real_um_per_n, receptance_imag_um_per_n; or accelerance_magnitude_g_per_n, phase_deg";
+const HINT: &str = "columns such as frequency_hz, receptance_real_um_per_n, receptance_imag_um_per_n; or accelerance_magnitude_g_per_n, phase_deg";
 
 /// Meaning of a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -150,7 +149,9 @@ pub(super) fn read(path: &str, reader: impl BufRead) -> Result<MeasuredFrfs, Pro
                 continue;
             }
         };
-        let [Some(response), Some(reference)] = row.dofs else { continue };
+        let [Some(response), Some(reference)] = row.dofs else {
+            continue;
+        };
         let own = samples
             .iter()
             .position(|own| own.response == response && own.reference == reference);
@@ -188,7 +189,9 @@ pub(super) fn read(path: &str, reader: impl BufRead) -> Result<MeasuredFrfs, Pro
     }
     let mut notes = Vec::new();
     if !has(Column::Response) || !has(Column::Reference) {
-        notes.push(format!("{path}: points are not given: response or reference is taken as 1X"));
+        notes.push(format!(
+            "{path}: points are not given: response or reference is taken as 1X"
+        ));
     }
     Ok(MeasuredFrfs {
         frfs: samples.iter().map(Samples::receptance).collect(),
@@ -248,19 +251,28 @@ fn row(path: &str, line: &Line, separator: char, columns: &[Option<Column>]) -> 
         }
         let value = number(&cell.text, separator).filter(|value| value.is_finite());
         let Some(value) = value else {
-            problem(format!("`{}` is not a finite number", cell.text), "remove rows that were not measured");
+            problem(
+                format!("`{}` is not a finite number", cell.text),
+                "remove rows that were not measured",
+            );
             continue;
         };
         match column {
             Column::Frequency if value < 0.0 => {
-                problem(format!("the frequency {value} Hz is below 0"), "frequencies are 0 or above");
+                problem(
+                    format!("the frequency {value} Hz is below 0"),
+                    "frequencies are 0 or above",
+                );
             }
             Column::Frequency => row.frequency = value,
             Column::Part(part, _, factor) => row.parts[*part] = value * factor,
             Column::Phase(true) => row.phase = from_deg(value),
             Column::Phase(false) => row.phase = value,
             Column::Coherence if !(0.0..=1.0).contains(&value) => {
-                problem(format!("the coherence {value} is not within 0 to 1"), "coherence has no unit");
+                problem(
+                    format!("the coherence {value} is not within 0 to 1"),
+                    "coherence has no unit",
+                );
             }
             Column::Coherence => row.coherence = value,
             Column::Response | Column::Reference => {}

@@ -13,7 +13,11 @@ const INCH: f64 = 0.0254;
 
 /// Quantity and factor to SI of a label such as `m/s^2`; `None` for an unknown one.
 pub(super) fn motion(label: &str) -> Option<(Quantity, f64)> {
-    let label = label.trim().to_lowercase().replace([' ', '*', '^'], "").replace("sec", "s");
+    let label = label
+        .trim()
+        .to_lowercase()
+        .replace([' ', '*', '^'], "")
+        .replace("sec", "s");
     if label == "g" {
         return Some((Quantity::Acceleration, GRAVITY));
     }

@@ -34,8 +34,11 @@ pub(super) fn read(path: &str, reader: impl BufRead) -> Result<MeasuredFrfs, Pro
                 let found = function::read(&mut lines, MOST_FREQUENCIES - frequencies)?;
                 frequencies += found.values.len();
                 if functions.len() == MOST_FUNCTIONS || frequencies == MOST_FREQUENCIES {
-                    let message = format!("more than {MOST_FUNCTIONS} functions or {MOST_FREQUENCIES} frequencies");
-                    return Err(number.problem(path, 0..number.text.len(), message, "divide the file").into());
+                    let message =
+                        format!("more than {MOST_FUNCTIONS} functions or {MOST_FREQUENCIES} frequencies");
+                    return Err(number
+                        .problem(path, 0..number.text.len(), message, "divide the file")
+                        .into());
                 }
                 functions.push((found, units));
             }
@@ -68,12 +71,18 @@ pub(super) fn read(path: &str, reader: impl BufRead) -> Result<MeasuredFrfs, Pro
     Problems::from(problems).into_result()?;
     for (found, _) in functions.iter().filter(|(found, _)| found.kind != 4) {
         let belongs = |own: &&mut Samples| {
-            let dofs = found.dofs.map(|[node, direction]| SignedDof::of_direction(node, direction));
+            let dofs = found
+                .dofs
+                .map(|[node, direction]| SignedDof::of_direction(node, direction));
             dofs == [Some(own.response), Some(own.reference)] && own.values.len() == found.values.len()
         };
         match samples.iter_mut().find(belongs).filter(|_| found.kind == 6) {
             Some(own) => own.coherence = Some(found.values.iter().map(|value| value[0]).collect()),
-            None => *left_out.entry(format!("function of type {}", found.kind)).or_default() += 1,
+            None => {
+                *left_out
+                    .entry(format!("function of type {}", found.kind))
+                    .or_default() += 1
+            }
         }
     }
     measured.unused = left_out
@@ -116,7 +125,9 @@ fn factors(lines: &mut Lines<impl BufRead>) -> Result<[f64; 2], Problems> {
         _ => {
             let message = "the factors of length and force are not numbers above 0";
             let hint = "dataset 164: three factors in its second record";
-            Err(line.problem(lines.name(), 0..line.text.len(), message, hint).into())
+            Err(line
+                .problem(lines.name(), 0..line.text.len(), message, hint)
+                .into())
         }
     }
 }
@@ -132,12 +143,22 @@ fn samples(
     let [frequency, numerator, denominator] = &found.axes;
     if !matches!(frequency.kind, 0 | 1 | 18) {
         let message = format!("the abscissa is of type {}, not frequency (18)", frequency.kind);
-        problems.push(at(path, frequency, message, "export FRFs over the frequency in Hz"));
+        problems.push(at(
+            path,
+            frequency,
+            message,
+            "export FRFs over the frequency in Hz",
+        ));
     }
     let rises = found.abscissa.windows(2).all(|pair| pair[0] < pair[1]);
     if !rises || found.abscissa.first().is_some_and(|first| *first < 0.0) {
         let message = "the frequencies do not rise from 0 or above".to_owned();
-        problems.push(at(path, frequency, message, "sort the values by frequency, in Hz"));
+        problems.push(at(
+            path,
+            frequency,
+            message,
+            "sort the values by frequency, in Hz",
+        ));
     }
     let motion = match numerator.kind {
         8 => Some(Quantity::Displacement),
@@ -158,7 +179,12 @@ fn samples(
                 "numerator of type {} with the unit `{}` is no displacement (8), velocity (11) or acceleration (12)",
                 numerator.kind, numerator.unit
             );
-            problems.push(at(path, numerator, message, "units such as m/s^2, mm/s, um or g are known"));
+            problems.push(at(
+                path,
+                numerator,
+                message,
+                "units such as m/s^2, mm/s, um or g are known",
+            ));
             (Quantity::Displacement, 1.0)
         }
     };
@@ -174,7 +200,12 @@ fn samples(
                 "denominator of type {} with the unit `{}` is no force (13)",
                 denominator.kind, denominator.unit
             );
-            problems.push(at(path, denominator, message, "only FRFs of a force are evaluated"));
+            problems.push(at(
+                path,
+                denominator,
+                message,
+                "only FRFs of a force are evaluated",
+            ));
             1.0
         }
     };
@@ -213,7 +244,11 @@ fn at(path: &str, axis: &Axis, message: String, hint: &str) -> Problem {
 
 /// Notes which unit is assumed for an axis whose label has none that is known.
 fn note(axis: &Axis, has_units: bool, notes: &mut Vec<String>) {
-    let by = if has_units { "dataset 164" } else { "SI, as no dataset 164 gives others" };
+    let by = if has_units {
+        "dataset 164"
+    } else {
+        "SI, as no dataset 164 gives others"
+    };
     let text = match axis.unit.is_empty() {
         true => format!("an axis has no unit: {by}"),
         false => format!("the unit `{}` of an axis is not known: {by}", axis.unit),
