@@ -139,9 +139,8 @@ fn modes_with_noise_are_within_their_uncertainty_and_close_ones_are_distinguishe
         is_within(own.damping_ratio, expected.damping_ratio, own.damping_ratio_u);
         assert!(own.angular_frequency_u < 2e-3 * own.angular_frequency);
         let shape = shape_of(own, &measured).unwrap();
-        let sign = expected.shape[usize::from(expected.shape[1].abs() > expected.shape[0].abs())].signum();
         let same = shape.shape[0] * expected.shape[0] + shape.shape[1] * expected.shape[1];
-        let sign = if same < 0.0 { -1.0 } else { sign.abs() };
+        let sign = same.signum();
         for axis in 0..2 {
             let u = shape.covariance[(axis, axis)].sqrt();
             is_within(sign * shape.shape[axis], expected.shape[axis], u);

@@ -2,6 +2,9 @@
 
 use armill_core::dynamics::modal_fit::{Dof, Frf};
 
+/// Largest number of frequencies of a file, all FRFs together.
+pub(super) const MOST_FREQUENCIES: usize = 2_000_000;
+
 /// FRFs of a file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeasuredFrfs {

@@ -19,9 +19,6 @@ use std::io::BufRead;
 pub use self::measured::MeasuredFrfs;
 use crate::document::{Problems, unreadable};
 
-/// Largest number of frequencies of a file, all FRFs together.
-const MOST_FREQUENCIES: usize = 2_000_000;
-
 /// Reads the FRFs in `reader`. `path` is the file name shown in problems.
 ///
 /// # Errors

@@ -17,9 +17,9 @@ use std::io::BufRead;
 use armill_core::nalgebra::Complex;
 use armill_core::units::from_deg;
 
-use super::measured::{MeasuredFrfs, SignedDof};
+use super::measured::{MOST_FREQUENCIES, MeasuredFrfs, SignedDof};
 use super::quantity::{Quantity, Samples};
-use super::{MOST_FREQUENCIES, unit};
+use super::unit;
 use crate::document::lines::{Line, Lines};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
 use crate::table::sheet::{is_blank_row, named_columns, number, row_cells, separator_of};

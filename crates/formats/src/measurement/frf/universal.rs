@@ -10,9 +10,9 @@ use std::io::BufRead;
 use armill_core::nalgebra::Complex;
 
 use super::function::{self, Axis, Function, fortran, is_delimiter};
-use super::measured::{MeasuredFrfs, SignedDof};
+use super::measured::{MOST_FREQUENCIES, MeasuredFrfs, SignedDof};
 use super::quantity::{Quantity, Samples};
-use super::{MOST_FREQUENCIES, unit};
+use super::unit;
 use crate::document::lines::{Line, Lines};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
 
