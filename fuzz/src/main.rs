@@ -23,6 +23,7 @@ mod meshes;
 mod signal_stack;
 mod targets;
 mod tracked;
+mod tracked_fixtures;
 mod verdicts;
 
 use std::sync::OnceLock;
