@@ -41,8 +41,7 @@ pub(super) fn motion(label: &str) -> Option<(Quantity, f64)> {
 pub(super) fn force(label: &str) -> Option<f64> {
     match label.trim().to_lowercase().as_str() {
         "n" => Some(1.0),
-        // 1000 N, as the length of a kilometre in millimetres.
-        "kn" => Some(from_mm(1e6)),
+        "kn" => Some(1000.0),
         "lbf" | "lb" => Some(POUND_FORCE),
         _ => None,
     }
