@@ -134,8 +134,8 @@ fn problems_of_a_universal_file_have_their_place() {
         ),
         (
             "         5         4",
-            "         5         3",
-            "more than 6 numbers",
+            "         5         2",
+            "more than 4 numbers",
         ),
         (
             "         5         4",
