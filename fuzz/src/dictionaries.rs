@@ -188,6 +188,13 @@ pub const TRACE: &[&str] = &["run", "x_mm", "y_um", "z_in", "x_m", ";", "\t", "#
 #[rustfmt::skip]
 pub const JOINT_LOG: &[&str] = &["time_s", "timestamp", "IPOC", "J1_deg", "J2", "A1", "actual_q_0", "target_q_1", "AIPos.A1", "ASPos.A2", "fb_j1", "planned_j2", "cmd_num", "[rad]", ";", "\t", " ", "nan", "1e308"];
 
+/// Columns of a table of FRFs, and lines of a universal file.
+#[rustfmt::skip]
+pub const FRF: &[&str] = &[
+    "frequency_hz", "receptance_real_um_per_n", "receptance_imag_m_per_n", "mobility_magnitude_mm_per_s_per_n", "accelerance_real_g_per_n", "phase_deg", "phase_rad", "coherence", "response",
+    "reference", "1X", "12-Y", ";", "\t", "nan", "1e308", "    -1\n", "    58\n", "   164\n", "    58b", "NONE", "         5         4         1", "m/s^2", "mm/s", "D+00",
+];
+
 /// Keys of a material file.
 #[rustfmt::skip]
 pub const MATERIAL: &[&str] = &[

@@ -329,20 +329,12 @@ pub fn traces() -> Vec<Vec<u8>> {
     ])
 }
 
-/// Joint logs with names of ours and of RTDE.
-pub fn joint_logs() -> Vec<Vec<u8>> {
-    seeds(&[
-        "timestamp, cmd_num, J1, J2\n0, -1, 10, 87\n0.004, -1, 10.1, 87\n0.008, 2, 10.2, 86\n",
-        "timestamp actual_q_0 actual_q_1 target_q_0 target_q_1\n1 0.1 0.2 0.1 0.2\n1.002 0.1 0.2 0.1 0.2\n",
-    ])
-}
-
 /// The library of materials.
 pub fn materials() -> Vec<Vec<u8>> {
     MATERIALS.iter().map(|material| material.text.into()).collect()
 }
 
-fn seeds(texts: &[&str]) -> Vec<Vec<u8>> {
+pub(crate) fn seeds(texts: &[&str]) -> Vec<Vec<u8>> {
     texts.iter().map(|text| (*text).into()).collect()
 }
 

@@ -24,6 +24,7 @@ mod modal;
 mod signal_stack;
 mod targets;
 mod tracked;
+mod tracked_fixtures;
 mod verdicts;
 
 use std::sync::OnceLock;

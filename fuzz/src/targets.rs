@@ -5,7 +5,7 @@ use armill_study::file::format::StudyFile;
 
 use crate::dictionaries as words;
 use crate::fixtures;
-use crate::{edited, meshes, modal, tracked, verdicts};
+use crate::{edited, meshes, modal, tracked, tracked_fixtures, verdicts};
 
 /// One parser.
 pub struct Target {
@@ -84,7 +84,8 @@ pub const TARGETS: &[Target] = &[
     target("ballbar-results", verdicts::ballbar_results, fixtures::ballbar_results, &["b5r"], words::BALLBAR),
     target("poses", tracked::poses, fixtures::poses, &[], words::POSES),
     target("trace", tracked::trace, fixtures::traces, &[], words::TRACE),
-    target("joint-log", tracked::joint_log, fixtures::joint_logs, &[], words::JOINT_LOG),
+    target("frf", tracked::frf, tracked_fixtures::frfs, &[], words::FRF),
+    target("joint-log", tracked::joint_log, tracked_fixtures::joint_logs, &[], words::JOINT_LOG),
     target("mesh-stl", meshes::stl, fixtures::mesh_stl, &["stl"], words::MESH_STL),
     target("mesh-obj", meshes::obj, fixtures::mesh_obj, &["obj"], words::MESH_OBJ),
     target("mesh-ply", meshes::ply, fixtures::mesh_ply, &["ply"], words::MESH_PLY),

@@ -1,4 +1,4 @@
-//! Requirements on measured poses and paths of a tracker, and on joint logs.
+//! Requirements on measured poses and paths of a tracker, on joint logs and on frequency response functions.
 
 use std::sync::OnceLock;
 
@@ -6,7 +6,7 @@ use armill_core::calibrate;
 use armill_core::frame::Isometry;
 use armill_core::measure::path_accuracy::path_accuracy;
 use armill_core::robot::Robot;
-use armill_formats::measurement::{joint_log, poses, trace};
+use armill_formats::measurement::{frf, joint_log, poses, trace};
 use armill_study::library;
 
 use crate::verdicts::refused;
@@ -70,4 +70,19 @@ pub fn joint_log(bytes: &[u8]) {
     assert!(found.positions.iter().chain(found.commanded.iter().flatten()).all(|q| q.is_finite()));
     assert!(found.commanded.is_none_or(|commanded| commanded.len() == found.positions.len()));
     assert!(found.moves.is_none_or(|moves| moves.len() == found.times.len()));
+}
+
+/// Frequency response functions.
+pub fn frf(bytes: &[u8]) {
+    let found = match frf::read("tap.csv", bytes) {
+        Err(problems) => return refused(&problems),
+        Ok(found) => found,
+    };
+    assert!(!found.frfs.is_empty());
+    for own in &found.frfs {
+        assert!(own.angular_frequencies.is_sorted_by(|a, b| a < b));
+        assert!(own.receptance.len() == own.angular_frequencies.len() && own.weights.len() == own.angular_frequencies.len());
+        assert!(own.receptance.iter().all(|h| h.re.is_finite() && h.im.is_finite()));
+        assert!(own.weights.iter().all(|weight| weight.is_finite() && *weight > 0.0));
+    }
 }

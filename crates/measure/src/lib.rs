@@ -3,13 +3,14 @@
 //! [`identify`] determines joint compliances from load tests, [`calibrate`] the geometry from measured poses,
 //! [`backlash`] the backlash of the joints from circular tests. [`ballbar`] evaluates circular tests, [`roundness`]
 //! round profiles, [`forces`] records of a dynamometer, [`pose_accuracy`] and [`path_accuracy`] measured poses and
-//! paths ([`path_repeatability`]: paths of which nothing is commanded), [`motion`] joint logs. [`data_check`] searches slips in the data of each: signs, order of columns, zeros, units.
+//! paths ([`path_repeatability`]: paths of which nothing is commanded), [`motion`] joint logs, [`frf`] frequency response functions. [`data_check`] searches slips in the data of each: signs, order of columns, zeros, units.
 
 pub mod backlash;
 pub mod ballbar;
 pub mod calibrate;
 pub mod data_check;
 pub mod forces;
+pub mod frf;
 pub mod identify;
 pub mod motion;
 pub mod path_accuracy;

@@ -1,7 +1,7 @@
 //! Arguments of `armill`: one file per command, with the same name as in `command`.
 //!
 //! `run`, `check`, `compare`, `new`, `robots`, `materials`, `pose`, `posture`, `place`, `advise`, `compensate`,
-//! `identify`, `calibrate`, `forces`, `roundness`, `ballbar`, `backlash`, `budget`, `pose_accuracy`, `path_accuracy`, `motion`, `modes`,
+//! `identify`, `calibrate`, `forces`, `roundness`, `ballbar`, `backlash`, `budget`, `pose_accuracy`, `path_accuracy`, `motion`, `frf`, `modes`,
 //! `stability`, `serve`, `completions`, `man`; `poses` and `program` are used by two of them each, `writing` by all that write
 //! files.
 //!
@@ -22,6 +22,7 @@ mod compare;
 mod compensate;
 mod completions;
 mod forces;
+mod frf;
 mod identify;
 mod man;
 mod materials;
@@ -53,6 +54,7 @@ pub(crate) use compare::CompareArguments;
 pub(crate) use compensate::CompensateArguments;
 pub(crate) use completions::CompletionsArguments;
 pub(crate) use forces::ForcesArguments;
+pub(crate) use frf::FrfArguments;
 pub(crate) use identify::{IdentifyArguments, PointsArgument, PriorArgument};
 pub(crate) use man::ManArguments;
 pub(crate) use materials::MaterialsArguments;
@@ -135,6 +137,8 @@ pub(crate) enum Command {
     PathAccuracy(PathAccuracyArguments),
     /// Learn from joint logs how a controller moves an arm: accelerations, smoothing, lag, zones
     Motion(MotionArguments),
+    /// Determine the modes of a tool or an arm from measured frequency response functions
+    Frf(FrfArguments),
     /// Evaluate the stability of a cut against chatter: lobes, limits of the depth, vibration
     Stability(Box<StabilityArguments>),
     /// Compare the measured error of a circle with its predicted contributions
@@ -177,6 +181,7 @@ impl Command {
             Command::PoseAccuracy(a) => a.json,
             Command::PathAccuracy(a) => a.json,
             Command::Motion(a) => a.json,
+            Command::Frf(a) => a.json,
             Command::Stability(a) => a.json,
             Command::Budget(a) => a.json,
             Command::Serve(_) | Command::Completions(_) | Command::Man(_) => false,

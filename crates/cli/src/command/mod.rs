@@ -2,7 +2,7 @@
 //!
 //! One file per command: `run`, `check`, `compare`, `new`, `robots` (a folder, for its subcommands), `materials`,
 //! `pose` (`pose_subject`: a robot, or the cell of a study), `posture`, `place`, `advise`, `compensate`, `identify`, `calibrate`, `forces`, `roundness`, `ballbar`,
-//! `backlash`, `budget`, `pose_accuracy`, `path_accuracy`, `motion`, `modes`, `stability`, `serve`, `completions`, `man`. `poses`: options of measured
+//! `backlash`, `budget`, `pose_accuracy`, `path_accuracy`, `motion`, `frf`, `modes`, `stability`, `serve`, `completions`, `man`. `poses`: options of measured
 //! poses. `program`: options of a robot program. `drawing`: writes requested pictures.
 //!
 //! Each command has one function `run(&Arguments) -> Result<Outcome, StudyError>`: it finds robot or study,
@@ -21,6 +21,7 @@ pub(crate) mod compare;
 pub(crate) mod compensate;
 pub(crate) mod completions;
 pub(crate) mod forces;
+pub(crate) mod frf;
 pub(crate) mod identify;
 pub(crate) mod man;
 pub(crate) mod materials;

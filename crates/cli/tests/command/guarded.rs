@@ -473,6 +473,7 @@ fn help_of_every_writing_command_describes_force() {
         &["backlash"],
         &["path-accuracy"],
         &["motion"],
+        &["frf"],
         &["stability"],
         &["budget"],
         &["pose"],

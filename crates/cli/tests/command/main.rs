@@ -3,7 +3,7 @@
 //! `cell` is where they run. What a user meets first: `new_and_robots`, `shell`, `documents` (every page is run).
 //! Commands: `run`,
 //! `pose`, `place`, `advise`, `springs`, `assumed`, `robots_check`, `import`, `bodies`, `materials`, `identify`, `calibrate`,
-//! `forces`, `roundness`, `ballbar`, `budget`, `path_accuracy`, `motion`, `stability`, `compare`, `clearance`, `restricted_space`, `holes`, `unloaded` (backlash). What goes
+//! `forces`, `roundness`, `ballbar`, `budget`, `path_accuracy`, `motion`, `frf`, `stability`, `compare`, `clearance`, `restricted_space`, `holes`, `unloaded` (backlash). What goes
 //! wrong: `refused`, `guarded` (files of the user), `hostile` (numbers and bytes),
 //! `terminal`, `killed`, `rough` (places and inputs), `slips` (mistakes that are easily made).
 
@@ -23,6 +23,7 @@ mod compare;
 mod compensate;
 mod documents;
 mod forces;
+mod frf;
 mod guarded;
 mod holes;
 #[cfg(target_os = "linux")]

@@ -3,7 +3,7 @@
 use crate::cell::{Cell, SMALL, number};
 
 /// A path with a slot by straight teeth.
-const CUT: &str = r#"
+pub const CUT: &str = r#"
 [cut]
 material = "aluminium-7075-t6"
 cutter = { diameter_mm = 20, flutes = 2, helix_deg = 0 }

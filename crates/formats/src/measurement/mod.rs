@@ -1,4 +1,5 @@
-//! Measurements: records of force over time, load tests, measured poses, round profiles, circular tests, tip traces, joint logs.
+//! Measurements: records of force over time, load tests, measured poses, round profiles, circular tests, tip traces, joint logs,
+//! frequency response functions.
 //!
 //! - [`format`](mod@format): a force record in either format.
 //! - [`dynoware`]: text exports of Kistler's DynoWare.
@@ -9,6 +10,7 @@
 //! - [`poses`]: joint positions, and the poses that a laser tracker measured.
 //! - [`trace`]: points of the tip along a path, for one or several runs.
 //! - [`joint_log`]: joint positions over time.
+//! - [`frf`]: frequency response functions of a modal test.
 //!
 //! Force records are [`Record`](armill_core::load::Record)s in the axes of the sensor. Whether the force acts on the
 //! tool or on the part, and how the sensor is oriented, is not in any file: the caller gives it.
@@ -21,6 +23,7 @@ pub mod csv;
 pub mod dynoware;
 mod force_records;
 pub mod format;
+pub mod frf;
 pub mod joint_log;
 pub mod load_tests;
 pub mod poses;

@@ -7,9 +7,10 @@
 //! | `modal_mass_kg` or `stiffness_n_per_um` | modal mass or stiffness in this direction; the shape is `direction/sqrt(mass)` |
 //! | `frequency_u_hz`, `damping_u_percent`, `stiffness_u_percent` | standard uncertainties, relative |
 //!
-//! `file` has the tables as written; here they are checked and converted to SI. All keys: `docs/guide/stability.md`.
+//! `file` has the tables as written; here they are checked and converted to SI; `written` writes a file. All keys: `docs/guide/stability.md`.
 
 mod file;
+mod written;
 
 use std::f64::consts::TAU;
 
@@ -19,6 +20,7 @@ use armill_core::stability::{ModeUncertainty, NamedMode};
 use armill_core::units::from_um;
 
 use self::file::{ModalFile, ModeTable};
+pub use self::written::{WrittenMode, WrittenModes, write};
 use crate::document::{Document, Problem, Problems};
 
 /// Modes of a file.

@@ -74,3 +74,36 @@ fn values_out_of_range_unknown_keys_and_no_mode_are_refused() {
     assert!(!problems("").is_empty());
     assert!(read("tool.toml", "format = 1\n[[mode").is_err());
 }
+
+#[test]
+fn a_written_file_is_read_again() {
+    let mode = WrittenMode {
+        name: "a \"b\"\\".to_owned(),
+        frequency_hz: 1150.0,
+        frequency_u_hz: 1e-7,
+        damping_percent: 1.25,
+        damping_u_percent: 0.01,
+        direction: [0.6, -0.8, 0.0],
+        stiffness_n_per_um: 9.5,
+        stiffness_u_percent: 250.0,
+    };
+    let mut content = WrittenModes {
+        name: "tip".to_owned(),
+        source: "tap.uff".to_owned(),
+        note: "two\nlines".to_owned(),
+        modes: vec![mode],
+    };
+    let found = read("new.toml", &write("new.toml", &content).unwrap()).unwrap();
+    assert_eq!(found.note.as_deref(), Some("two\nlines"));
+    let own = &found.modes[0];
+    assert_eq!((own.name.as_str(), own.mode.damping_ratio), ("a \"b\"\\", 0.0125));
+    assert!((own.uncertainty.frequency - 1e-7 / 1150.0).abs() < 1e-20 && own.uncertainty.stiffness == 1.0);
+    assert!((own.mode.shape[1] / own.mode.shape[0] + 0.8 / 0.6).abs() < 1e-12);
+    content.modes[0].stiffness_n_per_um = 1e9;
+    assert!(
+        write("new.toml", &content)
+            .unwrap_err()
+            .to_string()
+            .contains("stiffness_n_per_um")
+    );
+}

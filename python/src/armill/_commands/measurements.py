@@ -184,3 +184,18 @@ def motion(
 ) -> Answer:
     """joint logs -> Answer: how a controller moves an arm: accelerations, smoothing, lag, zones."""
     return call("motion", [log], locals())
+
+
+@command
+def frf(
+    *files: TableLike,
+    band_hz: npt.ArrayLike | None = None,
+    modes: int | None = None,
+    point: int | None = None,
+    out: Path | None = None,
+    force: bool = False,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> Answer:
+    """frequency response functions -> Answer: modes of a tool or an arm, with uncertainties."""
+    return call("frf", files, locals())
