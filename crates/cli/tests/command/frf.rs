@@ -35,7 +35,7 @@ fn table() -> String {
 #[test]
 fn the_modes_of_a_table_are_found_and_written_for_stability() {
     let cell = Cell::new();
-    cell.file("tap.csv", &table());
+    cell.file("tap.csv", table());
     let said = cell
         .armill(&["frf", "tap.csv", "--out", "modes.toml", "--json"])
         .fine();
@@ -72,8 +72,8 @@ fn the_modes_of_a_table_are_found_and_written_for_stability() {
 #[test]
 fn invalid_input_is_refused() {
     let cell = Cell::new();
-    cell.file("tap.csv", &table());
-    cell.file("cross.csv", &table().replace(",1X\n", ",2X\n"));
+    cell.file("tap.csv", table());
+    cell.file("cross.csv", table().replace(",1X\n", ",2X\n"));
     cell.file("wrong.csv", "frequency_hz,phase_deg\n1,2\n");
     for (words, parts) in [
         (&["none.csv"][..], &["cannot read none.csv"][..]),

@@ -73,7 +73,7 @@ pub(super) fn solve(frf: &Frf, columns: &[Vec<Complex<f64>>]) -> Option<Solved> 
         .diagonal()
         .iter()
         .fold(f64::INFINITY, |a, b| a.min(b.abs()));
-    if !(least > f64::EPSILON) {
+    if least.is_nan() || least <= f64::EPSILON {
         return None;
     }
     let mut inverse = triangle.solve_upper_triangular(&basis.transpose())?;

@@ -94,7 +94,7 @@ pub fn shape_of(mode: &FittedMode, frfs: &[Frf]) -> Result<MeasuredShape, NoShap
     let strongest = drives
         .max_by(|a, b| mode.residues[*a].total_cmp(&mode.residues[*b]))
         .ok_or(NoShape::NoDrivePoint)?;
-    if !(mode.residues[strongest] > 0.0) {
+    if mode.residues[strongest].is_nan() || mode.residues[strongest] <= 0.0 {
         return Err(NoShape::NotVisible);
     }
     let measured = DVector::from_column_slice(&mode.residues[..frfs.len()]);

@@ -41,6 +41,14 @@ pub(super) fn read(path: &str, reader: impl BufRead) -> Result<MeasuredFrfs, Pro
                         .into());
                 }
                 functions.push((found, units));
+                if let Some(line) = lines.next()?
+                    && !is_delimiter(&line.text)
+                {
+                    let message = "the dataset has more numbers than it says";
+                    let hint = "the seventh line of the dataset has the number of values";
+                    return Err(line.problem(path, 0..line.text.len(), message, hint).into());
+                }
+                continue;
             }
             "164" => units = Some(factors(&mut lines)?),
             binary if binary.starts_with("58b") => {
@@ -81,7 +89,7 @@ pub(super) fn read(path: &str, reader: impl BufRead) -> Result<MeasuredFrfs, Pro
             None => {
                 *left_out
                     .entry(format!("function of type {}", found.kind))
-                    .or_default() += 1
+                    .or_default() += 1;
             }
         }
     }
