@@ -64,7 +64,7 @@ fn a_square_takes_longer_with_stops_than_with_zones_and_the_values_that_are_assu
 
 #[test]
 fn rounded_corners_and_late_joints_are_part_of_the_deviation_and_have_shares() {
-    let keys = "feed_mm_per_min = 6000\nzone_mm = 2\nlag_ms = [20]\nlag_u_ms = [5]\n";
+    let keys = "feed_mm_per_min = 6000\nzone_mm = 3\nlag_ms = [20]\nlag_u_ms = [5]\n";
     let study = plate_with(&format!("[motion]\n{keys}{SQUARE}"));
     let without = plate_with(SQUARE);
     let (moved, plain) = (found(&study), found(&without));
@@ -91,7 +91,7 @@ fn rounded_corners_and_late_joints_are_part_of_the_deviation_and_have_shares() {
     let point = &worst.point;
     assert!((point.joint_share_um.iter().sum::<f64>() - point.in_plane_um).abs() < 1e-6);
     assert!((point.in_plane_um - path.max_in_plane_um.unwrap()).abs() < 1e-6);
-    // The corner is rounded by 2 mm / 2 sin 45 deg, and that is most of it.
+    // The corner is rounded by 7/16 of 3 mm sin 45 deg, and that is most of it.
     assert!(worst.cause.starts_with("rounded corners"), "{}", worst.cause);
     // A lag known to a quarter.
     let servo = point.joint_share_um.last().unwrap();
