@@ -5,10 +5,10 @@
 //! ```
 //!
 //! A period `T` of the teeth has `k` steps. In each step `A` is its mean over the step and the force is linear in time between the values
-//! at its ends, so that modes have a closed transition ([`super::modal_step`]). The displacement at the end of a step appears in its own
+//! at its ends, so that modes have a closed transition (`modal_step`). The displacement at the end of a step appears in its own
 //! force; as that acts through the tip alone, a system of 3 equations is solved in each step. The state is the modes at the begin of the period
 //! and the displacement at the tip one period ago at those ends of steps where a tooth cuts: its transition over one period has the Floquet
-//! multipliers as eigenvalues. The largest is found without forming the matrix ([`super::arnoldi`]).
+//! multipliers as eigenvalues. The largest is found without forming the matrix (`arnoldi`).
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|

@@ -1,7 +1,7 @@
 //! Lobes: the boundary of stability over the spindle speed, from the zeroth-order solution.
 //!
 //! For a flat end mill the directional matrix is proportional to the depth, and one table of complex depths gives all speeds. For a
-//! ball or bull nose end mill, and for a tool that leans, the matrix is evaluated at [`DEPTHS`] depths in geometric steps; at each of
+//! ball or bull nose end mill, and for a tool that leans, the matrix is evaluated at `DEPTHS` depths in geometric steps; at each of
 //! them the zeroth-order solution gives the depth `b'` that would be the boundary if the matrix stayed in proportion:
 //!
 //! ```text

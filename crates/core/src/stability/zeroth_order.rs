@@ -1,6 +1,6 @@
 //! Stability of milling by the zeroth-order solution: boundary at one spindle speed, lowest boundary, mode coupling.
 //!
-//! With the complex depth `x` of a branch ([`super::loop_gain`]) the boundary is
+//! With the complex depth `x` of a branch (`loop_gain`) the boundary is
 //!
 //! ```text
 //! b (1 - e^(-i w T)) = x,   1 - e^(-i w T) = 2 sin(w T/2) e^(i (pi/2 - w T/2)),   z = x e^(i (w T/2 - pi/2))
@@ -18,7 +18,7 @@
 //! Mode coupling is the instability of `M x'' + C x' + (K - b A_0/b) x = 0`: the cutting force depends on the displacement itself, not on
 //! that relative to the surface of the tooth before. At `w = 0` it is static divergence.
 //!
-//! At one speed all roots of `Im z` are found from the nodes of [`super::branches`]: `|x|/2` bounds the depth, so segments are tried in the
+//! At one speed all roots of `Im z` are found from the nodes of `branches`: `|x|/2` bounds the depth, so segments are tried in the
 //! order of their bound, until it exceeds the best root found. Within a segment `x` is interpolated and `z` evaluated at steps of at most
 //! half a radian of `w T/2`; each change of sign is refined on the exact curve.
 //!

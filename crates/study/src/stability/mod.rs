@@ -1,7 +1,7 @@
 //! Stability of the cut of a study: lobes, limits of the depth, uncertainty, vibration under the teeth.
 //!
-//! [`arm_modes`](mod@arm_modes): modes of the arm at a point; [`question`]: the cut of a path and the modes, with options; [`evaluate`](mod@evaluate): all of it from the core; [`answer`]: the values for
-//! people, with the verdict; [`picture`]: the lobes.
+//! [`arm_modes`](mod@arm_modes): modes of the arm at a point; [`question`]: the cut of a path and the modes, with options; [`evaluate`](mod@evaluate): all of it from the core; [`mod@answer`]: the values for
+//! people, with the verdict; [`mod@picture`]: the lobes.
 //!
 //! ```text
 //! study [cut] + modal data + spindle speed -> Question -> evaluate -> Evaluation -> StabilityAnswer, picture
