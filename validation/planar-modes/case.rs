@@ -107,6 +107,7 @@ fn squares(links: &[Link], q: &[f64]) -> Vec<f64> {
         mass: link.m,
         centre: Point3::new(link.c, 0.0, 0.0),
         inertia: Some(Matrix3::from_diagonal(&Vector3::new(0.0, link.i, link.i))),
+        relative_uncertainty: 0.0,
     });
     let model = StiffnessModel {
         structure: Structure {

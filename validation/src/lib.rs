@@ -30,6 +30,8 @@ mod clearance_coal;
 mod compliance_two_ways;
 #[path = "../drilled-holes/case.rs"]
 mod drilled_holes;
+#[path = "../estimated-masses/case.rs"]
+mod estimated_masses;
 #[path = "../fanuc-identification/case.rs"]
 mod fanuc_identification;
 #[path = "../fanuc-rows/case.rs"]
@@ -185,6 +187,10 @@ pub const CASES: &[Case] = &[
     Case {
         folder: "joint-backlash-closed-forms",
         checks: joint_backlash_closed_forms::checks,
+    },
+    Case {
+        folder: "estimated-masses",
+        checks: estimated_masses::checks,
     },
     Case {
         folder: "planar-modes",

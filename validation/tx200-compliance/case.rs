@@ -254,6 +254,7 @@ fn gravity_gap(robot: &Robot) -> f64 {
         mass: *mass,
         centre: (*centre).into(),
         inertia: None,
+        relative_uncertainty: 0.0,
     };
     let structure = Structure {
         masses: MASSES.iter().enumerate().map(mass).collect(),

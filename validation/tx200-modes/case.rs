@@ -131,6 +131,7 @@ fn modes(with_inertia: bool) -> Vec<Mode> {
             mass: *mass,
             centre: (*centre).into(),
             inertia: with_inertia.then(|| Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)),
+            relative_uncertainty: 0.0,
         }
     };
     let model = StiffnessModel {

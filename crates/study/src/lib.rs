@@ -7,7 +7,7 @@
 //! queries of a page that shows a study while it is edited, [`program_out`] writes a path as a robot program. The robot
 //! library and the example studies are embedded in the program ([`library`]); [`compliance_class`] assumes joint
 //! compliances if none are known. [`robots`] and [`studies`] find what a user names, [`robot_answers`] and
-//! [`materials`] report what is known of a robot or material, [`enclosed_links`] encloses its links by capsules, [`mod@new`] creates a study. [`joint_order`], [`joint_unit`],
+//! [`materials`] report what is known of a robot or material, [`enclosed_links`] encloses its links by capsules, [`estimated_links`] estimates their masses, [`mod@new`] creates a study. [`joint_order`], [`joint_unit`],
 //! [`number`] and [`uncertainty_words`] format numbers, [`naming`] and [`file_names`] names.
 //!
 //! Command line, Python and web return the same bytes.
@@ -19,6 +19,7 @@ pub mod budget;
 pub mod compliance_class;
 pub mod enclosed_links;
 pub mod error;
+pub mod estimated_links;
 pub mod file;
 pub mod file_names;
 pub mod finished;

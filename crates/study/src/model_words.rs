@@ -9,10 +9,11 @@
 //!
 //! An answer has those of its own model, in this order.
 
-use armill_core::robot::Robot;
+use armill_core::robot::{Mass, Robot, Structure};
 use armill_core::source::StiffnessModel;
 use armill_core::units::to_um;
 
+use crate::body_answers::attachment_name;
 use crate::number::without_rounding;
 
 /// The parts of `model` on this robot, the drive springs first.
@@ -72,9 +73,10 @@ pub fn parts(robot: &Robot, model: &StiffnessModel) -> Vec<String> {
 
 /// Effects that the model neglects although the robot file specifies them.
 ///
-/// A warning: masses are known, but the posture where the tool was set is not.
+/// A warning: masses are known, but the posture where the tool was set is not. Uncertain masses are for vibration.
 pub fn left_out(model: &StiffnessModel) -> Option<String> {
-    let masses = model.structure.masses.len();
+    let known = |mass: &&Mass| mass.relative_uncertainty == 0.0;
+    let masses = model.structure.masses.iter().filter(known).count();
     (model.gravity.is_none() && masses > 0).then(|| {
         let known = if masses == 1 {
             "1 mass is"
@@ -83,4 +85,17 @@ pub fn left_out(model: &StiffnessModel) -> Option<String> {
         };
         format!("{known} known, but gravity is neglected: give the posture where the tool was set (`[gravity]`) to include it.")
     })
+}
+
+/// Attachments with an uncertain mass, each with its relative standard uncertainty, such as `A1 (45 %)`.
+pub fn uncertain_masses(robot: &Robot, structure: &Structure) -> Vec<String> {
+    let uncertain = structure
+        .masses
+        .iter()
+        .filter(|mass| mass.relative_uncertainty > 0.0);
+    let words = uncertain.map(|mass| {
+        let at = attachment_name(robot, mass.attachment);
+        format!("{at} ({:.0} %)", 100.0 * mass.relative_uncertainty)
+    });
+    words.collect()
 }

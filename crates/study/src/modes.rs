@@ -22,6 +22,7 @@ use serde::Serialize;
 use crate::StudyError;
 use crate::file::resolve::Study;
 use crate::joint_order::{contributor_names, in_joint_order, joint_names, joint_positions, shown_positions};
+use crate::model_words::uncertain_masses;
 use crate::pose::first_setting;
 
 /// A query for the modes in one posture.
@@ -176,8 +177,12 @@ fn answer_with(
     };
     let known = arm.has_known_uncertainty();
     let covariance = compliance_covariance(&arm);
-    let modes = found.modes.iter().map(|mode| {
-        let relative = known.then(|| mode.relative_uncertainty(&compliances, &covariance));
+    let by_masses = state.frequency_uncertainties_by_masses(&found.modes);
+    let modes = found.modes.iter().zip(&by_masses).map(|(mode, by_masses)| {
+        let relative = known.then(|| {
+            mode.relative_uncertainty(&compliances, &covariance)
+                .hypot(*by_masses)
+        });
         words.mode(mode, relative)
     });
     let mut notes: Vec<String> = question.caution.iter().chain(&described.note).cloned().collect();
@@ -319,6 +324,13 @@ impl Words<'_> {
             notes.push(format!(
                 "{points} of {} masses have no inertia and are taken as points: the frequencies are upper bounds in this respect",
                 structure.masses.len()
+            ));
+        }
+        let uncertain = uncertain_masses(self.robot, structure);
+        if !uncertain.is_empty() {
+            notes.push(format!(
+                "masses with a standard uncertainty, which is part of that of the frequencies: {}",
+                uncertain.join(", ")
             ));
         }
         let ground = self.robot.chain().ground();

@@ -73,6 +73,8 @@ pub struct MassDetails {
     pub at: String,
     /// How much.
     pub mass_kg: f64,
+    /// Its standard uncertainty; none where it is not given.
+    pub mass_u_percent: Option<f64>,
     /// Its centre in the frame of the attachment.
     pub centre_mm: [f64; 3],
     /// Inertia about its centre, in the axes of the attachment; none where it is not known.
@@ -156,6 +158,7 @@ impl StructureDetails {
         let masses = structure.masses.iter().map(|mass| MassDetails {
             at: attachment_name(robot, mass.attachment),
             mass_kg: mass.mass,
+            mass_u_percent: given(100.0 * mass.relative_uncertainty),
             centre_mm: to_mm(mass.centre.coords).into(),
             inertia_kg_m2: mass.inertia.map(|inertia| rows(&inertia)),
         });

@@ -69,7 +69,7 @@ pub(crate) use poses::{PosesOptions, TurnArgument};
 pub(crate) use posture::PostureArguments;
 pub(crate) use program::ProgramOptions;
 pub(crate) use robots::{
-    BodiesArguments, ImportArguments, RobotsAction, RobotsArguments, RobotsCheckArguments,
+    BodiesArguments, ImportArguments, MassesArguments, RobotsAction, RobotsArguments, RobotsCheckArguments,
 };
 pub(crate) use roundness::RoundnessArguments;
 pub(crate) use run::{RunArguments, RunOptions};
@@ -162,6 +162,7 @@ impl Command {
             Command::Robots(a) => match &a.action {
                 Some(RobotsAction::Import(import)) => import.json,
                 Some(RobotsAction::Bodies(bodies)) => bodies.json,
+                Some(RobotsAction::Masses(masses)) => masses.json,
                 Some(RobotsAction::Check(check)) => check.json,
                 None => a.json,
             },

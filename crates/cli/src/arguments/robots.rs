@@ -28,6 +28,7 @@ Examples:
   armill robots yaskawa/mh12 --drawing bodies.png --bodies
   armill robots import my-arm.urdf --out my-arm.toml
   armill robots bodies my-arm.urdf --out my-bodies.toml
+  armill robots masses kuka/kr120r2500pro --total-kg 1049 --out masses.toml
   armill robots check --help"
 )]
 pub(crate) struct RobotsArguments {
@@ -54,6 +55,8 @@ pub(crate) enum RobotsAction {
     Import(ImportArguments),
     /// Enclose the links of a URDF or xacro by capsules: [[body]] tables of a robot file
     Bodies(BodiesArguments),
+    /// Estimate the masses of the links from the mass of the arm and their bodies: [[mass]] tables of a robot file
+    Masses(MassesArguments),
     /// Check a robot file against poses read from the pendant: report which sign, zero or base differs
     Check(RobotsCheckArguments),
 }
@@ -110,6 +113,49 @@ pub(crate) struct BodiesArguments {
     /// Print the result as JSON on stdout
     #[arg(long)]
     pub json: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "\
+The mass of the arm is in the maker's data sheet. It is distributed over the links in the ratio of the volumes of their bodies, less the
+masses that the robot file already gives. The mass of a link has a standard uncertainty of 45 %: enough for frequencies of vibration
+within some 15 %, not for a calibration.
+
+Examples:
+  armill robots masses kuka/kr120r2500pro --total-kg 1049
+  armill robots masses my-arm.toml --total-kg 560 --total-u-percent 5 >> my-arm.toml")]
+pub(crate) struct MassesArguments {
+    #[arg(help = ROBOT_HELP)]
+    pub robot: String,
+    /// Mass of the whole arm without its tool, kg
+    #[arg(long, value_name = "KG", value_parser = parse_mass)]
+    pub total_kg: f64,
+    /// Standard uncertainty of this mass, per cent
+    #[arg(long, value_name = "U", default_value_t = 0.0, value_parser = parse_percent)]
+    pub total_u_percent: f64,
+    /// File to write with the tables (printed on stdout if not given)
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    #[command(flatten)]
+    pub writing: WritingOptions,
+    /// Print the result as JSON on stdout
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// A mass, kg.
+fn parse_mass(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|kg| (1e-3..=1e6).contains(kg));
+    number.ok_or_else(|| "a number from 0.001 to 1e6 kg".to_owned())
+}
+
+/// A percentage.
+fn parse_percent(text: &str) -> Result<f64, String> {
+    let number = text
+        .parse()
+        .ok()
+        .filter(|percent| (0.0..=100.0).contains(percent));
+    number.ok_or_else(|| "a number from 0 to 100".to_owned())
 }
 
 /// A number of capsules.

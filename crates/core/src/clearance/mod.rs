@@ -4,7 +4,7 @@
 //! bounds), [`enclosing`] (capsules around points), [`mesh`], [`shape`] (two shapes of any kind), [`field`] (many capsules against bodies that stand still),
 //! `decided` (whether a distance is kept), [`floor`] (a plane),
 //! [`cell`] (all bodies of a cell), [`state`] (with the arm in a posture), [`pairs`] (which are checked), [`demanded`] (the check of a
-//! posture), [`swept`] (a joint move), [`along`] (many postures near each other).
+//! posture), [`swept`] (a joint move), [`along`] (many postures near each other). [`solid`] estimates masses from the bodies of links.
 //!
 //! Distances are exact but for rounding, well below a micrometre. They are those of the bodies as given: a capsule around a link
 //! is larger than the link.
@@ -22,6 +22,7 @@ pub mod mesh;
 pub mod nearest;
 pub mod pairs;
 pub mod shape;
+pub mod solid;
 pub mod state;
 pub mod swept;
 

@@ -138,6 +138,7 @@ mod tests {
             mass: 3.0,
             centre: Point3::new(1.0, 0.0, 0.0),
             inertia: Some(Matrix3::from_diagonal(&Vector3::new(0.0, 1.0, 1.0))),
+            relative_uncertainty: 0.0,
         };
         let at_end = Inertia::of_mass(&rod, &IsometryMatrix3::identity(), &Vector3::zeros());
         let turn = Twist::about(Vector3::z());
@@ -156,6 +157,7 @@ mod tests {
             mass: 0.0,
             centre: Point3::origin(),
             inertia: Some(Matrix3::from_diagonal(&Vector3::new(0.0, 1.0, 1.0))),
+            relative_uncertainty: 0.0,
         };
         let frame = IsometryMatrix3::rotation(Vector3::z() * std::f64::consts::FRAC_PI_2);
         let turned = Inertia::of_mass(&rod, &frame, &Vector3::zeros()).inertia;

@@ -95,6 +95,7 @@ pub(super) fn subjects() -> Vec<(Robot, StiffnessModel)> {
         mass: 40.0,
         centre: Point3::new(0.1, 0.0, 0.3),
         inertia: None,
+        relative_uncertainty: 0.0,
     }];
     heavy.gravity = Some(Gravity {
         acceleration: Vector3::new(0.0, 0.0, -9.81),

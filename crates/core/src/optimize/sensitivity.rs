@@ -27,6 +27,8 @@ pub enum InputKind {
     Compliance(usize),
     /// Backlash of a joint.
     Backlash(usize),
+    /// The mass of this index.
+    Mass(usize),
     /// Growth of the links.
     Thermal,
     /// Position of the TCP along the tool axis.
@@ -91,6 +93,7 @@ pub fn sensitivity(
                 InputKind::Compliance(compliances)
             }
             UncertainInput::Backlash(joint, _) => InputKind::Backlash(*joint),
+            UncertainInput::Mass(mass, _) => InputKind::Mass(*mass),
             UncertainInput::Thermal(_) => InputKind::Thermal,
             UncertainInput::ToolLength(_) => InputKind::ToolLength,
             UncertainInput::LoadSize(_) => InputKind::LoadSize,
@@ -118,7 +121,7 @@ impl Sensitivity {
     pub fn gain_over(&self, other: &Sensitivity, shared: SharedInputs) -> Gain {
         let is_shared = |kind: InputKind| match kind {
             InputKind::ToolLength | InputKind::LoadSize | InputKind::Force(_) => true,
-            InputKind::Compliance(_) | InputKind::Backlash(_) | InputKind::Thermal => {
+            InputKind::Compliance(_) | InputKind::Backlash(_) | InputKind::Mass(_) | InputKind::Thermal => {
                 shared == SharedInputs::OneRobot
             }
         };

@@ -35,6 +35,8 @@ pub struct Mass {
     /// Inertia about the centre of mass, in the axes of the attachment, kg m^2; `None` where it is not known: the body is
     /// then a point. Gravity does not depend on it.
     pub inertia: Option<Matrix3<f64>>,
+    /// Standard uncertainty of the mass, and of the inertia with it, as a fraction of it; 0 where none is given.
+    pub relative_uncertainty: f64,
 }
 
 impl Mass {
@@ -47,6 +49,7 @@ impl Mass {
             mass: self.mass,
             centre: new_from_old * self.centre,
             inertia: self.inertia.map(|own| turn * own * turn.transpose()),
+            relative_uncertainty: self.relative_uncertainty,
         }
     }
 }

@@ -111,6 +111,7 @@ mod tests {
             mass: 10.0,
             centre: Point3::new(0.5, 0.0, 0.2),
             inertia: None,
+            relative_uncertainty: 0.0,
         }];
         let tcp = Vector3::new(1.0, 0.0, 0.0);
         let mut carried = [Carried::NOTHING; 4];
@@ -131,6 +132,7 @@ mod tests {
             mass,
             centre: Point3::new(x, 0.2, -0.1),
             inertia: None,
+            relative_uncertainty: 0.0,
         };
         vec![
             mass(Attachment::Tool, 1.0, 0.3),

@@ -85,6 +85,13 @@ impl Arm<'_> {
                 inputs.without.push(InputWithoutUncertainty::Backlash(joint));
             }
         }
+        if self.model.gravity.is_some() {
+            let uncertain = structure
+                .masses
+                .iter()
+                .filter(|mass| mass.relative_uncertainty > 0.0);
+            inputs.others_with += uncertain.count();
+        }
         match self.model.thermal {
             Some(growth) if growth.standard_uncertainty > 0.0 => inputs.others_with += 1,
             Some(growth) if growth.growth != 0.0 => inputs.without.push(InputWithoutUncertainty::Thermal),

@@ -189,6 +189,7 @@ mod tests {
                     mass: 40.0,
                     centre: Point3::new(0.1, 0.0, 0.3),
                     inertia: None,
+                    relative_uncertainty: 0.0,
                 }];
             }),
             ("gravity", |m| {

@@ -28,6 +28,8 @@ pub enum UncertainInput {
     Compliances(Vec<f64>),
     /// A joint, and the change of its backlash, rad (m).
     Backlash(usize, f64),
+    /// A mass of the structure, and its relative change, its inertia included; it has an effect with gravity only.
+    Mass(usize, f64),
     /// Change of the relative growth of the links.
     Thermal(f64),
     /// Change of the position of the TCP along the tool axis, m.
@@ -66,6 +68,12 @@ impl UncertainInput {
             .model
             .thermal
             .map_or(0.0, |growth| growth.standard_uncertainty);
+        let weights = arm
+            .model
+            .gravity
+            .iter()
+            .flat_map(|_| arm.model.structure.masses.iter().enumerate());
+        let masses = weights.map(|(index, mass)| UncertainInput::Mass(index, mass.relative_uncertainty));
         let compliances = compliance_changes(arm).into_iter();
         compliances
             .filter(|changes| changes.iter().any(|by| *by != 0.0))
@@ -74,6 +82,7 @@ impl UncertainInput {
                 backlash
                     .map(|(joint, backlash)| UncertainInput::Backlash(joint, backlash.standard_uncertainty)),
             )
+            .chain(masses)
             .chain([
                 UncertainInput::Thermal(thermal),
                 UncertainInput::ToolLength(load.tool_length),
@@ -88,6 +97,7 @@ impl UncertainInput {
         match self {
             UncertainInput::Compliances(changes) => changes.iter().all(|by| *by == 0.0),
             UncertainInput::Backlash(_, by)
+            | UncertainInput::Mass(_, by)
             | UncertainInput::Thermal(by)
             | UncertainInput::ToolLength(by)
             | UncertainInput::LoadSize(by) => *by == 0.0,
@@ -108,6 +118,11 @@ impl UncertainInput {
                 if let Some(backlash) = &mut changed.model.structure.backlash[*joint] {
                     backlash.gap += by;
                 }
+            }
+            UncertainInput::Mass(index, by) => {
+                let mass = &mut changed.model.structure.masses[*index];
+                mass.mass *= 1.0 + by;
+                mass.inertia = mass.inertia.map(|inertia| inertia * (1.0 + by));
             }
             UncertainInput::Thermal(by) => {
                 if let Some(thermal) = &mut changed.model.thermal {
@@ -170,9 +185,11 @@ pub(crate) fn compliance_changes(arm: &Arm<'_>) -> Vec<Vec<f64>> {
 mod tests {
     use super::*;
     use crate::arms;
-    use crate::robot::{Attachment, Backlash, BacklashSide, Spring};
+    use crate::robot::{Attachment, Backlash, BacklashSide, Mass, Spring};
     use crate::source::ThermalGrowth;
+    use crate::source::stiffness_model::Gravity;
     use crate::spatial::Wrench;
+    use nalgebra::Point3;
 
     fn model() -> StiffnessModel {
         let mut model = StiffnessModel::DRIVES.clone();
@@ -232,6 +249,75 @@ mod tests {
         assert!(
             variance > 0.0 && (sum / variance - 1.0).abs() < 1e-9,
             "{sum} {variance}"
+        );
+    }
+
+    #[test]
+    fn changes_of_the_masses_give_their_part_of_the_variance() {
+        let (robot, mut model, tool) = (&arms::ALL[0], model(), arms::bent_tool());
+        let mass = |joint: usize, relative_uncertainty| Mass {
+            attachment: Attachment::Joint(joint),
+            mass: 60.0 - 8.0 * joint as f64,
+            centre: Point3::new(0.1, -0.05, 0.2),
+            inertia: None,
+            relative_uncertainty,
+        };
+        model.structure.masses = vec![mass(1, 0.4), mass(2, 0.0), mass(4, 0.2)];
+        model.gravity = Some(Gravity {
+            acceleration: Vector3::new(1.0, 2.0, -9.5),
+            reference: vec![0.1, 0.2, -0.3, 0.4, 0.9, 0.0],
+        });
+        let arm = Arm {
+            robot,
+            compliance: robot.compliance().unwrap(),
+            model: &model,
+            flange_from_tool: &tool,
+        };
+        let along = Vector3::new(0.48, -0.6, 0.64);
+        let sag = |arm: &Arm<'_>| {
+            let mut arm_state = crate::source::ArmState::new(*arm);
+            arm_state.set_joints(&[0.4, -0.3, 0.2, 0.5, -0.8, 0.1]);
+            arm_state.elastic(&Wrench::ZERO).unwrap();
+            let sag = arm_state.gravity().unwrap().unwrap().linear.dot(&along);
+            let covariance = along.dot(&(arm_state.covariance() * along));
+            (sag, arm_state.variance_along(&along), covariance)
+        };
+        let (nominal, variance, by_matrix) = sag(&arm);
+        let inputs = UncertainInput::all(&arm, &InputUncertainty::NONE);
+        let by_masses = inputs
+            .iter()
+            .filter(|input| matches!(input, UncertainInput::Mass(..)));
+        assert_eq!(by_masses.count(), 2);
+        let acting = |input: &&UncertainInput| {
+            matches!(input, UncertainInput::Mass(..) | UncertainInput::Compliances(_))
+        };
+        let squares = inputs.iter().filter(acting).map(|input| {
+            let changed = input.changed(&arm);
+            (sag(&changed.arm(robot)).0 - nominal).powi(2)
+        });
+        let sum: f64 = squares.sum();
+        // Of the compliances alone.
+        let exact = StiffnessModel {
+            structure: Structure {
+                masses: model
+                    .structure
+                    .masses
+                    .iter()
+                    .map(|mass| Mass {
+                        relative_uncertainty: 0.0,
+                        ..*mass
+                    })
+                    .collect(),
+                ..model.structure.clone()
+            },
+            ..model.clone()
+        };
+        let (_, without, _) = sag(&Arm { model: &exact, ..arm });
+        assert!(variance > 1.1 * without, "{variance} {without}");
+        assert!((sum / variance - 1.0).abs() < 1e-9, "{sum} {variance}");
+        assert!(
+            (by_matrix / variance - 1.0).abs() < 1e-12,
+            "{by_matrix} {variance}"
         );
     }
 

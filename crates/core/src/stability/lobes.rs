@@ -11,6 +11,8 @@
 //! The lowest boundary is taken. At one speed it is found by bisection; over many speeds by interpolation of `log b'/b` over `log b`,
 //! which is exact where the matrix follows a power of the depth.
 
+use rayon::prelude::*;
+
 use super::cut_of_any_depth::CutOfAnyDepth;
 use super::zeroth_order::{Boundary, ZerothOrder};
 use crate::dynamics::Mode;
@@ -34,12 +36,17 @@ pub struct StabilityLobes {
     modes: Vec<Mode>,
 }
 
+/// Two neighbouring depths (m) between which the boundary is crossed, with the solutions there.
+type Crossing = [(f64, Option<Boundary>); 2];
+
 /// Depths at which the directional matrix of a cutter with a corner is evaluated.
 const DEPTHS: usize = 64;
 /// Least of them over the deepest.
 const LEAST_DEPTH: f64 = 1e-3;
 /// Depth in parts of that of a table up to which its boundaries are sought: what is deeper is stable there.
 const AHEAD: f64 = 1.6;
+/// Every how many of these depths is tried for many speeds: an unstable range within a factor of 1.5 of the depth, below a stable one, is not found.
+const STRIDE: usize = 4;
 /// Halvings that find the boundary at one speed: to a millionth of a step of the depths.
 const HALVINGS: usize = 20;
 
@@ -62,9 +69,9 @@ impl StabilityLobes {
                 .collect()
         };
         let tables = depths
-            .into_iter()
+            .into_par_iter()
             .map(|depth| Ok((depth, table(modes, cutting, depth)?)))
-            .collect::<Result<_, CuttingError>>()?;
+            .collect::<Result<Vec<(f64, ZerothOrder)>, CuttingError>>()?;
         Ok(StabilityLobes {
             tables,
             cutting: *cutting,
@@ -76,24 +83,27 @@ impl StabilityLobes {
     pub fn at_speeds(&self, speeds: &[f64]) -> Vec<Lobe> {
         let at = |spindle: &f64| Lobe {
             spindle: *spindle,
-            boundary: self.interpolated(|table| table.at_speed(*spindle)),
+            boundary: self.interpolated(*spindle),
         };
-        speeds.iter().map(at).collect()
+        speeds.par_iter().map(at).collect()
     }
 
     /// The lowest boundary over all speeds.
     pub fn critical(&self) -> Option<Boundary> {
-        self.exact(ZerothOrder::critical)
+        self.exact(self.crossed(ZerothOrder::critical), ZerothOrder::critical)
     }
 
     /// The boundary without the delayed term.
     pub fn mode_coupling(&self) -> Option<Boundary> {
-        self.exact(ZerothOrder::mode_coupling)
+        self.exact(
+            self.crossed(ZerothOrder::mode_coupling),
+            ZerothOrder::mode_coupling,
+        )
     }
 
     /// The boundary at one speed (rad/s, above zero).
     pub fn at_speed(&self, spindle: f64) -> Option<Boundary> {
-        self.exact(|table| table.at_speed(spindle))
+        self.exact(self.crossed_at(spindle, 1), |table| table.at_speed(spindle))
     }
 
     /// Share of each mode in the boundary at one speed; their sum is 1.
@@ -103,10 +113,7 @@ impl StabilityLobes {
     }
 
     /// The first pair of depths between which the boundary is crossed, with what `find` gives at both; the first may be missing.
-    fn crossed(
-        &self,
-        find: impl Fn(&ZerothOrder) -> Option<Boundary>,
-    ) -> Option<[(f64, Option<Boundary>); 2]> {
+    fn crossed(&self, find: impl Fn(&ZerothOrder) -> Option<Boundary>) -> Option<Crossing> {
         let mut before = (0.0, None);
         for (depth, table) in &self.tables {
             let found = find(table);
@@ -118,8 +125,33 @@ impl StabilityLobes {
         None
     }
 
-    fn interpolated(&self, find: impl Fn(&ZerothOrder) -> Option<Boundary>) -> Option<Boundary> {
-        let [(low, before), (high, found)] = self.crossed(find)?;
+    /// The same at one speed: only whether a depth is exceeded is sought up to the boundary, first at every `stride`-th depth.
+    fn crossed_at(&self, spindle: f64, stride: usize) -> Option<Crossing> {
+        let last = self.tables.len() - 1;
+        let exceeded = |index: &usize| {
+            let (depth, table) = &self.tables[*index];
+            table.is_exceeded(spindle, *depth)
+        };
+        let strides = (0..last).step_by(stride).chain([last]);
+        let unstable = match last {
+            0 => 0,
+            _ => {
+                let beyond = strides.clone().find(exceeded)?;
+                let near = beyond.saturating_sub(stride - 1)..beyond;
+                near.clone().find(exceeded).unwrap_or(beyond)
+            }
+        };
+        let at = |index: usize| (self.tables[index].0, self.tables[index].1.at_speed(spindle));
+        let found = at(unstable);
+        if found.1.is_none_or(|boundary| boundary.depth > found.0) {
+            // At the very boundary the quick decision and the solution may differ.
+            return self.crossed(|table| table.at_speed(spindle));
+        }
+        Some([unstable.checked_sub(1).map_or((0.0, None), at), found])
+    }
+
+    fn interpolated(&self, spindle: f64) -> Option<Boundary> {
+        let [(low, before), (high, found)] = self.crossed_at(spindle, STRIDE)?;
         let found = found?;
         if low == 0.0 {
             return Some(found);
@@ -135,8 +167,12 @@ impl StabilityLobes {
         Some(Boundary { depth, ..found })
     }
 
-    fn exact(&self, find: impl Fn(&ZerothOrder) -> Option<Boundary>) -> Option<Boundary> {
-        let [(mut low, _), (mut high, found)] = self.crossed(&find)?;
+    fn exact(
+        &self,
+        crossing: Option<Crossing>,
+        find: impl Fn(&ZerothOrder) -> Option<Boundary>,
+    ) -> Option<Boundary> {
+        let [(mut low, _), (mut high, found)] = crossing?;
         let mut found = found?;
         if self.cutting.is_proportional() || low == 0.0 {
             return Some(found);

@@ -55,11 +55,14 @@ pub struct ZerothOrder {
     deepest: f64,
 }
 
+/// A point of the curve: angular frequency (rad/s), complex depth (m).
+type OnCurve = (f64, Complex<f64>);
+
 /// A root of the imaginary part on the interpolated curve.
 #[derive(Clone, Copy, Debug)]
 struct Candidate {
     depth: f64,
-    ends: [(f64, Complex<f64>); 2],
+    ends: [OnCurve; 2],
 }
 
 /// Largest turn of `w T/2` between two evaluations, rad.
@@ -90,17 +93,32 @@ impl ZerothOrder {
     /// The boundary at this spindle speed (rad/s, above zero); `None` if it is deeper than the deepest sought.
     pub fn at_speed(&self, spindle: f64) -> Option<Boundary> {
         let half_period = 0.5 * self.pitch / spindle;
-        let rotation = |w: f64| {
-            let (sin, cos) = (w * half_period).sin_cos();
-            // e^(i (w T/2 - pi/2)) and 2 sin(w T/2).
-            (Complex::new(sin, -cos), 2.0 * sin)
-        };
-        self.least_root(rotation, half_period)
+        self.least_root(delayed(half_period), half_period)
+    }
+
+    /// Whether there is a boundary up to `depth` (m) at this spindle speed, on the interpolated curve: quicker than [`ZerothOrder::at_speed`].
+    pub fn is_exceeded(&self, spindle: f64, depth: f64) -> bool {
+        let half_period = 0.5 * self.pitch / spindle;
+        let within = self
+            .segments
+            .iter()
+            .take_while(|segment| 0.5 * segment.least <= depth);
+        let depth_at = delayed(half_period);
+        let mut exceeded = false;
+        for segment in within {
+            self.roots_within(segment, half_period, &depth_at, |found| {
+                exceeded |= found.depth > 0.0 && found.depth <= depth;
+            });
+            if exceeded {
+                return true;
+            }
+        }
+        false
     }
 
     /// The boundary without the delayed term.
     pub fn mode_coupling(&self) -> Option<Boundary> {
-        let dynamic = self.least_root(|_| (Complex::new(1.0, 0.0), 1.0), 0.0);
+        let dynamic = self.least_root(|(_, x)| (x.im, x.re), 0.0);
         let first = self.nodes.first()?;
         let real = |x: &Complex<f64>| x.re > 0.0 && x.re < self.deepest && x.im.abs() <= 1e-12 * x.re;
         let still = first.depths.into_iter().filter(real).map(|x| Boundary {
@@ -154,16 +172,40 @@ impl ZerothOrder {
         })
     }
 
-    /// The least depth at a root of `Im x rotation`, with the divisor that `rotation` gives; `half_period` (s) is how fast it turns.
-    fn least_root(
+    /// The roots of the imaginary part that `depth_at` gives (with the depth) of points of the curve, within one segment of the interpolated
+    /// curve; `half_period` (s) is how fast its rotation turns.
+    fn roots_within(
         &self,
-        rotation: impl Fn(f64) -> (Complex<f64>, f64),
+        segment: &Segment,
         half_period: f64,
-    ) -> Option<Boundary> {
-        let depth_at = |(w, x): (f64, Complex<f64>)| {
-            let (turn, divisor) = rotation(w);
-            ((x * turn).im, (x * turn).re / divisor)
-        };
+        depth_at: &impl Fn(OnCurve) -> (f64, f64),
+        mut visit: impl FnMut(Candidate),
+    ) {
+        let [a, b] = self.ends(segment);
+        let pieces = ((b.0 - a.0) * half_period / TURN).ceil().max(1.0) as usize;
+        let mut before = (a, depth_at(a));
+        for piece in 1..=pieces {
+            let part = piece as f64 / pieces as f64;
+            let next = (a.0 + (b.0 - a.0) * part, a.1 + (b.1 - a.1) * part);
+            let here = depth_at(next);
+            if (here.0 > 0.0) != (before.1.0 > 0.0) {
+                let share = before.1.0 / (before.1.0 - here.0);
+                let between = |p: f64, q: f64| p + (q - p) * share;
+                let root = (
+                    between(before.0.0, next.0),
+                    before.0.1 + (next.1 - before.0.1) * share,
+                );
+                visit(Candidate {
+                    depth: depth_at(root).1,
+                    ends: [before.0, next],
+                });
+            }
+            before = (next, here);
+        }
+    }
+
+    /// The least depth at a root of the imaginary part that `depth_at` gives, with the depth.
+    fn least_root(&self, depth_at: impl Fn(OnCurve) -> (f64, f64), half_period: f64) -> Option<Boundary> {
         let mut candidates: Vec<Candidate> = Vec::new();
         let mut best = self.deepest;
         // Without a delay the depth is the modulus itself, with it at least half.
@@ -171,34 +213,17 @@ impl ZerothOrder {
             if 0.5 * segment.least > NEAR_BEST * best {
                 break;
             }
-            let [a, b] = self.ends(segment);
-            let pieces = ((b.0 - a.0) * half_period / TURN).ceil().max(1.0) as usize;
-            let mut before = (a, depth_at(a));
-            for piece in 1..=pieces {
-                let part = piece as f64 / pieces as f64;
-                let next = (a.0 + (b.0 - a.0) * part, a.1 + (b.1 - a.1) * part);
-                let here = depth_at(next);
-                if (here.0 > 0.0) != (before.1.0 > 0.0) {
-                    let share = before.1.0 / (before.1.0 - here.0);
-                    let between = |p: f64, q: f64| p + (q - p) * share;
-                    let root = (
-                        between(before.0.0, next.0),
-                        before.0.1 + (next.1 - before.0.1) * share,
-                    );
-                    let depth = depth_at(root).1;
-                    if depth > 0.0 && depth < NEAR_BEST * best {
-                        best = best.min(depth);
-                        let ends = [before.0, next];
-                        candidates.push(Candidate { depth, ends });
-                    }
+            self.roots_within(segment, half_period, &depth_at, |found| {
+                if found.depth > 0.0 && found.depth < NEAR_BEST * best {
+                    best = best.min(found.depth);
+                    candidates.push(found);
                 }
-                before = (next, here);
-            }
+            });
         }
         candidates.retain(|candidate| candidate.depth <= NEAR_BEST * best);
         let refined = candidates
             .iter()
-            .filter_map(|candidate| self.refined(candidate, depth_at));
+            .filter_map(|candidate| self.refined(candidate, &depth_at));
         let (depth, w, x) = refined.min_by(|a, b| a.0.total_cmp(&b.0))?;
         (depth <= self.deepest).then(|| self.boundary(depth, w, x))
     }
@@ -207,7 +232,7 @@ impl ZerothOrder {
     fn refined(
         &self,
         candidate: &Candidate,
-        depth_at: impl Fn((f64, Complex<f64>)) -> (f64, f64),
+        depth_at: &impl Fn(OnCurve) -> (f64, f64),
     ) -> Option<(f64, f64, Complex<f64>)> {
         let on_curve = |(w, x): (f64, Complex<f64>)| {
             let x = nearest(&self.gain, w, x);
@@ -267,6 +292,16 @@ impl ZerothOrder {
         let ends = [(depth_of(a.1), a.0, a.1), (depth_of(b.1), b.0, b.1)];
         ends.into_iter()
             .fold(inner[0], |best, next| if next.0 < best.0 { next } else { best })
+    }
+}
+
+/// Imaginary part of `z`, and the depth, of points of the curve at half this period of the teeth (s).
+fn delayed(half_period: f64) -> impl Fn(OnCurve) -> (f64, f64) {
+    move |(w, x)| {
+        let (sin, cos) = (w * half_period).sin_cos();
+        // e^(i (w T/2 - pi/2)) and 2 sin(w T/2).
+        let z = x * Complex::new(sin, -cos);
+        (z.im, z.re / (2.0 * sin))
     }
 }
 

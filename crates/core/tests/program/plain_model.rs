@@ -78,6 +78,7 @@ fn heavy(robot: &Robot) -> Structure {
             mass: 12.0,
             centre: Point3::new(0.02, 0.01, 0.1),
             inertia: None,
+            relative_uncertainty: 0.0,
         }],
         ..Structure::EMPTY
     }

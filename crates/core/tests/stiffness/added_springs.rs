@@ -23,7 +23,7 @@ proptest! {
         let posture = posture_at(robot, &q, &tool);
         let simple = predict(&posture, robot.compliance().unwrap(), &w);
         let rigid = |mut s: Spring| { s.compliance = JointCompliance { value: 0.0, standard_uncertainty: 0.0 }; s };
-        let weightless = Mass { attachment: Attachment::Flange, mass: 0.0, centre: Point3::new(0.1, 0.0, 0.0), inertia: None };
+        let weightless = Mass { attachment: Attachment::Flange, mass: 0.0, centre: Point3::new(0.1, 0.0, 0.0), inertia: None, relative_uncertainty: 0.0, };
         let structure = Structure {
             springs: springs().into_iter().map(rigid).collect(),
             masses: vec![weightless],

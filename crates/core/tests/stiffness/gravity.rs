@@ -65,8 +65,8 @@ proptest! {
         let robot = &arms::ALL[which];
         let (q, tool) = (arms::positions(robot, &unit), arms::bent_tool());
         let mut masses = fanuc_masses();
-        masses.push(Mass { attachment: Attachment::Flange, mass: 60.0, centre: Point3::new(0.1, seed, 0.2), inertia: None });
-        masses.push(Mass { attachment: Attachment::Tool, mass: 5.0, centre: Point3::new(0.0, 0.0, -0.1), inertia: None });
+        masses.push(Mass { attachment: Attachment::Flange, mass: 60.0, centre: Point3::new(0.1, seed, 0.2), inertia: None, relative_uncertainty: 0.0, });
+        masses.push(Mass { attachment: Attachment::Tool, mass: 5.0, centre: Point3::new(0.0, 0.0, -0.1), inertia: None, relative_uncertainty: 0.0, });
         let model = weighing(Structure { springs: springs(), masses: masses.clone(), ..Structure::EMPTY });
         let arm = full_arm(robot, &model, &tool);
         let mut arm_state = ArmState::new(arm);

@@ -65,6 +65,7 @@ fn fanuc_masses() -> Vec<Mass> {
         mass: *mass,
         centre: Point3::new(*x, *y, z + d),
         inertia: None,
+        relative_uncertainty: 0.0,
     };
     FANUC.iter().zip(FANUC_D).enumerate().map(mass).collect()
 }

@@ -105,6 +105,9 @@ pub struct MassTable {
     /// Mass.
     #[schemars(range(min = 0.0, max = 1e6))]
     pub mass_kg: f64,
+    /// Standard uncertainty of the mass, and of the inertia with it, in per cent; not known if left out.
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub mass_u_percent: Option<f64>,
     /// Centre of mass in the frame of the attachment.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub centre_mm: [f64; 3],
@@ -270,6 +273,7 @@ impl MassTable {
             mass: self.mass_kg,
             centre: Point3::from(from_mm(Vector3::from(self.centre_mm))),
             inertia,
+            relative_uncertainty: self.mass_u_percent.map_or(0.0, |percent| percent / 100.0),
         })
     }
 }

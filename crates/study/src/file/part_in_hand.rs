@@ -42,6 +42,7 @@ pub(super) fn holding(table: &PartInHandTable, arm: &Robot) -> Result<Robot, Stu
         mass: mass.mass_kg,
         centre: mass.centre_mm.map(from_mm).into(),
         inertia: None,
+        relative_uncertainty: 0.0,
     }));
     let base_from_mount = pose_mm_deg(&table.base_from_mount_mm_deg);
     let robot = arm.clone().with_structure(structure).map_err(refused)?;

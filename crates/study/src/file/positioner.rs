@@ -97,6 +97,7 @@ pub(super) fn find(
         mass: mass.mass_kg,
         centre: mass.centre_mm.map(from_mm).into(),
         inertia: None,
+        relative_uncertainty: 0.0,
     }));
     described.robot = described.robot.with_structure(structure).map_err(refused)?;
     Ok(Some(FoundPositioner {

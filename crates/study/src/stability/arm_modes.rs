@@ -64,8 +64,9 @@ pub fn arm_modes(
         None => ASSUMED_U,
     };
     let base_from_feed: Rotation3<f64> = path.track.base_from_feed(posture.point - 1);
+    let by_masses = state.frequency_uncertainties_by_masses(&found.modes);
     let modes = found.modes.iter().enumerate().map(|(index, mode)| {
-        let relative = match known {
+        let by_compliances = match known {
             true => mode.relative_uncertainty(&compliances, &covariance),
             false => 0.0,
         };
@@ -74,9 +75,9 @@ pub fn arm_modes(
             mode: mode.at_tool.in_axes(&base_from_feed),
             // The frequency follows the root of the stiffness.
             uncertainty: ModeUncertainty {
-                frequency: relative,
+                frequency: by_compliances.hypot(by_masses[index]),
                 damping: damping_u,
-                stiffness: 2.0 * relative,
+                stiffness: 2.0 * by_compliances,
             },
         }
     });

@@ -54,9 +54,13 @@ pub(super) fn as_text(robot: &Robot) -> Vec<String> {
     for mass in &structure.masses {
         let centre = to_mm(mass.centre.coords);
         lines.push(format!(
-            "  mass at {}: {} kg, centre ({:.3}, {:.3}, {:.3}) mm{}",
+            "  mass at {}: {} kg{}, centre ({:.3}, {:.3}, {:.3}) mm{}",
             attachment_name(robot, mass.attachment),
             mass.mass,
+            match mass.relative_uncertainty {
+                0.0 => String::new(),
+                u => format!(" (u {:.0} %)", 100.0 * u),
+            },
             centre.x,
             centre.y,
             centre.z,

@@ -29,6 +29,7 @@ fn bodies(joints: usize, stream: &mut Stream) -> Vec<Mass> {
                 mass: stream.between(1.0, 100.0),
                 centre: Point3::from(stream.vector(0.4)),
                 inertia: Some(turn.matrix() * Matrix3::from_diagonal(&principal) * turn.matrix().transpose()),
+                relative_uncertainty: 0.0,
             }
         })
         .collect()
@@ -157,6 +158,7 @@ fn springs_move_their_own_attachment_and_all_behind_it() {
         mass: 8.0,
         centre: Point3::new(0.01, -0.02, -0.1),
         inertia: None,
+        relative_uncertainty: 0.0,
     });
     model.structure.springs = vec![
         Spring::about(Attachment::Joint(2), Vector3::x(), compliance),

@@ -50,6 +50,16 @@ const LINKS: [Link; 3] = [
 
 /// Modes of the arm of these links in the plane z = 0, axes along z, the tool at the end of the last link.
 fn planar(links: &[Link], q: &[f64], change: impl Fn(&mut Structure)) -> ArmModes {
+    of_planar(links, q, change, |state| state.modes().unwrap())
+}
+
+/// A value of this arm.
+fn of_planar<T>(
+    links: &[Link],
+    q: &[f64],
+    change: impl Fn(&mut Structure),
+    value: impl FnOnce(&mut ArmState<'_>) -> T,
+) -> T {
     let mut motions = Vec::new();
     for (index, link) in links.iter().enumerate() {
         motions.push(Motion::About(Axis::Z, Amount::Joint(index)));
@@ -63,6 +73,7 @@ fn planar(links: &[Link], q: &[f64], change: impl Fn(&mut Structure)) -> ArmMode
         centre: Point3::new(link.c, 0.0, 0.0),
         // Inertia about x and y has no effect.
         inertia: Some(Matrix3::from_diagonal(&Vector3::new(7.0, 7.0, link.i))),
+        relative_uncertainty: 0.0,
     };
     let mut model = StiffnessModel::DRIVES.clone();
     model.structure.masses = links.iter().enumerate().map(mass).collect();
@@ -82,7 +93,7 @@ fn planar(links: &[Link], q: &[f64], change: impl Fn(&mut Structure)) -> ArmMode
         flange_from_tool: &tool,
     });
     state.set_joints(q);
-    state.modes().unwrap()
+    value(&mut state)
 }
 
 fn squares(found: &ArmModes) -> Vec<f64> {
@@ -221,6 +232,7 @@ fn heavy_arm(run: impl Fn(&mut ArmState<'_>)) {
         mass,
         centre: Point3::new(0.05, -0.1, 0.2),
         inertia: Some(Matrix3::identity() * (0.01 * mass)),
+        relative_uncertainty: 0.0,
     };
     let spring = |attachment, axis| {
         let compliance = JointCompliance {
@@ -331,6 +343,43 @@ fn the_uncertainty_of_a_frequency_is_half_that_of_the_compliances() {
             (slope + mode.shares[1]).abs() < 1e-5,
             "{slope} {}",
             mode.shares[1]
+        );
+    }
+}
+
+#[test]
+fn the_uncertainty_by_a_mass_is_its_slope_by_difference() {
+    let q = [0.3, -1.1, 0.7];
+    let u = 0.4;
+    let uncertain = |structure: &mut Structure| structure.masses[1].relative_uncertainty = u;
+    let (found, by_masses) = of_planar(&LINKS, &q, uncertain, |state| {
+        let modes = state.modes().unwrap();
+        let by_masses = state.frequency_uncertainties_by_masses(&modes.modes);
+        (modes, by_masses)
+    });
+    let mut heavier = LINKS;
+    heavier[1].m *= 1.0 + 1e-6;
+    heavier[1].i *= 1.0 + 1e-6;
+    let changed = planar(&heavier, &q, |_| ());
+    let pairs = squares(&found).into_iter().zip(squares(&changed));
+    for ((before, after), by_mass) in pairs.zip(&by_masses) {
+        let slope = -0.5 * (after / before - 1.0) / 1e-6;
+        assert!((by_mass - u * slope).abs() < 1e-5, "{by_mass} {slope}");
+    }
+    // The shares of all masses add up to 1, so that independent ones give between u/2 and u/(2 sqrt 3).
+    let all = |structure: &mut Structure| {
+        structure
+            .masses
+            .iter_mut()
+            .for_each(|mass| mass.relative_uncertainty = u)
+    };
+    let of_all = of_planar(&LINKS, &q, all, |state| {
+        state.frequency_uncertainties_by_masses(&found.modes)
+    });
+    for of_all in of_all {
+        assert!(
+            of_all <= 0.5 * u + 1e-12 && of_all >= 0.5 * u / 3f64.sqrt() - 1e-12,
+            "{of_all}"
         );
     }
 }

@@ -41,6 +41,7 @@ fn weighing() -> StiffnessModel {
         mass: 60.0,
         centre: nalgebra::Point3::new(0.1, 0.0, 0.2),
         inertia: None,
+        relative_uncertainty: 0.0,
     }];
     model.gravity = Some(Gravity {
         acceleration: Vector3::new(0.0, 0.0, -9.81),

@@ -83,6 +83,7 @@ fn models() -> [(&'static str, StiffnessModel); 3] {
             mass: 25.0,
             centre: Point3::new(0.1, 0.02, 0.2),
             inertia: None,
+            relative_uncertainty: 0.0,
         })
         .to_vec();
     springs.gravity = Some(Gravity {

@@ -41,6 +41,7 @@ fn arm() -> Robot {
         mass,
         centre: Point3::new(0.05, -0.1, 0.2),
         inertia: None,
+        relative_uncertainty: 0.0,
     };
     let gap = |side| {
         Some(Backlash {
@@ -341,6 +342,7 @@ fn the_mount_deflects_under_the_weight_of_the_tool_and_the_load_on_it() {
         mass: 60.0,
         centre: Point3::new(0.1, 0.0, 0.2),
         inertia: None,
+        relative_uncertainty: 0.0,
     }];
     let tool = Isometry::identity();
     let q = [0.3, -0.2, 0.4, 0.5, -0.6, 0.7];

@@ -165,6 +165,7 @@ fn a_structure_is_checked_against_its_robot() {
             mass: 1.0,
             centre: nalgebra::Point3::origin(),
             inertia: None,
+            relative_uncertainty: 0.0,
         }],
         ..Structure::EMPTY
     };

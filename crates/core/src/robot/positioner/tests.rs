@@ -39,6 +39,7 @@ fn two_axes() -> Robot {
         mass,
         centre: Point3::new(x, 0.02, 0.07),
         inertia: None,
+        relative_uncertainty: 0.0,
     };
     let structure = Structure {
         masses: vec![
@@ -71,6 +72,7 @@ fn arm() -> Robot {
         mass,
         centre: Point3::new(0.05, -0.1, 0.2),
         inertia: None,
+        relative_uncertainty: 0.0,
     };
     let structure = Structure {
         springs: vec![

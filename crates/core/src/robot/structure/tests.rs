@@ -40,6 +40,7 @@ fn mass(mass: f64) -> Mass {
         mass,
         centre: Point3::new(0.0, 0.1, 0.2),
         inertia: Some(Matrix3::identity() * 0.1),
+        relative_uncertainty: 0.0,
     }
 }
 

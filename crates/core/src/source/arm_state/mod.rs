@@ -16,15 +16,17 @@
 //! | `tau_g` | torque of gravity on it, compensator included | N m (N) |
 //!
 //! Made once, used for any number of postures and loads without allocation. `shares`: contribution of each part;
-//! `input_uncertainty`: uncertainty by load and tool; `backlash_and_geometry`: deviations that no load causes; `vibration`: mass matrix and modes.
+//! `input_uncertainty`: uncertainty by load and tool; `backlash_and_geometry`: deviations that no load causes; `uncertain_masses`: uncertainty by masses; `vibration`: mass matrix and modes.
 
 mod backlash_and_geometry;
 mod input_uncertainty;
 mod shares;
+mod uncertain_masses;
 mod vibration;
 
 pub use backlash_and_geometry::Links;
 pub use input_uncertainty::LoadedPosture;
+use uncertain_masses::{UncertainMasses, Weighed};
 
 use nalgebra::{IsometryMatrix3, Matrix3, Matrix6, Point3, Rotation3, Vector3};
 
@@ -77,6 +79,7 @@ struct Weight<'a> {
     sag: Option<Vec<f64>>,
     /// At tool setting: displacement of the tool by each, and the same per unit of compliance, in the axes of the ground.
     at_reference: Option<Vec<(Twist, Vector3<f64>)>>,
+    uncertain: UncertainMasses,
 }
 
 impl<'a> ArmState<'a> {
@@ -92,6 +95,7 @@ impl<'a> ArmState<'a> {
             carried: vec![Carried::NOTHING; Attachment::count(joints)],
             sag: Some(vec![0.0; size]),
             at_reference: None,
+            uncertain: UncertainMasses::of(&arm.model.structure, joints),
         };
         let mut arm_state = ArmState {
             arm,
@@ -125,6 +129,7 @@ impl<'a> ArmState<'a> {
             });
             if let Some(weight) = &mut arm_state.weight {
                 weight.at_reference = there;
+                weight.uncertain.set_reference(&ground_from_base);
             }
         }
         arm_state
@@ -199,6 +204,14 @@ impl<'a> ArmState<'a> {
             *sag = turned.unwrap_or_default();
         }
         weight.sag = stable.then_some(sag);
+        let weighed = Weighed {
+            screws: &self.screws,
+            moved: &self.moved,
+            g,
+            tcp: tcp.coords,
+        };
+        let slope = |k: usize| self.tangent_compliance(k).unwrap_or_default();
+        weight.uncertain.set(&weighed, frame, slope);
         self.weight = Some(weight);
     }
 

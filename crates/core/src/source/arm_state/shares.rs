@@ -1,6 +1,7 @@
 //! Contributions to the displacement of an arm under its last load, and their uncertainty.
 //!
-//! `cov(delta) = A S A^T + m^2 delta delta^T`, columns `a_k`: displacement per unit of compliance k. `S` is the
+//! `cov(delta) = A S A^T + m^2 delta delta^T + sum_j l_j l_j^T`, columns `a_k`: displacement per unit of compliance k; `l_j`: by one standard
+//! uncertainty of mass j (`uncertain_masses`). `S` is the
 //! covariance of the structure; compliances outside it are independent. `m` is its model error: the part that no
 //! compliance explains, as a fraction of the displacement by all of them (a discrepancy as of Kennedy and O'Hagan,
 //! Bayesian calibration of computer models, J. R. Stat. Soc. B 63, 2001, in proportion to the prediction).
@@ -58,10 +59,11 @@ impl ArmState<'_> {
         }
     }
 
-    /// Variance (m^2) of the displacement along the unit vector `along`, from the compliances and the model error.
+    /// Variance (m^2) of the displacement along the unit vector `along`, from the compliances, the masses and the model error.
     pub fn variance_along(&self, along: &Vector3<f64>) -> f64 {
         let a = |k: usize| self.sensitivity(k).dot(along);
-        self.variances(a, |a, b| a * b, self.model_error().dot(along).powi(2))
+        let by_masses: f64 = self.by_masses().map(|by_mass| by_mass.dot(along).powi(2)).sum();
+        self.variances(a, |a, b| a * b, self.model_error().dot(along).powi(2) + by_masses)
     }
 
     /// Model error of the displacement under the last load, one standard deviation along it, m.
@@ -82,10 +84,18 @@ impl ArmState<'_> {
         self.arm.model.structure.repeatability
     }
 
-    /// Covariance (m^2) of the displacement, from the compliances and the model error.
+    /// Covariance (m^2) of the displacement, from the compliances, the masses and the model error.
     pub fn covariance(&self) -> Matrix3<f64> {
         let (a, missed) = (|k: usize| self.sensitivity(k), self.model_error());
-        self.variances(a, |a, b| a * b.transpose(), missed * missed.transpose())
+        let by_masses = self.by_masses().map(|by_mass| by_mass * by_mass.transpose());
+        let first = missed * missed.transpose() + by_masses.sum::<Matrix3<f64>>();
+        self.variances(a, |a, b| a * b.transpose(), first)
+    }
+
+    /// Displacement by gravity due to one standard uncertainty of each uncertain mass, m, base.
+    fn by_masses(&self) -> impl Iterator<Item = Vector3<f64>> + '_ {
+        let weight = self.weight.iter();
+        weight.flat_map(|weight| weight.uncertain.changes(&self.base_from_ground.rotation))
     }
 
     /// `first + sum_kl S_kl a_k a_l`, with independent compliances where no covariance is known.

@@ -31,6 +31,7 @@ fn masses() -> Vec<Mass> {
         mass,
         centre: Point3::new(0.1, -0.05, z),
         inertia: None,
+        relative_uncertainty: 0.0,
     };
     vec![
         mass(Attachment::Joint(0), 260.0, -0.1),

@@ -169,6 +169,7 @@ fn with_everything() -> StiffnessModel {
         mass,
         centre: Point3::new(0.1, -0.05, z),
         inertia: None,
+        relative_uncertainty: 0.0,
     };
     StiffnessModel {
         structure: Structure {

@@ -43,6 +43,7 @@ use self::checks::Checks;
 use self::file::{FrameEntry, JointEntry, RobotFile};
 pub use self::write::write;
 pub use self::write_bodies::body_tables;
+pub use self::write_masses::mass_tables;
 use super::description::{JointNote, OtherLimits, RobotDescription};
 use crate::document::{Document, Problems};
 use crate::sources;

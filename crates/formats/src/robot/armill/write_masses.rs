@@ -3,11 +3,19 @@
 //! Centres are the shortest decimals that come back within 1e-12 m; masses and inertias come back as the same numbers.
 
 use super::super::description::RobotDescription;
-use super::spelling::{line, millimetres, quoted, source};
+use super::spelling::{line, millimetres, quoted, source, sources};
 use armill_core::robot::Attachment;
 
 /// How far a coordinate may be from its decimal, m.
 const WITHIN: f64 = 1e-12;
+
+/// The masses alone, with their sources: tables that can be appended to a robot file.
+pub fn mass_tables(found: &RobotDescription) -> String {
+    let mut text = String::new();
+    masses(&mut text, found);
+    sources(&mut text, found);
+    text
+}
 
 /// Adds the tables of all masses.
 pub(super) fn masses(text: &mut String, found: &RobotDescription) {
@@ -22,6 +30,12 @@ pub(super) fn masses(text: &mut String, found: &RobotDescription) {
         line(text, "\n[[mass]]");
         line(text, &format!("at = {}", quoted(at)));
         line(text, &format!("mass_kg = {:?}", mass.mass));
+        if mass.relative_uncertainty > 0.0 {
+            line(
+                text,
+                &format!("mass_u_percent = {:?}", 100.0 * mass.relative_uncertainty),
+            );
+        }
         let centre: [f64; 3] = mass.centre.coords.into();
         line(
             text,

@@ -165,6 +165,7 @@ fn mass(file: &Source, inertial: Node<'_, '_>) -> Result<(Mass, Option<String>),
         mass,
         centre: Vector3::zeros().into(),
         inertia: inertia.filter(|_| refused.is_none()),
+        relative_uncertainty: 0.0,
     };
     Ok((body.attached_to(Attachment::Base, &link_from_body), refused))
 }

@@ -121,7 +121,7 @@ pub(in crate::kernel::lanes) struct ModelConstants {
 
 impl ModelConstants {
     /// The constants of `arm`, with or without geometry, thermal growth and backlash (`unloaded`); none if it has a part
-    /// that lanes do not know: a load-dependent equilibrium, gravity or thermal growth of an arm whose part a positioner
+    /// that lanes do not know: a load-dependent equilibrium, gravity on masses of known uncertainty, gravity or thermal growth of an arm whose part a positioner
     /// moves, a torque curve on the joint of the compensator or with more
     /// knots than lanes know, more than [`MOST_GAPS`] joints with backlash, no equilibrium at tool setting.
     pub fn of(arm: &Arm<'_>, unloaded: bool) -> Option<ModelConstants> {
@@ -130,6 +130,13 @@ impl ModelConstants {
         let thermal = model.thermal.filter(|_| unloaded);
         let special = structure.compensator.as_ref();
         if model.load_dependent || special.is_some_and(|c| structure.curve(c.joint).is_some()) {
+            return None;
+        }
+        let uncertain = structure
+            .masses
+            .iter()
+            .any(|mass| mass.relative_uncertainty > 0.0);
+        if model.gravity.is_some() && uncertain {
             return None;
         }
         let turns = !robot.chain().ground().is_base();

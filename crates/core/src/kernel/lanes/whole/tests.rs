@@ -64,6 +64,7 @@ fn model(joints: usize) -> StiffnessModel {
             mass: 30.0,
             centre: Point3::new(0.1, 0.02, 0.2),
             inertia: None,
+            relative_uncertainty: 0.0,
         })
         .to_vec();
     model.gravity = Some(Gravity {
@@ -225,6 +226,7 @@ fn worst_case_shares_and_uncertainty_are_those_of_the_plain_row() {
             mass: 4.0,
             centre: Point3::new(0.0, 0.03, -0.02),
             inertia: None,
+            relative_uncertainty: 0.0,
         });
         bend(&mut model, robot);
         if !weighs {
