@@ -198,12 +198,7 @@ fn answer_with(
 
 /// An arm without any mass has no modes.
 fn needs_mass(robot: &Robot, model: &StiffnessModel) -> Result<(), StudyError> {
-    let structure = &model.structure;
-    let has_mass = structure
-        .masses
-        .iter()
-        .any(|mass| mass.mass > 0.0 || mass.inertia.is_some());
-    if has_mass || !structure.motors.is_empty() {
+    if model.structure.has_inertia() {
         return Ok(());
     }
     let message = format!(

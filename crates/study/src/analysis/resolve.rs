@@ -341,8 +341,7 @@ impl Resolver<'_> {
                 }
             }
         }
-        let structure = &model.structure;
-        if found.tool_modes.is_empty() && structure.masses.is_empty() && structure.motors.is_empty() {
+        if found.tool_modes.is_empty() && !model.structure.has_inertia() {
             let message =
                 "nothing vibrates: neither robot nor tool has a mass, and there are no modes of the tool";
             let hint = "add [[mass]] to the robot file, or tool_modes = \"modes.toml\" here";

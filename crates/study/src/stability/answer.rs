@@ -213,10 +213,7 @@ pub fn answer(question: &Question, found: &Evaluation) -> StabilityAnswer {
 /// Probability from the relative uncertainty of the zeroth-order limit about the limit of the semi-discretisation.
 fn probability(question: &Question, found: &Evaluation) -> Option<f64> {
     let (zeroth, (boundary, _)) = (found.zeroth.as_ref()?, found.boundary.as_ref()?);
-    let shifted = armill_core::stability::BoundaryUncertainty {
-        boundary: *boundary,
-        ..zeroth.clone()
-    };
+    let shifted = zeroth.clone().about(*boundary);
     (zeroth.of_log_depth > 0.0).then(|| shifted.probability_stable(question.milling.cut().depth))
 }
 
