@@ -27,7 +27,7 @@ use std::f64::consts::{PI, TAU};
 
 use nalgebra::{Complex, Vector3};
 
-use crate::dynamics::{Mode, receptance};
+use crate::dynamics::{Mode, displacement};
 use crate::load::{Cutter, CuttingError, Milling, Runout};
 
 /// On which side of the feed the cut leaves a wall.
@@ -145,12 +145,11 @@ impl Forced {
     /// Of these modes (shapes in the feed frame) under these forces at this spindle speed (rad/s, above zero).
     pub fn under(forces: &ToothForces, modes: &[Mode], spindle: f64) -> Forced {
         let passing = TAU / forces.cutter.pitch() * spindle;
-        let response = |(order, force): (usize, &Vector3<Complex<f64>>)| {
-            let at_tip = receptance(modes, order as f64 * passing);
-            at_tip.fixed_view::<3, 3>(0, 0) * force
-        };
+        let harmonics = forces.harmonics.iter().enumerate();
         Forced {
-            harmonics: forces.harmonics.iter().enumerate().map(response).collect(),
+            harmonics: harmonics
+                .map(|(order, force)| displacement(modes, order as f64 * passing, force))
+                .collect(),
             cutter: forces.cutter,
             depth: forces.depth,
         }
@@ -203,9 +202,19 @@ impl Forced {
 
     /// Displacements over one period, in even steps of the spindle.
     pub fn path(&self) -> Vec<Vector3<f64>> {
-        let pitch = self.cutter.pitch();
-        let angle = |step: usize| pitch * step as f64 / STEPS as f64;
-        (0..STEPS).map(|step| self.at_angle(angle(step))).collect()
+        let turns: Vec<Complex<f64>> = (0..STEPS)
+            .map(|step| Complex::from_polar(1.0, TAU * step as f64 / STEPS as f64))
+            .collect();
+        let mut powers = vec![Complex::new(1.0, 0.0); STEPS];
+        let mut path = vec![self.mean(); STEPS];
+        // Harmonics of negative order are conjugate.
+        for harmonic in self.harmonics.iter().skip(1) {
+            for ((power, turn), sum) in powers.iter_mut().zip(&turns).zip(&mut path) {
+                *power *= turn;
+                *sum += harmonic.map(|part| 2.0 * (part.re * power.re - part.im * power.im));
+            }
+        }
+        path
     }
 
     /// Error of the wall on this side.

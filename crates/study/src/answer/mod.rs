@@ -312,6 +312,12 @@ fn warnings(study: &Study, answers: &AnalysisAnswers) -> Vec<String> {
     }
     warnings.extend(answers.paths.iter().flat_map(analysis::path::warnings::warnings));
     warnings.extend(answers.holes.iter().flat_map(analysis::holes::warnings::warnings));
+    let of_maps = answers.maps.iter().map(|map| (&map.name, &map.vibration));
+    let of_volumes = answers.volumes.iter().map(|volume| (&volume.name, &volume.vibration));
+    let of_paths = answers.paths.iter().map(|path| (&path.name, &path.vibration));
+    for (name, vibration) in of_maps.chain(of_volumes).chain(of_paths) {
+        warnings.extend(vibration.as_ref().and_then(|vibration| vibration.warning(name)));
+    }
     for analysis in &study.analyses {
         if let Subject::Path(path) = &analysis.subject {
             let uncertain = path.measured.as_ref().and_then(|measured| measured.warning());

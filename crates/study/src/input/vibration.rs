@@ -34,18 +34,34 @@ pub struct VibrationSetting {
     /// What they are and where they come from.
     pub tool_modes_from: Option<String>,
     /// The cut at every point of a map or volume, if its stable depth is asked for.
-    pub on_plane: Option<CutOnPlane>,
+    pub on_plane: Option<CutAtPoint>,
 }
 
 /// A cut with one direction of the feed.
 #[derive(Clone, Copy, Debug)]
-pub struct CutOnPlane {
+pub struct CutAtPoint {
     /// The cut.
     pub milling: Milling,
     /// Spindle speed, rad/s.
     pub spindle: f64,
     /// Axes of the feed frame in base.
     pub base_from_feed: Rotation3<f64>,
+}
+
+/// Deepest limit of the depth that is sought, in diameters of the cutter and in programmed depths.
+const DEEPEST: [f64; 2] = [2.0, 3.0];
+
+impl CutAtPoint {
+    /// Deepest limit of the depth that is sought, m.
+    pub fn deepest_sought(&self) -> f64 {
+        deepest_sought(&self.milling)
+    }
+}
+
+/// Deepest limit of the depth that is sought for this cut, m.
+pub fn deepest_sought(milling: &Milling) -> f64 {
+    let [of_diameter, of_depth] = DEEPEST;
+    (of_diameter * milling.cutter().diameter()).max(of_depth * milling.cut().depth)
 }
 
 /// The modal data of this file.

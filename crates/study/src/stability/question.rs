@@ -6,6 +6,7 @@ use armill_core::units::from_mm;
 use armill_formats::modal::ModalData;
 
 use super::arm_modes::{ArmPosture, arm_modes};
+use crate::input::vibration::deepest_sought;
 use crate::{Study, StudyError};
 
 /// Options in place of values of the study; SI.
@@ -46,8 +47,6 @@ pub struct Question {
 
 /// Lowest and highest speed of the lobes over the programmed one.
 const SPEEDS: [f64; 2] = [0.5, 2.0];
-/// Deepest limit sought in diameters, and in programmed depths.
-const DEEPEST: [f64; 2] = [2.0, 3.0];
 
 impl Question {
     /// The cut of the path called `name`, or of the first path that has one, with these modes and those of the arm in a posture.
@@ -90,9 +89,7 @@ impl Question {
             .or(cut.cutting.feed)
             .ok_or_else(|| missing("feed", "--feed-mm-per-min", "feed_mm_per_min"))?;
         let milling = cut.milling([spindle, feed], options.depth).map_err(of_cut)?;
-        let depth = milling.cut().depth;
-        let diameter = cut.cutting.cutter.diameter();
-        let sought = (DEEPEST[0] * diameter).max(DEEPEST[1] * depth);
+        let sought = deepest_sought(&milling);
         let mut remarks = cut.remarks.clone();
         let mut modes = Vec::new();
         let mut from = Vec::new();

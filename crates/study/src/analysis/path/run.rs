@@ -6,7 +6,7 @@ use armill_core::frame::Isometry;
 use armill_core::kernel::{Answers, OnPath, evaluate_posture};
 use armill_core::load::PathLoad;
 use armill_core::map::{
-    AlongPath, ProgramLimits, RadialDeviation, along_path, along_postures, measure_stock_clearances,
+    AlongPath, CutDemand, ProgramLimits, RadialDeviation, Vibrating, along_path, along_postures, measure_stock_clearances,
     obstacles, program_limits, radial_deviations, worst_points,
 };
 use armill_core::motion::Motion;
@@ -22,7 +22,9 @@ use armill_core::workpiece::Plane;
 
 use crate::analysis::path::PathAnalysis;
 use crate::analysis::path::process_loads::ProcessLoads;
+use crate::analysis::path::vibration::cuts;
 use crate::analysis::runner::Runner;
+use crate::analysis::vibration::arm_modes::modes_at_tip;
 use crate::error::StudyError;
 use crate::input::setting::Setting;
 
@@ -168,7 +170,7 @@ impl Runner<'_> {
         };
         let track = turned.as_ref().unwrap_or(&analysis.track);
         let limits = match analysis.reports_limits() {
-            true => program_limits(&question, track, &along, analysis.setting.tolerance, self.watch)?,
+            true => self.limits(analysis, track, &along)?,
             false => None,
         };
         let motion = self.move_along(analysis, track, &load, &mut along)?;
@@ -198,6 +200,30 @@ impl Runner<'_> {
             motion,
             searched,
         })
+    }
+
+    /// The process limits along a path; with its vibration, if the study asks for it.
+    fn limits(
+        &self,
+        analysis: &PathAnalysis,
+        track: &Track,
+        along: &AlongPath,
+    ) -> Result<Option<ProgramLimits>, StudyError> {
+        let setting = &analysis.setting;
+        let cuts = cuts(analysis, track, &along.load);
+        let vibrating = |index: usize| {
+            let cut = (cuts.as_ref()?.at)(index)?;
+            let modes = modes_at_tip(self.robot, setting, along.answers.joints_at(index), &cut.base_from_feed)?;
+            Some(Vibrating {
+                modes,
+                spindle: cut.spindle,
+            })
+        };
+        let demand = CutDemand {
+            tolerance: setting.tolerance,
+            vibrating: setting.vibration.is_some().then_some(&vibrating),
+        };
+        Ok(program_limits(&self.question(setting), track, along, demand, self.watch)?)
     }
 
     /// The path under this load. A search that is requested changes its posture only where that is a significant
