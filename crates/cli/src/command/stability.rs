@@ -113,6 +113,13 @@ fn as_text(answer: &StabilityAnswer) -> String {
             depth(answer.mode_coupling_depth_mm)
         ),
     ];
+    if let Some(lower) = &answer.lower_limit {
+        let of = match lower.as_str() {
+            "regeneration" => "the limit at this speed",
+            _ => "mode coupling alone",
+        };
+        lines.push(format!("lower of both               {of}"));
+    }
     if let Some([low, high]) = ends(answer) {
         let range = format!("lowest, {low:.0} to {high:.0} rpm");
         lines.push(format!("{range:<28}{}", depth(answer.lowest_depth_mm)));
@@ -121,9 +128,6 @@ fn as_text(answer: &StabilityAnswer) -> String {
         "lowest at any speed         {}",
         depth(answer.critical_depth_mm)
     ));
-    if let Some(by) = &answer.limited_by {
-        lines.push(format!("limited by                  {by}"));
-    }
     if let (Some(u), Some(probability)) = (answer.depth_u_percent, answer.probability_stable) {
         lines.push(format!(
             "standard uncertainty        {u:>9.1} % of the limit; stable with a probability of {:.1} %",

@@ -328,7 +328,10 @@ impl Resolver<'_> {
         if let Some(ratio) = table.damping_ratio {
             model.structure.damping = Some(Damping::Ratio(ratio));
         }
-        let mut found = VibrationSetting::default();
+        let mut found = VibrationSetting {
+            must_be_stable: table.must_be_stable.unwrap_or(false),
+            ..VibrationSetting::default()
+        };
         if let Some(file) = &table.tool_modes {
             match modes_of(&self.folder.join(file)) {
                 Ok(data) => {

@@ -45,6 +45,7 @@ use serde::Serialize;
 
 use crate::analysis;
 use crate::analysis::path::{Cut, PathAnalysis};
+use crate::analysis::vibration::VibrationAnswer;
 use crate::analysis::{AnalysisResult, Subject};
 use crate::answer::by_kind::AnalysisAnswers;
 use crate::budget::{self, BudgetAnswer};
@@ -378,7 +379,7 @@ fn lost_points(name: &str, counts: &CountsAnswer) -> Option<String> {
 impl StudyAnswer {
     /// Whether every point of every map, path, box and set of holes is within the tolerance.
     ///
-    /// A point that is not reached, or only outside joint limits, is not.
+    /// A point that is not reached, or only outside joint limits, is not. A cut that must be stable is.
     pub fn meets_tolerance(&self) -> bool {
         let maps = self
             .maps
@@ -398,5 +399,14 @@ impl StudyAnswer {
             .chain(volumes)
             .chain(holes)
             .all(|fraction| fraction == 1.0)
+            && self.is_stable_as_demanded()
+    }
+
+    /// Whether every cut that must be stable is.
+    fn is_stable_as_demanded(&self) -> bool {
+        let maps = self.maps.iter().filter_map(|map| map.vibration.as_ref());
+        let volumes = self.volumes.iter().filter_map(|volume| volume.vibration.as_ref());
+        let paths = self.paths.iter().filter_map(|path| path.vibration.as_ref());
+        maps.chain(volumes).chain(paths).all(VibrationAnswer::meets_demand)
     }
 }

@@ -24,6 +24,9 @@ pub struct VibrationTable {
     /// Maps and volumes, with the cut of the study: direction of the feed on the plane, from its y' towards z'; 0 if left out.
     #[schemars(range(min = -360.0, max = 360.0))]
     pub feed_deg: Option<f64>,
+    /// Whether the cut must be stable, as a demanded clearance must be kept: placements and searches for postures avoid points where it is
+    /// not, and the tolerance is not met there.
+    pub must_be_stable: Option<bool>,
 }
 
 /// What is asked of the vibration at each point, SI.
@@ -35,6 +38,8 @@ pub struct VibrationSetting {
     pub tool_modes_from: Option<String>,
     /// The cut at every point of a map or volume, if its stable depth is asked for.
     pub on_plane: Option<CutAtPoint>,
+    /// Whether the cut must be stable.
+    pub must_be_stable: bool,
 }
 
 /// A cut with one direction of the feed.

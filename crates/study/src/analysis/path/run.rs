@@ -22,7 +22,7 @@ use armill_core::workpiece::Plane;
 
 use crate::analysis::path::PathAnalysis;
 use crate::analysis::path::process_loads::ProcessLoads;
-use crate::analysis::path::vibration::cuts;
+use crate::analysis::path::vibration::{cuts, stability};
 use crate::analysis::runner::Runner;
 use crate::analysis::vibration::arm_modes::modes_at_tip;
 use crate::error::StudyError;
@@ -62,6 +62,8 @@ pub struct SearchResult {
     pub other_motion: Option<Motion>,
     /// Number of points with an obstacle without and with the result.
     pub obstacles: [usize; 2],
+    /// Number of points whose cut is not stable without and with the result, if it must be.
+    pub unstable: Option<[usize; 2]>,
     /// Gain of the objective by the result.
     pub gain: Gain,
 }
@@ -227,7 +229,7 @@ impl Runner<'_> {
     }
 
     /// The path under this load. A search that is requested changes its posture only where that is a significant
-    /// improvement: fewer obstacles, or the same number and a gain beyond its uncertainty.
+    /// improvement: fewer obstacles and unstable cuts, or as many and a gain beyond its uncertainty.
     pub fn follow(&self, analysis: &PathAnalysis, load: PathLoad) -> Result<Followed, StudyError> {
         let question = self.question(&analysis.setting);
         let track = &analysis.track;
@@ -262,8 +264,16 @@ impl Runner<'_> {
         )?;
         let number = |along: &AlongPath| obstacles(self.robot, &track.path, &along.answers, 0.0).count();
         let numbers = [number(&nominal), number(&found)];
+        let [before, after] = ways.map(|(track, load, along)| {
+            let followed = LoadedTrack { track, load };
+            stability(self.robot, analysis, followed, &along.answers)
+                .filter(|_| analysis.setting.must_be_stable())
+                .map(|stability| stability.unstable)
+        });
+        let unstable = before.zip(after).map(|(before, after)| [before, after]);
         let significant = gain.is_significant(&analysis.setting.least_gain);
-        let applied = numbers[1] < numbers[0] || (numbers[1] == numbers[0] && significant);
+        let faults = [0, 1].map(|way: usize| numbers[way] + unstable.map_or(0, |unstable| unstable[way]));
+        let applied = faults[1] < faults[0] || (faults[1] == faults[0] && significant);
         let (along, other) = match applied {
             true => (found, nominal),
             false => (nominal, found),
@@ -278,6 +288,7 @@ impl Runner<'_> {
                 other,
                 other_motion: None,
                 obstacles: numbers,
+                unstable,
                 gain,
             }),
         })

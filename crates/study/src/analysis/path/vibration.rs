@@ -1,10 +1,13 @@
 //! The cuts along a path whose stability and vibration are evaluated: as the forces have them, in the stock with its engagement.
 
+use armill_core::kernel::Answers;
 use armill_core::load::{Milling, PathLoad};
-use armill_core::path::{Cutting, Track};
+use armill_core::path::{Cutting, LoadedTrack, Track};
+use armill_core::robot::Robot;
 
 use crate::analysis::path::PathAnalysis;
 use crate::analysis::vibration::Cuts;
+use crate::analysis::vibration::points::CutStability;
 use crate::input::vibration::CutAtPoint;
 
 /// The cuts along a path followed on `track` under `load`; none of a load that is not from a cut. A point without a spindle speed has no cut.
@@ -26,6 +29,43 @@ pub fn cuts<'a>(analysis: &'a PathAnalysis, track: &'a Track, load: &'a PathLoad
         }),
         are_followed: true,
     })
+}
+
+/// Stability of the cuts along a path followed on `track` under `load`; none if the study does not ask for the vibration, or without a cut.
+pub fn stability(
+    robot: &Robot,
+    analysis: &PathAnalysis,
+    followed: LoadedTrack<'_>,
+    answers: &Answers,
+) -> Option<CutStability> {
+    let cuts = cuts(analysis, followed.track, followed.load)?;
+    let still = Cuts {
+        are_followed: false,
+        ..cuts
+    };
+    CutStability::of(robot, &analysis.setting, answers, &still)
+}
+
+/// The same with `times` the spindle speed and the same feed per tooth.
+pub fn stability_at_speed(
+    robot: &Robot,
+    analysis: &PathAnalysis,
+    followed: LoadedTrack<'_>,
+    answers: &Answers,
+    times: f64,
+) -> Option<CutStability> {
+    let cuts = cuts(analysis, followed.track, followed.load)?;
+    let turned = Cuts {
+        at: Box::new(|index| {
+            let cut = (cuts.at)(index)?;
+            Some(CutAtPoint {
+                spindle: times * cut.spindle,
+                ..cut
+            })
+        }),
+        are_followed: false,
+    };
+    CutStability::of(robot, &analysis.setting, answers, &turned)
 }
 
 /// Where depth and engagement come from, in one word.

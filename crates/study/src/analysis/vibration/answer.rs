@@ -28,6 +28,8 @@ pub struct CutVibrationAnswer {
     /// Whether the programmed depth is stable at every point: below the limit of mean directional factors, and at the point nearest to its
     /// limit by semi-discretisation too.
     pub is_stable: bool,
+    /// Whether the study demands that it is (`must_be_stable`).
+    pub is_demanded: bool,
     /// The verdict as a sentence.
     pub verdict: String,
     /// Source of depth and engagement: `cut` (the table of the study or the program), or `stock`.
@@ -116,6 +118,12 @@ impl VibrationAnswer {
         mode.into_iter().chain(cut).collect()
     }
 
+    /// Whether the cut is as stable as the study demands.
+    pub fn meets_demand(&self) -> bool {
+        let mut cut = self.cut.iter();
+        cut.all(|cut| cut.is_stable || !cut.is_demanded)
+    }
+
     /// The warning of a cut that is not stable, or only within its uncertainty.
     pub fn warning(&self, name: &str) -> Option<String> {
         let cut = self.cut.as_ref()?;
@@ -153,6 +161,7 @@ impl CutVibrationAnswer {
         };
         let found = CutVibrationAnswer {
             is_stable: worst.is_stable && unstable == 0,
+            is_demanded: rows.setting.must_be_stable(),
             verdict: String::new(),
             engagement,
             points: series.cuts().count(),

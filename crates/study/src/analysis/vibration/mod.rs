@@ -2,7 +2,7 @@
 //!
 //! [`arm_modes`]: modes of the arm in a posture; [`points`]: lowest mode, stable depth and forced vibration at every point;
 //! [`worst`]: the point whose cut is nearest to chatter, with its uncertainty; [`columns`] of tables; [`mod@answer`]: the summary, its
-//! sentence and its warning.
+//! sentence and its warning; [`remedies`]: speeds and depths that make a cut stable.
 //!
 //! ```text
 //! posture -> modes of the arm -+
@@ -14,6 +14,7 @@ pub mod answer;
 pub mod arm_modes;
 pub mod columns;
 pub mod points;
+pub mod remedies;
 pub mod worst;
 
 pub use answer::VibrationAnswer;

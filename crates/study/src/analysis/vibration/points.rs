@@ -100,6 +100,21 @@ impl SeriesVibration {
         answers: &Answers,
         cuts: Option<&Cuts<'_>>,
     ) -> Option<SeriesVibration> {
+        let points = SeriesVibration::points(robot, setting, answers, cuts)?;
+        let worst = nearest_to_its_limit(&points).zip(cuts).and_then(|(index, cuts)| {
+            let cut = (cuts.at)(index)?;
+            WorstCut::of(robot, setting, answers.joints_at(index), (index, cut))
+        });
+        Some(SeriesVibration { points, worst })
+    }
+
+    /// The points alone.
+    fn points(
+        robot: &Robot,
+        setting: &Setting,
+        answers: &Answers,
+        cuts: Option<&Cuts<'_>>,
+    ) -> Option<Vec<Option<PointVibration>>> {
         let vibration = setting.vibration.as_ref()?;
         let of_tool = modes(&vibration.tool_modes);
         let of_point = |arm: &[Mode], last: &mut LastCut, index: usize| PointVibration {
@@ -110,19 +125,13 @@ impl SeriesVibration {
                 cut_vibration(&all, &cut, last.forces(&cut, cuts.are_followed))
             }),
         };
-        let points = of_modes(robot, setting, answers, 0..answers.points.len(), &of_point);
-        let cut_of = |index: &usize| points[*index]?.cut;
-        let least = (0..points.len())
-            .filter(|index| cut_of(index).is_some())
-            .reduce(|least, other| {
-                let [a, b] = [least, other].map(|index| cut_of(&index).map_or(0.0, |cut| cut.utilisation()));
-                if b > a { other } else { least }
-            });
-        let worst = least.zip(cuts).and_then(|(index, cuts)| {
-            let cut = (cuts.at)(index)?;
-            WorstCut::of(robot, setting, answers.joints_at(index), (index, cut))
-        });
-        Some(SeriesVibration { points, worst })
+        Some(of_modes(
+            robot,
+            setting,
+            answers,
+            0..answers.points.len(),
+            &of_point,
+        ))
     }
 
     /// The cuts that are not stable.
@@ -135,6 +144,35 @@ impl SeriesVibration {
         let points = self.points.iter().enumerate();
         points.filter_map(|(index, point)| Some((index, point.as_ref()?.cut?)))
     }
+}
+
+/// Stability of the cuts of a series, without the vibration under the teeth and without uncertainty.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CutStability {
+    /// Points whose cut is not stable.
+    pub unstable: usize,
+    /// The cut that is nearest to its limit.
+    pub worst: Option<CutVibration>,
+}
+
+impl CutStability {
+    /// Of these cuts at the points of these answers; none if the study does not ask for the vibration.
+    pub fn of(robot: &Robot, setting: &Setting, answers: &Answers, cuts: &Cuts<'_>) -> Option<CutStability> {
+        let points = SeriesVibration::points(robot, setting, answers, Some(cuts))?;
+        let of_cuts = points.iter().flatten().filter_map(|point| point.cut);
+        Some(CutStability {
+            unstable: of_cuts.filter(|cut| !cut.is_stable()).count(),
+            worst: nearest_to_its_limit(&points).and_then(|index| points[index]?.cut),
+        })
+    }
+}
+
+/// The point with the largest programmed depth over its stable depth; the first of equal ones.
+fn nearest_to_its_limit(points: &[Option<PointVibration>]) -> Option<usize> {
+    let of_cut = |(index, point): (usize, &Option<PointVibration>)| Some((index, point.as_ref()?.cut?.utilisation()));
+    let with_cut = points.iter().enumerate().filter_map(of_cut);
+    let most = with_cut.reduce(|most, other| if other.1 > most.1 { other } else { most });
+    most.map(|(index, _)| index)
 }
 
 /// Forces of the teeth of the last cut: consecutive points mostly have the same cut.
