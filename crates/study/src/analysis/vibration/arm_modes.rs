@@ -68,6 +68,22 @@ pub fn at_tip(of_arm: &[Mode], of_tool: &[Mode], base_from_feed: &Rotation3<f64>
     of_arm.chain(of_tool.iter().copied()).collect()
 }
 
+/// Modes of arm and tool with their names in the posture `q` (rad, m), in the feed frame; none if the study does not ask for the vibration.
+pub fn named_at_tip(
+    robot: &Robot,
+    setting: &Setting,
+    q: &[f64],
+    base_from_feed: &Rotation3<f64>,
+) -> Option<Vec<NamedMode>> {
+    let vibration = setting.vibration.as_ref()?;
+    let mut named = Vec::new();
+    if has_modes(robot, setting) {
+        named.extend(in_feed_frame(named_modes(setting.arm(robot), q).ok()?, base_from_feed));
+    }
+    named.extend(vibration.tool_modes.iter().cloned());
+    Some(named)
+}
+
 /// Modes of arm and tool in the posture `q` (rad, m), in the feed frame; none where nothing vibrates.
 pub fn modes_at_tip(
     robot: &Robot,

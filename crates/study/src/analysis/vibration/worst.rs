@@ -11,7 +11,7 @@ use armill_core::stability::{
     Boundary, BoundaryUncertainty, CutOfAnyDepth, NamedMode, PeriodSteps, discretisation,
 };
 
-use super::arm_modes::{has_modes, in_feed_frame, named_modes};
+use super::arm_modes::named_at_tip;
 use crate::input::setting::Setting;
 use crate::input::vibration::CutAtPoint;
 
@@ -40,12 +40,7 @@ impl WorstCut {
         q: &[f64],
         (index, cut): (usize, CutAtPoint),
     ) -> Option<WorstCut> {
-        let mut named = Vec::new();
-        if has_modes(robot, setting) {
-            let of_arm = named_modes(setting.arm(robot), q).ok()?;
-            named.extend(in_feed_frame(of_arm, &cut.base_from_feed));
-        }
-        named.extend(setting.vibration.as_ref()?.tool_modes.iter().cloned());
+        let named = named_at_tip(robot, setting, q, &cut.base_from_feed)?;
         let any_depth = CutOfAnyDepth::new(&cut.milling);
         let deepest = cut.deepest_sought();
         let bare = modes(&named);
