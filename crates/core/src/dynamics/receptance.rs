@@ -68,11 +68,18 @@ mod tests {
             mode(60.0, [0.1, 0.2, -0.3, 0.01, 0.0, 0.5]),
             mode(300.0, [-0.2, 0.4, 0.1, 0.3, 0.2, 0.1]),
         ];
-        let force = Vector3::new(Complex::new(3.0, -1.0), Complex::new(0.5, 2.0), Complex::new(-4.0, 0.1));
+        let force = Vector3::new(
+            Complex::new(3.0, -1.0),
+            Complex::new(0.5, 2.0),
+            Complex::new(-4.0, 0.1),
+        );
         for w in [0.0, 59.0, 1000.0] {
             let expected = receptance(&modes, w).fixed_view::<3, 3>(0, 0) * force;
             let found = displacement(&modes, w, &force);
-            assert!((found - expected).norm() < 1e-13 * expected.norm(), "{found} {expected}");
+            assert!(
+                (found - expected).norm() < 1e-13 * expected.norm(),
+                "{found} {expected}"
+            );
         }
     }
 }

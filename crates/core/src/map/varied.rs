@@ -8,7 +8,8 @@
 
 use super::vibrating::Vibrating;
 use crate::load::{
-    Cut, CutHere, Cutter, CuttingLaw, CutsAlong, ForceEquilibrium, GreatestForce, Milling, Rest, TipCompliance,
+    Cut, CutHere, CutsAlong, Cutter, CuttingLaw, ForceEquilibrium, GreatestForce, Milling, Rest,
+    TipCompliance,
 };
 
 /// Permitted value at a point.

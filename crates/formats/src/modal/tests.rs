@@ -69,7 +69,11 @@ fn values_out_of_range_and_contradictions_are_reported_in_one_round() {
         assert!(text.contains(expected), "{expected}: {text}");
     }
     // Lists and tables in the place of modes.
-    for modes in ["mode = [1, [], \"a\"]\n", "mode = 3\n", "[mode]\nfrequency_hz = 1\n"] {
+    for modes in [
+        "mode = [1, [], \"a\"]\n",
+        "mode = 3\n",
+        "[mode]\nfrequency_hz = 1\n",
+    ] {
         assert!(!problems(modes).is_empty(), "{modes}");
     }
 }

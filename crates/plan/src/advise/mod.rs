@@ -174,7 +174,8 @@ pub fn advise(
         compensated_u_um: path.worst.and_then(|worst| worst.in_plane_u_um),
         stability: StabilityAdvice::of(
             &advised.robot.robot,
-            (analysis, of_path),
+            analysis,
+            of_path,
             done.first().and_then(|done| done.vibration.first()),
             path.vibration.as_ref(),
         ),

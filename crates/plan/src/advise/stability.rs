@@ -44,7 +44,8 @@ impl StabilityAdvice {
     /// For a path with this result and the vibration along it; none where its cut is reliably stable, or not evaluated.
     pub(super) fn of(
         robot: &Robot,
-        (analysis, found): (&PathAnalysis, &PathResult),
+        analysis: &PathAnalysis,
+        found: &PathResult,
         series: Option<&SeriesVibration>,
         summary: Option<&VibrationAnswer>,
     ) -> Option<StabilityAdvice> {

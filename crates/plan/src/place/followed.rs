@@ -217,7 +217,12 @@ impl FollowedPath<'_> {
             at: Box::new(|index| (cuts.at)(index * stride)),
             are_followed: false,
         };
-        let found = CutStability::of(self.question.arm.robot, &self.analysis.setting, &answers, &of_some);
+        let found = CutStability::of(
+            self.question.arm.robot,
+            &self.analysis.setting,
+            &answers,
+            &of_some,
+        );
         Ok(found.map_or(0, |found| found.unstable))
     }
 

@@ -314,7 +314,10 @@ fn warnings(study: &Study, answers: &AnalysisAnswers) -> Vec<String> {
     warnings.extend(answers.paths.iter().flat_map(analysis::path::warnings::warnings));
     warnings.extend(answers.holes.iter().flat_map(analysis::holes::warnings::warnings));
     let of_maps = answers.maps.iter().map(|map| (&map.name, &map.vibration));
-    let of_volumes = answers.volumes.iter().map(|volume| (&volume.name, &volume.vibration));
+    let of_volumes = answers
+        .volumes
+        .iter()
+        .map(|volume| (&volume.name, &volume.vibration));
     let of_paths = answers.paths.iter().map(|path| (&path.name, &path.vibration));
     for (name, vibration) in of_maps.chain(of_volumes).chain(of_paths) {
         warnings.extend(vibration.as_ref().and_then(|vibration| vibration.warning(name)));
@@ -404,9 +407,24 @@ impl StudyAnswer {
 
     /// Whether every cut that must be stable is.
     fn is_stable_as_demanded(&self) -> bool {
-        let maps = self.maps.iter().filter_map(|map| map.vibration.as_ref());
-        let volumes = self.volumes.iter().filter_map(|volume| volume.vibration.as_ref());
-        let paths = self.paths.iter().filter_map(|path| path.vibration.as_ref());
-        maps.chain(volumes).chain(paths).all(VibrationAnswer::meets_demand)
+        self.vibrations()
+            .iter()
+            .all(|(_, vibration)| vibration.meets_demand())
+    }
+
+    /// The vibration of each analysis that has it, by name.
+    pub fn vibrations(&self) -> Vec<(&str, &VibrationAnswer)> {
+        let maps = self.maps.iter().map(|map| (map.name.as_str(), &map.vibration));
+        let volumes = self
+            .volumes
+            .iter()
+            .map(|volume| (volume.name.as_str(), &volume.vibration));
+        let paths = self
+            .paths
+            .iter()
+            .map(|path| (path.name.as_str(), &path.vibration));
+        let all = maps.chain(volumes).chain(paths);
+        all.filter_map(|(name, vibration)| Some((name, vibration.as_ref()?)))
+            .collect()
     }
 }

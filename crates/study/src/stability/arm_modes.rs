@@ -44,7 +44,10 @@ pub fn arm_modes(
         return Err(StudyError::value(message, "from 1"));
     }
     let q = joint_positions(robot, &posture.joints_deg)?;
-    let modes = named_modes(setting.arm(robot), &q)
-        .map_err(|error| StudyError::value(error.to_string(), ""))?;
-    Ok(in_feed_frame(modes, &path.track.base_from_feed(posture.point - 1)))
+    let modes =
+        named_modes(setting.arm(robot), &q).map_err(|error| StudyError::value(error.to_string(), ""))?;
+    Ok(in_feed_frame(
+        modes,
+        &path.track.base_from_feed(posture.point - 1),
+    ))
 }

@@ -207,9 +207,16 @@ fn the_summary_of_a_map_has_the_least_of_its_column_and_where_it_is() {
     let answer = answer(&study, &done);
     let summary = answer.maps[0].vibration.as_ref().unwrap();
     let cut = summary.cut.as_ref().unwrap();
-    let [rows] = &done[0].rows()[..] else { panic!("a map") };
+    let [rows] = &done[0].rows()[..] else {
+        panic!("a map")
+    };
     let points = &rows.vibration.unwrap().points;
-    let with_cut = || points.iter().enumerate().filter_map(|(k, point)| Some((k, point.as_ref()?.cut?)));
+    let with_cut = || {
+        points
+            .iter()
+            .enumerate()
+            .filter_map(|(k, point)| Some((k, point.as_ref()?.cut?)))
+    };
     let (at, least) = with_cut()
         .min_by(|a, b| a.1.stable_depth().total_cmp(&b.1.stable_depth()))
         .unwrap();
@@ -257,7 +264,10 @@ fn the_summary_of_a_path_is_that_of_the_stability_command_in_the_same_posture() 
     let forced = point.cut.unwrap().forced.unwrap();
     let [x, y, _] = command.vibration.amplitude_um;
     let amplitude = forced.amplitude * 1e6;
-    assert!(amplitude >= 0.999 * x.max(y) && amplitude <= 2.001 * x.hypot(y), "{amplitude} {x} {y}");
+    assert!(
+        amplitude >= 0.999 * x.max(y) && amplitude <= 2.001 * x.hypot(y),
+        "{amplitude} {x} {y}"
+    );
     // Both walls of a slot; the mean across the feed is in the error of the command, and not in that of the point.
     let wall = forced.wall.unwrap() * 1e6;
     let mean = command.vibration.mean_um[1];
@@ -282,11 +292,15 @@ fn a_cut_that_chatters_is_warned_of_and_does_not_meet_a_demand() {
     let free = of(&text(""));
     let cut = free.paths[0].vibration.as_ref().unwrap().cut.as_ref().unwrap();
     assert!(!cut.is_stable && cut.utilisation > 1.0, "{}", cut.verdict);
-    let warning = free.warnings.iter().find(|warning| warning.starts_with("s: the cut chatters"));
+    let warning = free
+        .warnings
+        .iter()
+        .find(|warning| warning.starts_with("s: the cut chatters"));
     assert!(warning.unwrap().contains(&cut.verdict));
     assert!(free.meets_tolerance());
     assert!(!of(&text("must_be_stable = true\n")).meets_tolerance());
-    let thin = of(&text("must_be_stable = true\n").replace("axial_depth_mm = 15\n", "axial_depth_mm = 0.01\n"));
+    let thin =
+        of(&text("must_be_stable = true\n").replace("axial_depth_mm = 15\n", "axial_depth_mm = 0.01\n"));
     assert!(thin.meets_tolerance(), "{:?}", thin.warnings);
     assert!(!thin.warnings.iter().any(|warning| warning.contains("chatter")));
 }
@@ -295,13 +309,25 @@ fn a_cut_that_chatters_is_warned_of_and_does_not_meet_a_demand() {
 fn a_cut_that_is_stable_only_within_its_uncertainty_may_chatter() {
     let at = |depth: f64| {
         let cut = CUT.replace("axial_depth_mm = 1\n", &format!("axial_depth_mm = {depth}\n"));
-        answered(&study(&format!("{PLATE}{AT_THE_TIP}{cut}[vibration]\n{RECTANGLE}")))
+        answered(&study(&format!(
+            "{PLATE}{AT_THE_TIP}{cut}[vibration]\n{RECTANGLE}"
+        )))
     };
     let of = |answer: &StudyAnswer| answer.paths[0].vibration.clone().unwrap().cut.unwrap();
     let found = of(&at(1.0));
-    let least = found.stable_depth_mm.unwrap().min(found.semi_discretisation_depth_mm.unwrap());
+    let least = found
+        .stable_depth_mm
+        .unwrap()
+        .min(found.semi_discretisation_depth_mm.unwrap());
     let near = at(0.97 * least);
     let cut = of(&near);
-    assert!(cut.is_stable && cut.probability_stable.unwrap() < 0.977, "{cut:?}");
-    assert!(near.warnings.iter().any(|warning| warning.starts_with("s: the cut may chatter")));
+    assert!(
+        cut.is_stable && cut.probability_stable.unwrap() < 0.977,
+        "{cut:?}"
+    );
+    assert!(
+        near.warnings
+            .iter()
+            .any(|warning| warning.starts_with("s: the cut may chatter"))
+    );
 }

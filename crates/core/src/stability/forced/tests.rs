@@ -164,7 +164,11 @@ fn one_mode_under_straight_teeth_follows_the_sum_of_its_harmonics() {
     let found = [forced.largest_in_plane(), forced.amplitude().y];
     // 512 angles: at most half a step from the extreme.
     for found in found {
-        assert!((found / (size * gain) - 1.0).abs() < 3e-5, "{found} {}", size * gain);
+        assert!(
+            (found / (size * gain) - 1.0).abs() < 3e-5,
+            "{found} {}",
+            size * gain
+        );
     }
     let mean = forced.mean().y * mass * omega * omega;
     assert!((mean / (depth * feed / 2.0 * shear) - 1.0).abs() < 1e-9, "{mean}");
@@ -175,7 +179,14 @@ fn one_mode_under_straight_teeth_follows_the_sum_of_its_harmonics() {
     assert!((walls[0].at_tip + walls[1].at_tip).abs() < 1e-12 * size * gain + 1e-18);
     let lag = f64::atan2(2.0 * damping * omega * passing, omega * omega - passing * passing);
     let expected = -depth * feed / 2.0 * gain * (shear * f64::cos(lag) - radial * f64::sin(lag));
-    assert!((walls[0].at_tip / expected - 1.0).abs() < 1e-9, "{} {expected}", walls[0].at_tip);
+    assert!(
+        (walls[0].at_tip / expected - 1.0).abs() < 1e-9,
+        "{} {expected}",
+        walls[0].at_tip
+    );
     assert_eq!(walls[0].largest(), expected.signum() * walls[0].at_tip.abs());
-    assert_eq!(WallSide::of(&milling).collect::<Vec<_>>(), [WallSide::Left, WallSide::Right]);
+    assert_eq!(
+        WallSide::of(&milling).collect::<Vec<_>>(),
+        [WallSide::Left, WallSide::Right]
+    );
 }

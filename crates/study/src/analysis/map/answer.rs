@@ -12,8 +12,8 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::analysis::clearance::LeastClearance;
-use crate::analysis::vibration::VibrationAnswer;
 use crate::analysis::point::{PointAnswer, ReachedPoint, SettingAnswer};
+use crate::analysis::vibration::VibrationAnswer;
 use crate::input::setting::Setting;
 use crate::number::without_rounding;
 

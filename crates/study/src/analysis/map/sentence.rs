@@ -56,6 +56,8 @@ pub fn sentence(robot: &Robot, map: &MapAnswer) -> String {
         worst.xyz_mm[1],
         worst.xyz_mm[2],
         largest_contributor(robot, worst, &map.setting.contributors),
-        map.vibration.as_ref().map_or_else(String::new, VibrationAnswer::sentence),
+        map.vibration
+            .as_ref()
+            .map_or_else(String::new, VibrationAnswer::sentence),
     )
 }

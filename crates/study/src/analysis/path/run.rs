@@ -6,8 +6,8 @@ use armill_core::frame::Isometry;
 use armill_core::kernel::{Answers, OnPath, evaluate_posture};
 use armill_core::load::PathLoad;
 use armill_core::map::{
-    AlongPath, CutDemand, ProgramLimits, RadialDeviation, Vibrating, along_path, along_postures, measure_stock_clearances,
-    obstacles, program_limits, radial_deviations, worst_points,
+    AlongPath, CutDemand, ProgramLimits, RadialDeviation, Vibrating, along_path, along_postures,
+    measure_stock_clearances, obstacles, program_limits, radial_deviations, worst_points,
 };
 use armill_core::motion::Motion;
 use armill_core::nalgebra::{Point3, Translation3, UnitQuaternion};
@@ -215,7 +215,12 @@ impl Runner<'_> {
         let cuts = cuts(analysis, track, &along.load);
         let vibrating = |index: usize| {
             let cut = (cuts.as_ref()?.at)(index)?;
-            let modes = modes_at_tip(self.robot, setting, along.answers.joints_at(index), &cut.base_from_feed)?;
+            let modes = modes_at_tip(
+                self.robot,
+                setting,
+                along.answers.joints_at(index),
+                &cut.base_from_feed,
+            )?;
             Some(Vibrating {
                 modes,
                 spindle: cut.spindle,
@@ -225,7 +230,13 @@ impl Runner<'_> {
             tolerance: setting.tolerance,
             vibrating: setting.vibration.is_some().then_some(&vibrating),
         };
-        Ok(program_limits(&self.question(setting), track, along, demand, self.watch)?)
+        Ok(program_limits(
+            &self.question(setting),
+            track,
+            along,
+            demand,
+            self.watch,
+        )?)
     }
 
     /// The path under this load. A search that is requested changes its posture only where that is a significant

@@ -38,7 +38,10 @@ pub fn sentence(robot: &Robot, path: &PathAnswer) -> String {
     let limits = limits.in_words();
     let process = path.cut.as_ref().map_or(String::new(), process);
     let clearance = clearance(path);
-    let vibration = path.vibration.as_ref().map_or_else(String::new, VibrationAnswer::sentence);
+    let vibration = path
+        .vibration
+        .as_ref()
+        .map_or_else(String::new, VibrationAnswer::sentence);
     let motion = path.motion.as_ref().map_or(String::new(), motion);
     format!(
         "{}, branch {}: {}the tool deviates by up to {} µm ({}) {where_to}{line}{roundness}; largest contribution: {}; {:.1} % of the path is within {} µm{limits}.{clearance}{process}{vibration}{motion}",

@@ -96,16 +96,18 @@ impl VibrationAnswer {
             cut: series
                 .worst
                 .as_ref()
-                .map(|worst| CutVibrationAnswer::of(series, worst, rows, (engagement, line(worst.index)))),
+                .map(|worst| CutVibrationAnswer::of(series, worst, rows, engagement, line(worst.index))),
         })
     }
 
     /// Lowest mode and verdict, as further sentences; empty without either.
     pub fn sentence(&self) -> String {
-        let mode = self.lowest_mode_hz.map(|[least, greatest]| match greatest - least < 0.05 {
-            true => format!(" The lowest mode of the arm is at {least:.1} Hz."),
-            false => format!(" The lowest mode of the arm is at {least:.1} to {greatest:.1} Hz."),
-        });
+        let mode = self
+            .lowest_mode_hz
+            .map(|[least, greatest]| match greatest - least < 0.05 {
+                true => format!(" The lowest mode of the arm is at {least:.1} Hz."),
+                false => format!(" The lowest mode of the arm is at {least:.1} to {greatest:.1} Hz."),
+            });
         let cut = self.cut.as_ref().map(|cut| {
             let forced = cut.largest_vibration_um.map_or_else(String::new, |um| {
                 format!(
@@ -149,7 +151,8 @@ impl CutVibrationAnswer {
         series: &SeriesVibration,
         worst: &WorstCut,
         rows: &Rows<'_>,
-        (engagement, line): (&'static str, Option<u32>),
+        engagement: &'static str,
+        line: Option<u32>,
     ) -> CutVibrationAnswer {
         let depth = worst.cut.milling.cut().depth;
         let unstable = series.unstable();
@@ -157,7 +160,8 @@ impl CutVibrationAnswer {
         let decisive = worst.exact.or(boundary);
         let largest = |of: fn(&ForcedVibration) -> Option<f64>| {
             let all = series.cuts().filter_map(|(_, cut)| of(&cut.forced?));
-            all.reduce(|a, b| if b.abs() > a.abs() { b } else { a }).map(to_um)
+            all.reduce(|a, b| if b.abs() > a.abs() { b } else { a })
+                .map(to_um)
         };
         let found = CutVibrationAnswer {
             is_stable: worst.is_stable && unstable == 0,
@@ -178,7 +182,10 @@ impl CutVibrationAnswer {
             probability_stable: worst.probability_stable(),
             largest_vibration_um: largest(|forced| Some(forced.amplitude)),
             largest_surface_error_um: largest(|forced| forced.wall),
-            utilisation: series.cuts().map(|(_, cut)| cut.utilisation()).fold(0.0, f64::max),
+            utilisation: series
+                .cuts()
+                .map(|(_, cut)| cut.utilisation())
+                .fold(0.0, f64::max),
         };
         CutVibrationAnswer {
             verdict: found.in_words(),
@@ -194,11 +201,15 @@ impl CutVibrationAnswer {
             (false, count) => format!("unstable at {count} of {} points", self.points),
         };
         let [x, y, z] = self.at_mm;
-        let line = self.line.map_or_else(String::new, |line| format!(", line {line}"));
+        let line = self
+            .line
+            .map_or_else(String::new, |line| format!(", line {line}"));
         let limit = self.semi_discretisation_depth_mm.or(self.stable_depth_mm);
         let limit = match (limit, &self.cause, self.chatter_frequency_hz) {
             (Some(limit), Some(cause), Some(hz)) => {
-                format!("unstable above {limit:.3} mm at ({x:.0}, {y:.0}, {z:.0}) mm{line}: {cause} at {hz:.1} Hz")
+                format!(
+                    "unstable above {limit:.3} mm at ({x:.0}, {y:.0}, {z:.0}) mm{line}: {cause} at {hz:.1} Hz"
+                )
             }
             _ => "no limit of the depth was found".to_owned(),
         };

@@ -78,7 +78,10 @@ pub fn named_at_tip(
     let vibration = setting.vibration.as_ref()?;
     let mut named = Vec::new();
     if has_modes(robot, setting) {
-        named.extend(in_feed_frame(named_modes(setting.arm(robot), q).ok()?, base_from_feed));
+        named.extend(in_feed_frame(
+            named_modes(setting.arm(robot), q).ok()?,
+            base_from_feed,
+        ));
     }
     named.extend(vibration.tool_modes.iter().cloned());
     Some(named)

@@ -2,7 +2,7 @@
 //!
 //! [`arm_modes`]: modes of the arm in a posture; [`points`]: lowest mode, stable depth and forced vibration at every point;
 //! [`worst`]: the point whose cut is nearest to chatter, with its uncertainty; [`columns`] of tables; [`mod@answer`]: the summary, its
-//! sentence and its warning; [`remedies`]: speeds and depths that make a cut stable; [`wall`]: error
+//! sentence and its warning; [`report`] its section; [`remedies`]: speeds and depths that make a cut stable; [`wall`]: error
 //! of the wall with its uncertainty, for the budget of a circle.
 //!
 //! ```text
@@ -16,6 +16,7 @@ pub mod arm_modes;
 pub mod columns;
 pub mod points;
 pub mod remedies;
+pub mod report;
 pub mod wall;
 pub mod worst;
 

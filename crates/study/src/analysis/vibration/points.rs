@@ -103,7 +103,7 @@ impl SeriesVibration {
         let points = SeriesVibration::points(robot, setting, answers, cuts)?;
         let worst = nearest_to_its_limit(&points).zip(cuts).and_then(|(index, cuts)| {
             let cut = (cuts.at)(index)?;
-            WorstCut::of(robot, setting, answers.joints_at(index), (index, cut))
+            WorstCut::of(robot, setting, answers.joints_at(index), index, cut)
         });
         Some(SeriesVibration { points, worst })
     }
@@ -169,7 +169,8 @@ impl CutStability {
 
 /// The point with the largest programmed depth over its stable depth; the first of equal ones.
 fn nearest_to_its_limit(points: &[Option<PointVibration>]) -> Option<usize> {
-    let of_cut = |(index, point): (usize, &Option<PointVibration>)| Some((index, point.as_ref()?.cut?.utilisation()));
+    let of_cut =
+        |(index, point): (usize, &Option<PointVibration>)| Some((index, point.as_ref()?.cut?.utilisation()));
     let with_cut = points.iter().enumerate().filter_map(of_cut);
     let most = with_cut.reduce(|most, other| if other.1 > most.1 { other } else { most });
     most.map(|(index, _)| index)
@@ -211,9 +212,7 @@ fn cut_vibration(all: &[Mode], cut: &CutAtPoint, forces: Option<&ToothForces>) -
     });
     Some(CutVibration {
         depth: cut.milling.cut().depth,
-        limit: lobes
-            .at_speed(cut.spindle)
-            .filter(|limit| limit.depth <= deepest),
+        limit: lobes.at_speed(cut.spindle).filter(|limit| limit.depth <= deepest),
         deepest,
         forced,
     })

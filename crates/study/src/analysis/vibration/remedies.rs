@@ -49,10 +49,7 @@ impl WorstCut {
             .iter()
             .map(|lobe| lobe.boundary.map_or(deepest, |limit| limit.depth))
             .collect();
-        let here = self
-            .limit
-            .as_ref()
-            .map_or(deepest, |limit| limit.boundary.depth);
+        let here = self.limit.as_ref().map_or(deepest, |limit| limit.boundary.depth);
         let mut found: Vec<(f64, f64)> = (1..SPEEDS - 1)
             .filter(|k| depths[*k] > depths[k - 1] && depths[*k] >= depths[k + 1] && depths[*k] > here)
             .map(|k| (depths[k], speeds[k]))

@@ -63,7 +63,8 @@ impl WallErrors {
         };
         let found: Vec<(f64, Vec<f64>)> = (0..count).into_par_iter().map(at).collect::<Option<_>>()?;
         let parameters = found.iter().map(|(_, changes)| changes.len()).min()?;
-        let curve = |parameter: usize| -> Vec<f64> { found.iter().map(|(_, changes)| changes[parameter]).collect() };
+        let curve =
+            |parameter: usize| -> Vec<f64> { found.iter().map(|(_, changes)| changes[parameter]).collect() };
         Some(WallErrors {
             side,
             changes: (0..parameters).map(curve).collect(),

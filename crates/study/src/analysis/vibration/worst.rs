@@ -38,7 +38,8 @@ impl WorstCut {
         robot: &Robot,
         setting: &Setting,
         q: &[f64],
-        (index, cut): (usize, CutAtPoint),
+        index: usize,
+        cut: CutAtPoint,
     ) -> Option<WorstCut> {
         let named = named_at_tip(robot, setting, q, &cut.base_from_feed)?;
         let any_depth = CutOfAnyDepth::new(&cut.milling);

@@ -11,8 +11,8 @@ use serde::Serialize;
 
 use crate::analysis::clearance::LeastClearance;
 use crate::analysis::map::answer::CountsAnswer;
-use crate::analysis::vibration::VibrationAnswer;
 use crate::analysis::point::{PointAnswer, ReachedPoint, SettingAnswer};
+use crate::analysis::vibration::VibrationAnswer;
 use crate::input::setting::Setting;
 
 /// A box of points, the tool oriented as on the plane.

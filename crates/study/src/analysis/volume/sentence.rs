@@ -2,8 +2,8 @@
 
 use armill_core::robot::Robot;
 
-use crate::analysis::volume::answer::VolumeAnswer;
 use crate::analysis::vibration::VibrationAnswer;
+use crate::analysis::volume::answer::VolumeAnswer;
 use crate::analysis::words::{LimitCounts, LostPoints, largest_contributor, micrometres};
 use crate::uncertainty_words::u_in_words;
 
@@ -38,6 +38,9 @@ pub fn sentence(robot: &Robot, volume: &VolumeAnswer) -> String {
         worst.xyz_mm[1],
         worst.xyz_mm[2],
         largest_contributor(robot, worst, &volume.setting.contributors),
-        volume.vibration.as_ref().map_or_else(String::new, VibrationAnswer::sentence),
+        volume
+            .vibration
+            .as_ref()
+            .map_or_else(String::new, VibrationAnswer::sentence),
     )
 }
