@@ -12,7 +12,7 @@ use armill_core::kernel::{BranchChoice, Question};
 use armill_core::load::{
     Cutter, CuttingLaw, GreatestForce, Immersion, InputUncertainty, Mechanistic, PathLoad,
 };
-use armill_core::map::{Counts, Permitted, ProgramLimits, along_path, plane_map, program_limits};
+use armill_core::map::{Counts, CutDemand, Permitted, ProgramLimits, along_path, plane_map, program_limits};
 use armill_core::nalgebra::{Point3, Vector3};
 use armill_core::path::{
     Course, Cutting, Move, Operation, Pace, PathBuilder, Placing, SampledPath, Sampling, Spin, Step, Track,
@@ -106,7 +106,7 @@ fn limits(
     let forces = cutting().along(&path, &track.placing, None, Watch::NONE);
     let load = PathLoad::Cuts(forces.unwrap().cuts);
     let found = along_path(&question, &track, load, Watch::NONE).unwrap();
-    Ok(program_limits(&question, &track, &found, LIMIT, watch)?.unwrap())
+    Ok(program_limits(&question, &track, &found, CutDemand::of_tolerance(LIMIT), watch)?.unwrap())
 }
 
 fn softer(robot: &Robot, times: f64) -> Vec<JointCompliance> {

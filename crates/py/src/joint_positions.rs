@@ -91,8 +91,7 @@ pub(crate) fn mass_matrix<'py>(robot: &Robot, request: &Request<'_, 'py>) -> Flo
 
 /// What needs masses and motors is refused for an arm without.
 fn needs_mass(robot: &Robot, request: &Request<'_, '_>, what: &str) -> PyResult<()> {
-    let structure = &robot.model.structure;
-    if !structure.masses.is_empty() || !structure.motors.is_empty() {
+    if robot.model.structure.has_inertia() {
         return Ok(());
     }
     let message = format!(

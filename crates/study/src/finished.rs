@@ -14,6 +14,7 @@ use armill_formats::table::Table;
 
 use crate::analysis::path::run::PathResult;
 use crate::analysis::sections::Section;
+use crate::analysis::vibration::SeriesVibration;
 use crate::analysis::{Analysis, AnalysisData, AnalysisResult, Subject};
 use crate::answer::{StudyAnswer, answer};
 use crate::error::StudyError;
@@ -25,11 +26,18 @@ use crate::run::run;
 #[derive(Debug)]
 pub struct FinishedRun {
     study: Arc<Study>,
-    kept: Vec<StoredData>,
+    kept: Vec<StoredResult>,
     answer: StudyAnswer,
 }
 
-/// The data of one result, without its analysis.
+/// One result, without its analysis.
+#[derive(Debug)]
+struct StoredResult {
+    data: StoredData,
+    vibration: Vec<SeriesVibration>,
+}
+
+/// Its data.
 #[derive(Debug)]
 enum StoredData {
     Map(PlaneMap),
@@ -47,7 +55,7 @@ impl FinishedRun {
     pub fn run(study: Arc<Study>, watch: Watch<'_>) -> Result<FinishedRun, StudyError> {
         let found = run(&study, watch)?;
         let answer = answer(&study, &found);
-        let kept = found.into_iter().map(|done| StoredData::of(done.found)).collect();
+        let kept = found.into_iter().map(StoredResult::of).collect();
         Ok(FinishedRun { study, kept, answer })
     }
 
@@ -103,8 +111,17 @@ impl FinishedRun {
             done: &done,
             answer: &self.answer,
         });
-        self.kept = done.into_iter().map(|done| StoredData::of(done.found)).collect();
+        self.kept = done.into_iter().map(StoredResult::of).collect();
         gives
+    }
+}
+
+impl StoredResult {
+    fn of(done: AnalysisResult<'_>) -> StoredResult {
+        StoredResult {
+            data: StoredData::of(done.found),
+            vibration: done.vibration,
+        }
     }
 }
 
@@ -123,8 +140,8 @@ impl StoredData {
 }
 
 /// A result with its analysis; both are always of one kind.
-fn combined(analysis: &Analysis, kept: StoredData) -> Option<AnalysisResult<'_>> {
-    let found = match (&analysis.subject, kept) {
+fn combined(analysis: &Analysis, kept: StoredResult) -> Option<AnalysisResult<'_>> {
+    let found = match (&analysis.subject, kept.data) {
         (Subject::Map(sheet), StoredData::Map(map)) => AnalysisData::Map(sheet, map),
         (Subject::Sections(sheets), StoredData::Sections(maps)) => {
             let sections = sheets.iter().zip(maps);
@@ -142,6 +159,7 @@ fn combined(analysis: &Analysis, kept: StoredData) -> Option<AnalysisResult<'_>>
     Some(AnalysisResult {
         name: &analysis.name,
         found,
+        vibration: kept.vibration,
     })
 }
 

@@ -20,6 +20,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::StudyError;
+use crate::analysis::vibration::arm_modes::compliance_covariance;
 use crate::file::resolve::Study;
 use crate::joint_order::{contributor_names, in_joint_order, joint_names, joint_positions, shown_positions};
 use crate::model_words::uncertain_masses;
@@ -203,12 +204,7 @@ fn answer_with(
 
 /// An arm without any mass has no modes.
 fn needs_mass(robot: &Robot, model: &StiffnessModel) -> Result<(), StudyError> {
-    let structure = &model.structure;
-    let has_mass = structure
-        .masses
-        .iter()
-        .any(|mass| mass.mass > 0.0 || mass.inertia.is_some());
-    if has_mass || !structure.motors.is_empty() {
+    if model.structure.has_inertia() {
         return Ok(());
     }
     let message = format!(
@@ -218,21 +214,6 @@ fn needs_mass(robot: &Robot, model: &StiffnessModel) -> Result<(), StudyError> {
     let hint = "add to its file, for each link, [[mass]] with at, mass_kg, centre_mm, inertia_kg_m2 and source, and for each joint \
         [[motor]] with joint, rotor_inertia_kg_m2, ratio and source; a URDF gives them in <inertial>";
     Err(StudyError::value(message, hint))
-}
-
-/// Covariance of the compliances of an arm: independent where the file gives none.
-pub(crate) fn compliance_covariance<'a>(arm: &Arm<'a>) -> impl Fn(usize, usize) -> f64 + use<'a> {
-    let own: Vec<f64> = arm
-        .compliances()
-        .iter()
-        .map(|c| c.standard_uncertainty.powi(2))
-        .collect();
-    let joint = arm.model.structure.covariance.as_ref();
-    move |k, l| match joint.filter(|matrix| k < matrix.nrows() && l < matrix.nrows()) {
-        Some(matrix) => matrix[(k, l)],
-        None if k == l => own[k],
-        None => 0.0,
-    }
 }
 
 /// An arm whose modes are described.

@@ -31,9 +31,11 @@ pub fn point_count(study: &Study) -> usize {
 pub fn run<'a>(study: &'a Study, watch: Watch<'_>) -> Result<Vec<AnalysisResult<'a>>, StudyError> {
     let runner = Runner::new(&study.robot.robot, watch)?;
     let done = |analysis: &'a Analysis| {
+        let found = analysis.subject.run(&runner)?;
         Ok(AnalysisResult {
             name: &analysis.name,
-            found: analysis.subject.run(&runner)?,
+            vibration: found.vibration(&study.robot.robot),
+            found,
         })
     };
     study.analyses.iter().map(done).collect()

@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 
 use armill_core::units::from_mm;
 use armill_study::stability::{
-    ArmPosture, Options, Question, StabilityAnswer, answer, evaluate, modes_of, picture,
+    ArmPosture, GivenCut, GivenModes, Options, Question, StabilityAnswer, answer, evaluate, modes_of, picture,
 };
 use armill_study::{StudyError, studies};
 
@@ -39,13 +39,18 @@ pub(crate) fn run(arguments: &StabilityArguments) -> Result<Outcome, StudyError>
         joints_deg,
         point: arguments.point,
     });
-    let study = studies::find(&arguments.study)?.read()?;
-    let question = Question::of_study(
-        &study,
-        arguments.path.as_deref(),
-        (data, posture.as_ref()),
-        &options,
-    )?;
+    let question = match &arguments.study {
+        Some(study) => Question::of_study(
+            &studies::find(study)?.read()?,
+            arguments.path.as_deref(),
+            (data, posture.as_ref()),
+            &options,
+        )?,
+        None => {
+            let cut = given_cut(arguments)?.resolve()?;
+            Question::of_cut("the given cut", &cut, GivenModes::default().and(data), &options)?
+        }
+    };
     let answer = answer(&question, &evaluate(&question)?);
     if let Some(file) = &arguments.drawing {
         let writer = arguments.writing.writer("stability").for_new_files();
@@ -56,6 +61,38 @@ pub(crate) fn run(arguments: &StabilityArguments) -> Result<Outcome, StudyError>
         false => as_text(&answer),
     })?;
     Ok(Outcome::Fine)
+}
+
+/// The cut of the options, without a study.
+fn given_cut(arguments: &StabilityArguments) -> Result<GivenCut, StudyError> {
+    let cut = &arguments.cut;
+    let needed = |option: &str, value: Option<f64>| {
+        let Some(value) = value else {
+            let message = format!("{option} is needed without a study");
+            return Err(StudyError::value(message, "give it, or a study with [cut]"));
+        };
+        finite(option, &[value])?;
+        Ok(value)
+    };
+    for (option, value) in [
+        ("--helix-deg", cut.helix_deg),
+        ("--corner-radius-mm", cut.corner_radius_mm),
+        ("--radial-mm", cut.radial_mm),
+    ] {
+        finite(option, value.as_slice())?;
+    }
+    Ok(GivenCut {
+        material: cut.material.clone().unwrap_or_default(),
+        side: cut.side.clone().unwrap_or_default(),
+        cutter_diameter_mm: needed("--cutter-diameter-mm", cut.cutter_diameter_mm)?,
+        teeth: cut.teeth.unwrap_or_default(),
+        helix_deg: cut.helix_deg,
+        corner_radius_mm: cut.corner_radius_mm,
+        depth_mm: needed("--depth-mm", arguments.depth_mm)?,
+        radial_mm: cut.radial_mm,
+        spindle_rpm: needed("--spindle-rpm", arguments.spindle_rpm)?,
+        feed_mm_per_min: needed("--feed-mm-per-min", arguments.feed_mm_per_min)?,
+    })
 }
 
 fn options(arguments: &StabilityArguments) -> Result<Options, StudyError> {
@@ -113,6 +150,13 @@ fn as_text(answer: &StabilityAnswer) -> String {
             depth(answer.mode_coupling_depth_mm)
         ),
     ];
+    if let Some(lower) = &answer.lower_limit {
+        let of = match lower.as_str() {
+            "regeneration" => "the limit at this speed",
+            _ => "mode coupling alone",
+        };
+        lines.push(format!("lower of both               {of}"));
+    }
     if let Some([low, high]) = ends(answer) {
         let range = format!("lowest, {low:.0} to {high:.0} rpm");
         lines.push(format!("{range:<28}{}", depth(answer.lowest_depth_mm)));
@@ -121,9 +165,6 @@ fn as_text(answer: &StabilityAnswer) -> String {
         "lowest at any speed         {}",
         depth(answer.critical_depth_mm)
     ));
-    if let Some(by) = &answer.limited_by {
-        lines.push(format!("limited by                  {by}"));
-    }
     if let (Some(u), Some(probability)) = (answer.depth_u_percent, answer.probability_stable) {
         lines.push(format!(
             "standard uncertainty        {u:>9.1} % of the limit; stable with a probability of {:.1} %",

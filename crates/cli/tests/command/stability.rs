@@ -102,7 +102,7 @@ fn the_text_names_the_limits_and_a_picture_is_written() {
         "limit at this speed",
         "by mode coupling alone",
         "lowest, 6000 to 20000 rpm",
-        "limited by",
+        "lower of both ",
         "stable with a probability of",
         "preferred speed",
         "wall on the left",

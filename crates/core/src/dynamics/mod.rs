@@ -18,5 +18,5 @@ pub use inertia::{CarriedInertia, Inertia};
 pub use mass_matrix::{mass_matrix, over_joint_positions};
 pub use mode::Mode;
 pub use modes::{ArmMode, ArmModes, modes_of};
-pub use receptance::receptance;
+pub use receptance::{displacement, receptance};
 pub use release::{Release, release};

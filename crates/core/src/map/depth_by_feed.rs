@@ -12,7 +12,8 @@ pub struct DepthByFeed {
     pub depths: Vec<f64>,
     /// Feeds per tooth, m.
     pub feeds_per_tooth: Vec<f64>,
-    /// Largest in-plane deviation of the limiting points, m; one row per depth. Infinite where a tool is pulled in.
+    /// Largest in-plane deviation of the limiting points, m; one row per depth. Infinite where a tool is pulled
+    /// in, or a cut within the tolerance is unstable.
     pub deviations: Vec<f64>,
 }
 
@@ -98,6 +99,7 @@ mod tests {
         Milling, TipCompliance,
     };
     use crate::map::PermittedForces;
+    use crate::map::varied::PointDemand;
     use nalgebra::{Matrix3, Vector3};
     use std::sync::atomic::AtomicBool;
 
@@ -153,7 +155,11 @@ mod tests {
                     by_force: Matrix3::from_diagonal(&Vector3::new(*a, 0.0, 0.0)),
                     unloaded: Vector3::zeros(),
                 };
-                Varied::of(&cuts, 0, tip, LIMIT)
+                let still = PointDemand {
+                    tolerance: LIMIT,
+                    vibrating: None,
+                };
+                Varied::of(&cuts, 0, tip, still)
             })
             .collect();
         let forces = PermittedForces {

@@ -3,7 +3,7 @@
 //!
 //! ```text
 //! |P A f| = e                                  force: along a direction, and in the weakest direction
-//! |P (A F(cut) + g)| = e                       depth, width or feed of the cut, the others nominal
+//! |P (A F(cut) + g)| + d(cut) = e              depth, width or feed of the cut, the others nominal
 //! ```
 //!
 //! | symbol | meaning | unit |
@@ -11,6 +11,7 @@
 //! | `e` | tolerance across the tool | m |
 //! | `A`, `g` | compliance of the tip, and its deviation without a cut ([`TipCompliance`]) | m/N, m |
 //! | `P` | removes the component along the tool | - |
+//! | `d` | vibration across the tool, if modes are given; the cut must then be stable too | m |
 //! | `F` | force of the cut at equilibrium ([`crate::load::force_equilibrium`]) | N |
 //!
 //! A permitted force is computed without other loads: `g` is not included. A permitted cut is computed with `g`
@@ -24,8 +25,9 @@ use nalgebra::Vector3;
 use super::along::AlongPath;
 use super::depth_by_feed::DepthByFeed;
 use super::point_limits::{PermittedForces, PointLimits};
-use super::varied::Varied;
 pub use super::varied::{CutLimits, Permitted};
+use super::varied::{PointDemand, Varied};
+use super::vibrating::Vibrating;
 use crate::compliance::{permissible_force, permissible_force_in_worst_direction};
 use crate::kernel::Question;
 use crate::load::{CutsAlong, PathLoad, TipCompliance};
@@ -45,7 +47,33 @@ pub struct ProgramLimits {
 /// Maximum number of evaluated points, in addition to the worst.
 const MAX_POINTS: usize = 300;
 
-/// The limits of `found`, the answer along `track` to `question`, for `tolerance` (m); `None` where the load changes
+/// What the cuts of a program have to meet.
+#[derive(Clone, Copy)]
+pub struct CutDemand<'a> {
+    /// Largest deviation across the tool, m; of a cut with its vibration.
+    pub tolerance: f64,
+    /// What vibrates at a point, from its index; where it is known, cuts must be stable. `None`: vibration is not considered.
+    pub vibrating: Option<&'a dyn Fn(usize) -> Option<Vibrating>>,
+}
+
+impl CutDemand<'_> {
+    /// Without vibration.
+    pub fn of_tolerance(tolerance: f64) -> CutDemand<'static> {
+        CutDemand {
+            tolerance,
+            vibrating: None,
+        }
+    }
+
+    fn at(&self, index: usize) -> PointDemand {
+        PointDemand {
+            tolerance: self.tolerance,
+            vibrating: self.vibrating.and_then(|at| at(index)),
+        }
+    }
+}
+
+/// The limits of `found`, the answer along `track` to `question`, for this demand; `None` where the load changes
 /// the arm.
 ///
 /// # Errors
@@ -54,7 +82,7 @@ pub fn program_limits(
     question: &Question<'_>,
     track: &Track,
     found: &AlongPath,
-    limit: f64,
+    demand: CutDemand<'_>,
     watch: Watch<'_>,
 ) -> Result<Option<ProgramLimits>, Cancelled> {
     if !question.arm.model.is_affine() {
@@ -75,8 +103,8 @@ pub fn program_limits(
             return Err(Cancelled);
         }
         let Some(tip) = tips.at(index) else { continue };
-        let [along, across, normal, weakest] = forces(&tip, limit);
-        let here = cuts.map(|cuts| Varied::of(cuts, index, tip, limit));
+        let [along, across, normal, weakest] = forces(&tip, demand.tolerance);
+        let here = cuts.map(|cuts| Varied::of(cuts, index, tip, demand.at(index)));
         points.push(PointLimits {
             index,
             forces: PermittedForces {
@@ -90,7 +118,7 @@ pub fn program_limits(
     }
     let depth_by_feed = match cuts {
         Some(cuts) => {
-            let cut_at = |index| Varied::of(cuts, index, tips.at(index)?, limit);
+            let cut_at = |index| Varied::of(cuts, index, tips.at(index)?, demand.at(index));
             DepthByFeed::of(&points, cut_at, watch)?
         }
         None => None,

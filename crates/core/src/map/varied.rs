@@ -2,10 +2,15 @@
 //!
 //! The result is the smallest value at which the deviation first exceeds the tolerance, found by a scan from thin to
 //! thick and bisection. With gravity in one direction, or a wide cut that pushes back, the deviation need not be
-//! monotonic. If the greatest force is a load case, it is included with the same ratio to the mean as in the nominal
+//! monotonic. The vibration under the teeth is added to the deviation, with the same ratio to the mean force as in the nominal
+//! cut, and an unstable cut exceeds every tolerance. If the greatest force is a load case, it is included with the same ratio to the mean as in the nominal
 //! cut.
 
-use crate::load::{Cut, CutHere, CutsAlong, ForceEquilibrium, GreatestForce, Rest, TipCompliance};
+use super::vibrating::Vibrating;
+use crate::load::{
+    Cut, CutHere, CutsAlong, Cutter, CuttingLaw, ForceEquilibrium, GreatestForce, Milling, Rest,
+    TipCompliance,
+};
 
 /// Permitted value at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,6 +54,15 @@ impl Permitted {
     }
 }
 
+/// What a cut at a point has to meet.
+#[derive(Clone, Debug)]
+pub(super) struct PointDemand {
+    /// m
+    pub(super) tolerance: f64,
+    /// What vibrates there, if the vibration is considered.
+    pub(super) vibrating: Option<Vibrating>,
+}
+
 /// The cut at a point with variable depth, width or feed.
 pub(super) struct Varied {
     equilibrium: ForceEquilibrium,
@@ -60,14 +74,28 @@ pub(super) struct Varied {
     here: CutHere,
     greatest: GreatestForce,
     tip: TipCompliance,
-    limit: f64,
+    cutter: Cutter,
+    law: CuttingLaw,
+    demand: PointDemand,
+    /// Vibration across the tool over the mean force, m/N.
+    vibration_by_force: f64,
 }
 
 impl Varied {
-    /// The cut at point `index`, with this tip compliance (feed frame) and the tolerance `limit` (m); `None` in air.
-    pub(super) fn of(cuts: &CutsAlong, index: usize, tip: TipCompliance, limit: f64) -> Option<Varied> {
+    /// The cut at point `index`, with this tip compliance (feed frame) and this demand; `None` in air.
+    pub(super) fn of(
+        cuts: &CutsAlong,
+        index: usize,
+        tip: TipCompliance,
+        demand: PointDemand,
+    ) -> Option<Varied> {
         let here = cuts.points[index];
         let (cutter, cut) = (cuts.cutters[here.cutter], here.cut?);
+        let by_force = demand.vibrating.as_ref().and_then(|vibrating| {
+            let milling = Milling::new(cutter, cuts.law, cut).ok()?;
+            let amplitude = vibrating.amplitude(&milling)?;
+            Some(amplitude / milling.mean_force().norm()).filter(|ratio| ratio.is_finite())
+        });
         Some(Varied {
             equilibrium: ForceEquilibrium::new(cutter, cuts.law),
             cutter_radius: cutter.radius(),
@@ -76,7 +104,10 @@ impl Varied {
             here,
             greatest: cuts.greatest,
             tip,
-            limit,
+            cutter,
+            law: cuts.law,
+            demand,
+            vibration_by_force: by_force.unwrap_or(0.0),
         })
     }
 
@@ -101,7 +132,7 @@ impl Varied {
     fn permitted(&mut self, most: f64, cut: impl Fn(f64) -> Option<Cut>) -> Permitted {
         let mut within = |value: f64| {
             let cut = cut(value);
-            cut.is_none_or(|cut| self.deviation(&cut) <= self.limit)
+            cut.is_none_or(|cut| self.deviation(&cut) <= self.demand.tolerance)
         };
         let (mut low, mut high) = (0.0, most * SCAN_RATIO.powi(1 - SCAN as i32));
         loop {
@@ -128,7 +159,8 @@ impl Varied {
         }
     }
 
-    /// In-plane deviation under `cut` (m); infinite where the tool is pulled in or there is no such cut.
+    /// In-plane deviation under `cut` with its vibration (m); infinite where the tool is pulled in, a cut within the tolerance is
+    /// unstable, or there is no such cut.
     pub(super) fn deviation(&mut self, cut: &Cut) -> f64 {
         let Some(drawn) = self.equilibrium.nominal_force(cut) else {
             return f64::INFINITY;
@@ -139,10 +171,24 @@ impl Varied {
         };
         let [mean, greatest] = self.here.under(force);
         let in_plane = |force| cut.in_plane(&self.tip.under(force));
-        match self.greatest {
+        let deviation = match self.greatest {
             GreatestForce::LeftOut => in_plane(mean),
             GreatestForce::SecondCase => in_plane(mean).max(in_plane(greatest)),
+        };
+        let total = deviation + self.vibration_by_force * drawn.norm();
+        match total <= self.demand.tolerance && !self.is_stable(cut) {
+            true => f64::INFINITY,
+            false => total,
         }
+    }
+
+    /// Whether `cut` is stable; so is every cut where the vibration is not considered.
+    fn is_stable(&self, cut: &Cut) -> bool {
+        let Some(vibrating) = &self.demand.vibrating else {
+            return true;
+        };
+        let milling = Milling::new(self.cutter, self.law, *cut);
+        milling.is_ok_and(|milling| vibrating.is_stable(&milling))
     }
 }
 

@@ -71,6 +71,12 @@ impl Structure {
         gaps.filter_map(|(joint, backlash)| Some((joint, backlash.as_ref().filter(|b| b.gap > 0.0)?)))
     }
 
+    /// Whether a body or a rotor has inertia, without which there are no modes of vibration.
+    pub fn has_inertia(&self) -> bool {
+        let of_body = |mass: &Mass| mass.mass > 0.0 || mass.inertia.is_some();
+        self.masses.iter().any(of_body) || self.motors.iter().any(|motor| motor.inertia_at_joint() > 0.0)
+    }
+
     /// Whether this structure is valid for an arm of this chain.
     ///
     /// # Errors

@@ -27,7 +27,7 @@ use std::f64::consts::{PI, TAU};
 
 use nalgebra::{Complex, Vector3};
 
-use crate::dynamics::{Mode, receptance};
+use crate::dynamics::{Mode, displacement};
 use crate::load::{Cutter, CuttingError, Milling, Runout};
 
 /// On which side of the feed the cut leaves a wall.
@@ -37,6 +37,21 @@ pub enum WallSide {
     Left,
     /// Part on the right: down-milling.
     Right,
+}
+
+impl WallSide {
+    /// The walls along the feed that this cut leaves: those that its engagement reaches.
+    pub fn of(milling: &Milling) -> impl Iterator<Item = WallSide> + use<> {
+        let radius = milling.cutter().radius();
+        let [right, left] = milling.cut().engagement.edges();
+        let reached = [
+            (left >= radius, WallSide::Left),
+            (right <= -radius, WallSide::Right),
+        ];
+        reached
+            .into_iter()
+            .filter_map(|(is_reached, side)| is_reached.then_some(side))
+    }
 }
 
 /// Error of a wall: positive where it is deeper in the part (overcut).
@@ -50,6 +65,26 @@ pub struct SurfaceError {
     pub least: f64,
     /// Greatest along the cylinder, m.
     pub greatest: f64,
+}
+
+/// Harmonics of the force of the teeth on the tool, without runout.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ToothForces {
+    /// `F_k` from 0 upwards, N, feed frame, over the angle of the spindle.
+    harmonics: Vec<Vector3<Complex<f64>>>,
+    cutter: Cutter,
+    depth: f64,
+}
+
+impl SurfaceError {
+    /// The largest along the cylinder by size, with its sign, m.
+    pub fn largest(&self) -> f64 {
+        if self.greatest.abs() >= self.least.abs() {
+            self.greatest
+        } else {
+            self.least
+        }
+    }
 }
 
 /// The periodic vibration of the tip.
@@ -66,12 +101,12 @@ pub const STEPS: usize = 512;
 /// Heights at which the error of the surface is evaluated.
 pub const HEIGHTS: usize = 33;
 
-impl Forced {
-    /// Of these modes (shapes in the feed frame) in this cut at this spindle speed (rad/s, above zero).
+impl ToothForces {
+    /// Of this cut.
     ///
     /// # Errors
     /// As [`Milling::new`].
-    pub fn new(modes: &[Mode], milling: &Milling, spindle: f64) -> Result<Forced, CuttingError> {
+    pub fn new(milling: &Milling) -> Result<ToothForces, CuttingError> {
         let cutter = milling.cutter().with_runout(Runout::default())?;
         let even = Milling::new(cutter, *milling.law(), *milling.cut())?;
         let pitch = cutter.pitch();
@@ -79,15 +114,61 @@ impl Forced {
             // Middles of the steps: no tooth enters or leaves exactly there.
             .map(|step| even.force_at(pitch * (step as f64 + 0.5) / STEPS as f64))
             .collect();
-        let passing = TAU / pitch * spindle;
-        let harmonics = (0..=STEPS / 4)
-            .map(|order| response(modes, &forces, order, passing))
+        let turns: Vec<Complex<f64>> = (0..2 * STEPS)
+            .map(|part| Complex::from_polar(1.0 / STEPS as f64, -TAU * part as f64 / (2 * STEPS) as f64))
             .collect();
-        Ok(Forced {
-            harmonics,
+        let harmonic = |order: usize| {
+            let mut sum: Vector3<Complex<f64>> = Vector3::zeros();
+            for (step, force) in forces.iter().enumerate() {
+                let turn = turns[(order * (2 * step + 1)) % (2 * STEPS)];
+                sum += force.map(|value| turn * value);
+            }
+            sum
+        };
+        Ok(ToothForces {
+            harmonics: (0..=STEPS / 4).map(harmonic).collect(),
             cutter,
             depth: milling.cut().depth,
         })
+    }
+}
+
+impl Forced {
+    /// Of these modes (shapes in the feed frame) in this cut at this spindle speed (rad/s, above zero).
+    ///
+    /// # Errors
+    /// As [`Milling::new`].
+    pub fn new(modes: &[Mode], milling: &Milling, spindle: f64) -> Result<Forced, CuttingError> {
+        Ok(Forced::under(&ToothForces::new(milling)?, modes, spindle))
+    }
+
+    /// Of these modes (shapes in the feed frame) under these forces at this spindle speed (rad/s, above zero).
+    pub fn under(forces: &ToothForces, modes: &[Mode], spindle: f64) -> Forced {
+        let passing = TAU / forces.cutter.pitch() * spindle;
+        let harmonics = forces.harmonics.iter().enumerate();
+        Forced {
+            harmonics: harmonics
+                .map(|(order, force)| displacement(modes, order as f64 * passing, force))
+                .collect(),
+            cutter: forces.cutter,
+            depth: forces.depth,
+        }
+    }
+
+    /// The same without the mean displacement.
+    #[must_use]
+    pub fn without_mean(mut self) -> Forced {
+        if let Some(mean) = self.harmonics.first_mut() {
+            *mean = Vector3::zeros();
+        }
+        self
+    }
+
+    /// Largest distance across the tool of the tip from its mean position, m.
+    pub fn largest_in_plane(&self) -> f64 {
+        let mean = self.mean().xy();
+        let distances = self.path().into_iter().map(|u| (u.xy() - mean).norm());
+        distances.fold(0.0, f64::max)
     }
 
     /// Displacement (m, feed frame) of the tip when tooth 0 at the tip is at this angle of the spindle (rad).
@@ -121,9 +202,19 @@ impl Forced {
 
     /// Displacements over one period, in even steps of the spindle.
     pub fn path(&self) -> Vec<Vector3<f64>> {
-        let pitch = self.cutter.pitch();
-        let angle = |step: usize| pitch * step as f64 / STEPS as f64;
-        (0..STEPS).map(|step| self.at_angle(angle(step))).collect()
+        let turns: Vec<Complex<f64>> = (0..STEPS)
+            .map(|step| Complex::from_polar(1.0, TAU * step as f64 / STEPS as f64))
+            .collect();
+        let mut powers = vec![Complex::new(1.0, 0.0); STEPS];
+        let mut path = vec![self.mean(); STEPS];
+        // Harmonics of negative order are conjugate.
+        for harmonic in self.harmonics.iter().skip(1) {
+            for ((power, turn), sum) in powers.iter_mut().zip(&turns).zip(&mut path) {
+                *power *= turn;
+                *sum += harmonic.map(|part| 2.0 * (part.re * power.re - part.im * power.im));
+            }
+        }
+        path
     }
 
     /// Error of the wall on this side.
@@ -143,19 +234,6 @@ impl Forced {
             greatest: along.iter().copied().fold(f64::NEG_INFINITY, f64::max),
         }
     }
-}
-
-/// Harmonic of the displacement of this order, at the tooth passing frequency `passing` (rad/s).
-fn response(modes: &[Mode], forces: &[Vector3<f64>], order: usize, passing: f64) -> Vector3<Complex<f64>> {
-    let count = forces.len() as f64;
-    let mut sum: Vector3<Complex<f64>> = Vector3::zeros();
-    for (step, force) in forces.iter().enumerate() {
-        let part = ((order * (2 * step + 1)) % (2 * forces.len())) as f64 / (2.0 * count);
-        let turn = Complex::from_polar(1.0 / count, -TAU * part);
-        sum += force.map(|value| turn * value);
-    }
-    let at_tip = receptance(modes, order as f64 * passing);
-    at_tip.fixed_view::<3, 3>(0, 0) * sum
 }
 
 #[cfg(test)]

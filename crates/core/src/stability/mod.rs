@@ -25,7 +25,7 @@ pub mod zeroth_order;
 
 pub use cut_of_any_depth::CutOfAnyDepth;
 pub use discretisation::{Floquet, Instability, PeriodSteps};
-pub use forced::{Forced, SurfaceError, WallSide};
+pub use forced::{Forced, SurfaceError, ToothForces, WallSide};
 pub use lobes::{Lobe, StabilityLobes};
 pub use named_mode::{ModeUncertainty, NamedMode};
 pub use probability::BoundaryUncertainty;

@@ -95,6 +95,12 @@ impl BoundaryUncertainty {
         }))
     }
 
+    /// The same relative uncertainty about another boundary, such as that of a more accurate solution.
+    #[must_use]
+    pub fn about(self, boundary: Boundary) -> BoundaryUncertainty {
+        BoundaryUncertainty { boundary, ..self }
+    }
+
     /// Probability that a cut of this depth (m, above zero) is stable, from 0 to 1.
     pub fn probability_stable(&self, depth: f64) -> f64 {
         let distance = (self.boundary.depth / depth).ln();

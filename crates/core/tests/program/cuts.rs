@@ -6,7 +6,7 @@ use armill_core::kernel::BranchChoice;
 use armill_core::load::{
     Cutter, CuttingLaw, Immersion, LoadCases, LoadFrame, Mechanistic, Milling, PathLoad,
 };
-use armill_core::map::{CutLimits, Permitted, ProgramLimits, program_limits};
+use armill_core::map::{CutDemand, CutLimits, Permitted, ProgramLimits, program_limits};
 use armill_core::nalgebra::{Vector2, Vector3};
 use armill_core::path::{Cutting, GreatestForce, Track};
 use armill_core::robot::BranchPattern;
@@ -84,7 +84,13 @@ fn at_the_permitted_depth_width_or_feed_the_tool_deviates_by_the_tolerance() {
     let limit = 0.7 * followed.answers.worst().unwrap().1.in_plane;
     let tool = arms::bent_tool();
     let question = question(&robot, StiffnessModel::DRIVES, &tool, followed.choice_at(0));
-    let found = program_limits(&question, &track(), &followed, limit, Watch::NONE);
+    let found = program_limits(
+        &question,
+        &track(),
+        &followed,
+        CutDemand::of_tolerance(limit),
+        Watch::NONE,
+    );
     let found = found.unwrap().unwrap();
     let feed_speed = 0.02;
     permits(
@@ -143,7 +149,13 @@ fn at_the_permitted_force_the_tool_deviates_by_the_tolerance() {
     let tool = arms::bent_tool();
     let question = question(&robot, StiffnessModel::DRIVES, &tool, under_x.choice_at(0));
     let limit = 50e-6;
-    let found = program_limits(&question, &track(), &under_x, limit, Watch::NONE);
+    let found = program_limits(
+        &question,
+        &track(),
+        &under_x,
+        CutDemand::of_tolerance(limit),
+        Watch::NONE,
+    );
     let found = found.unwrap().unwrap();
     assert!(found.depth_by_feed.is_none() && found.points.len() > 100);
     for (axis, direction) in [Vector3::x(), Vector3::y(), Vector3::z()].into_iter().enumerate() {
@@ -162,7 +174,13 @@ fn at_the_permitted_force_the_tool_deviates_by_the_tolerance() {
         ..StiffnessModel::DRIVES.clone()
     };
     let question = self::question(&robot, &soft, &tool, under_x.choice_at(0));
-    let none = program_limits(&question, &track(), &under_x, limit, Watch::NONE);
+    let none = program_limits(
+        &question,
+        &track(),
+        &under_x,
+        CutDemand::of_tolerance(limit),
+        Watch::NONE,
+    );
     assert_eq!(none, Ok(None));
 }
 

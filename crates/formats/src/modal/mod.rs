@@ -42,79 +42,86 @@ pub struct ModalData {
 /// Every problem of the file, each with its place.
 pub fn read(path: &str, text: &str) -> Result<ModalData, Problems> {
     let document = Document::parse(path, text)?;
-    let file: ModalFile = document.read()?;
-    let mut problems = Vec::new();
-    let modes: Vec<Option<NamedMode>> = file
-        .mode
-        .iter()
-        .enumerate()
-        .map(|(index, table)| mode(&document, index, table, &mut problems))
-        .collect();
+    let found = document.read::<ModalFile>();
+    let mut problems = contradictions(&document);
+    let file = match found {
+        Ok(file) => file,
+        Err(others) => {
+            problems.extend(others.as_slice().iter().cloned());
+            return Err(Problems::from(problems));
+        }
+    };
     Problems::from(problems).into_result()?;
     Ok(ModalData {
         name: file.name,
         source: file.source,
         note: file.note,
-        modes: modes.into_iter().flatten().collect(),
+        modes: file.mode.iter().enumerate().filter_map(mode).collect(),
     })
 }
 
-/// A mode in SI; `None` if it has a problem.
-fn mode(
-    document: &Document,
-    index: usize,
-    table: &ModeTable,
-    problems: &mut Vec<Problem>,
-) -> Option<NamedMode> {
-    let mut problem = |key: &str, message: String, hint: &str| {
-        let path = format!("mode[{index}]{key}");
-        problems.push(document.problem(&path, message, Some(hint)));
-    };
-    let damping = match (table.damping_percent, table.damping_ratio) {
-        (Some(percent), None) => Some(percent / 100.0),
-        (None, Some(ratio)) => Some(ratio),
-        (None, None) => {
-            let message = "the mode has no damping".to_owned();
-            problem("", message, "give `damping_percent`, or `damping_ratio`");
-            None
-        }
-        (Some(_), Some(_)) => {
-            let message = "`damping_percent` and `damping_ratio` are both given".to_owned();
-            problem(".damping_ratio", message, "remove one of them");
-            None
-        }
-    };
-    let omega = TAU * table.frequency_hz;
-    let mass = match (table.modal_mass_kg, table.stiffness_n_per_um) {
-        (Some(mass), None) => Some(mass),
-        // N/um is N per 1e-6 m.
-        (None, Some(stiffness)) => Some(stiffness / from_um(1.0) / (omega * omega)),
-        (None, None) => {
-            let message = "the mode has neither modal mass nor stiffness".to_owned();
-            problem(
+/// What no schema can say: values that exclude each other, and values of which one is needed. Values of a wrong type are not
+/// considered.
+fn contradictions(document: &Document) -> Vec<Problem> {
+    let tree = document.to_json();
+    let modes = tree["mode"].as_array().map_or(&[][..], Vec::as_slice);
+    let mut problems = Vec::new();
+    for (index, table) in modes.iter().enumerate() {
+        let mut problem = |key: &str, message: &str, hint: &str| {
+            let path = format!("mode[{index}]{key}");
+            problems.push(document.problem(&path, message, Some(hint)));
+        };
+        let given = |key: &str| table.get(key).is_some();
+        match [given("damping_percent"), given("damping_ratio")] {
+            [false, false] => problem(
                 "",
-                message,
+                "the mode has no damping",
+                "give `damping_percent`, or `damping_ratio`",
+            ),
+            [true, true] => problem(
+                ".damping_ratio",
+                "`damping_percent` and `damping_ratio` are both given",
+                "remove one of them",
+            ),
+            _ => {}
+        }
+        match [given("modal_mass_kg"), given("stiffness_n_per_um")] {
+            [false, false] => problem(
+                "",
+                "the mode has neither modal mass nor stiffness",
                 "give `modal_mass_kg` or `stiffness_n_per_um`, in `direction`",
+            ),
+            [true, true] => problem(
+                ".stiffness_n_per_um",
+                "`modal_mass_kg` and `stiffness_n_per_um` are both given",
+                "remove one of them: with the frequency either gives the other",
+            ),
+            _ => {}
+        }
+        let parts = table["direction"].as_array();
+        if parts.is_some_and(|parts| parts.iter().all(|part| part.as_f64() == Some(0.0))) {
+            problem(
+                ".direction",
+                "`direction` is zero",
+                "along the feed, to its left, from part to spindle: [1, 0, 0]",
             );
-            None
         }
-        (Some(_), Some(_)) => {
-            let message = "`modal_mass_kg` and `stiffness_n_per_um` are both given".to_owned();
-            let hint = "remove one of them: with the frequency either gives the other";
-            problem(".stiffness_n_per_um", message, hint);
-            None
-        }
-    };
-    let direction = Vector3::from(table.direction).try_normalize(f64::MIN_POSITIVE);
-    if direction.is_none() {
-        let message = "`direction` is zero".to_owned();
-        problem(
-            ".direction",
-            message,
-            "along the feed, to its left, from part to spindle: [1, 0, 0]",
-        );
     }
-    let (damping, mass, direction) = (damping?, mass?, direction?);
+    problems
+}
+
+/// A mode in SI, of a table without contradictions.
+fn mode(numbered: (usize, &ModeTable)) -> Option<NamedMode> {
+    let (index, table) = numbered;
+    let of_percent = table.damping_percent.map(|percent| percent / 100.0);
+    let damping = of_percent.or(table.damping_ratio)?;
+    let omega = TAU * table.frequency_hz;
+    // N/um is N per 1e-6 m.
+    let of_stiffness = table
+        .stiffness_n_per_um
+        .map(|stiffness| stiffness / from_um(1.0) / (omega * omega));
+    let mass = table.modal_mass_kg.or(of_stiffness)?;
+    let direction = Vector3::from(table.direction).try_normalize(f64::MIN_POSITIVE)?;
     let shape = direction / mass.sqrt();
     Some(NamedMode {
         name: table.name.clone().unwrap_or_else(|| (index + 1).to_string()),

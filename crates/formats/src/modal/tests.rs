@@ -53,6 +53,32 @@ fn all_problems_are_reported_together_with_their_lines() {
 }
 
 #[test]
+fn values_out_of_range_and_contradictions_are_reported_in_one_round() {
+    let text = problems(
+        "[[mode]]\nfrequency_hz = -922\ndirection = [0, 0, 0]\nmodal_mass_kg = 1\n\
+         [[mode]]\nfrequency_hz = \"30\"\ndamping_percent = 2\ndirection = [0, 1]\n",
+    );
+    for expected in [
+        "tool.toml:5",
+        "no damping",
+        "`direction` is zero",
+        "tool.toml:9",
+        "neither modal mass nor stiffness",
+        "tool.toml:11",
+    ] {
+        assert!(text.contains(expected), "{expected}: {text}");
+    }
+    // Lists and tables in the place of modes.
+    for modes in [
+        "mode = [1, [], \"a\"]\n",
+        "mode = 3\n",
+        "[mode]\nfrequency_hz = 1\n",
+    ] {
+        assert!(!problems(modes).is_empty(), "{modes}");
+    }
+}
+
+#[test]
 fn values_out_of_range_unknown_keys_and_no_mode_are_refused() {
     let mode = |line: &str| {
         format!(

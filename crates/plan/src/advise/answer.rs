@@ -5,6 +5,7 @@ use armill_study::answer::{LimitsAnswer, SearchAnswer, StatisticsAnswer};
 use armill_study::uncertainty_words::u_in_words;
 use serde::Serialize;
 
+use super::stability::StabilityAdvice;
 use crate::compensate::ErrorAnswer;
 use crate::place::PlacementAnswer;
 
@@ -40,8 +41,12 @@ pub struct AdviceAnswer {
     pub compensated_u_um: Option<f64>,
     /// What keeps the tolerance everywhere, of a program.
     pub limits: Option<LimitsAnswer>,
+    /// Whether these limits include the vibration of the cut and demand that it is stable.
+    pub limits_are_stable: bool,
     /// By how much all forces may grow until the tolerance is used up; below 1 they must shrink.
     pub force_factor: Option<f64>,
+    /// What makes the cut stable; none where it is reliably stable, or its stability is not known.
+    pub stability: Option<StabilityAdvice>,
     /// Whether the joint compliances are assumed, not measured.
     pub compliance_assumed: bool,
 }
@@ -132,6 +137,7 @@ impl AdviceAnswer {
             micrometres(self.compensated.max_um),
             u_in_words(self.compensated_u_um),
         ));
+        lines.extend(self.stability.iter().flat_map(StabilityAdvice::sentences));
         lines.extend(self.permitted_text());
         if self.compliance_assumed {
             lines.push(
@@ -174,13 +180,17 @@ impl AdviceAnswer {
     /// The permitted cut, or the permitted forces.
     fn permitted_text(&self) -> Option<String> {
         let limit = micrometres(self.tolerance_um);
+        let stable = match self.limits_are_stable {
+            true => ", with its vibration, and stable",
+            false => "",
+        };
         let cut = self
             .limits
             .as_ref()
             .and_then(|limits| limits.axial_depth.as_ref());
         if let Some(depth) = cut {
             return Some(format!(
-                "Without compensation, the depth of cut to be within {limit} µm everywhere is {} {:.2} mm (line {}).",
+                "Without compensation, the depth of cut to be within {limit} µm{stable} everywhere is {} {:.2} mm (line {}).",
                 depth.verdict, depth.value, depth.line
             ));
         }

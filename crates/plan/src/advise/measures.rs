@@ -47,6 +47,7 @@ pub(super) fn measures(
             changes: vec![search_of_postures()],
         });
     }
+    all.extend(spindle_speed(answer, process));
     all.extend(permitted_cut(answer, process));
     all.push(Measure {
         measure: "compensation",
@@ -75,6 +76,33 @@ fn with_gain(what: String, gain: Option<String>) -> String {
         Some(gain) => format!("{what}: {gain}"),
         None => what,
     }
+}
+
+/// Another spindle speed with the same feed per tooth, of values that the study gives.
+fn spindle_speed(answer: &AdviceAnswer, process: Option<&ProcessValues>) -> Option<Measure> {
+    let (speed, process) = (answer.stability.as_ref()?.speed.as_ref()?, process?);
+    let elsewhere = &process.given_elsewhere;
+    if elsewhere.spindle.is_some() || elsewhere.feed.is_some() {
+        return None;
+    }
+    let change = |key: &str, value: f64| ChangedValue {
+        key: format!("{}.{key}", process.key),
+        value: decimals(value * speed.times, 1).into(),
+        whole: process.whole,
+    };
+    let [after, before] = speed.stable_depth_mm;
+    Some(Measure {
+        measure: "spindle",
+        sentence: format!(
+            "Use a spindle speed of {:.0} rpm with the same feed per tooth: the least stable depth rises from {before:.3} to {after:.3} mm",
+            speed.spindle_rpm
+        ),
+        analysis: Some(answer.analysis.clone()),
+        changes: vec![
+            change("spindle_rpm", process.spindle_rpm?),
+            change("feed_mm_per_min", process.feed_mm_per_min?),
+        ],
+    })
 }
 
 /// The greatest depths and feed without compensation, of values that the study gives.

@@ -7,15 +7,17 @@
 //! A step is used only if it improves the path by more than its uncertainty. The resulting study is run and written as
 //! any other; its file, the path to command and the numbers of the steps are left for use ([`AdvisedFiles`]).
 //!
-//! `answer`: values and sentences; `measures`: those that can be applied one by one; `advised`: the files.
+//! `answer`: values and sentences; `stability`: speed and depth of a cut that chatters; `measures`: those that can be applied one by one; `advised`: the files.
 
 mod advised;
 mod answer;
 mod measures;
+mod stability;
 
 pub use advised::AdvisedFiles;
 pub use answer::{AdviceAnswer, StepAnswer, StretchAnswer};
 pub use measures::search_of_postures;
+pub use stability::{SpeedAdvice, StabilityAdvice};
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -170,6 +172,14 @@ pub fn advise(
         turns: searched.filter(|_| turns),
         compensated,
         compensated_u_um: path.worst.and_then(|worst| worst.in_plane_u_um),
+        stability: StabilityAdvice::of(
+            &advised.robot.robot,
+            analysis,
+            of_path,
+            done.first().and_then(|done| done.vibration.first()),
+            path.vibration.as_ref(),
+        ),
+        limits_are_stable: analysis.setting.vibration.is_some(),
         limits: path.limits,
         compliance_assumed: study.compliance_is_assumed(),
     };

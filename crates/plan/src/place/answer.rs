@@ -80,8 +80,15 @@ pub struct OutcomeAnswer {
     pub cost_u_um: Option<f64>,
     /// Probability that it is above the tolerance, if it is not certain.
     pub probability_above_tolerance: Option<f64>,
-    /// Points that the robot does not reach inside its limits, away from singularities and with the demanded clearance.
+    /// Points that the robot does not reach inside its limits, away from singularities and with the demanded clearance, and points whose cut
+    /// is not stable, if it must be.
     pub unreachable_points: usize,
+    /// Points whose cut is not stable; none without `[vibration]` and a cut, and where the path cannot be followed.
+    pub unstable_points: Option<usize>,
+    /// Stable depth at the point whose cut is nearest to its limit; none as above, and if it is deeper than what was sought.
+    pub stable_depth_mm: Option<f64>,
+    /// Programmed depth there.
+    pub depth_mm: Option<f64>,
     /// Of these the points where two bodies are nearer than demanded.
     pub in_collision: usize,
     /// The least distance of two bodies at these points; 0 where they touch, none without such points.
@@ -111,12 +118,16 @@ impl OutcomeAnswer {
         let (evaluated, cell) = (&outcome.evaluation, setting.cell.as_ref());
         let PlacementEvaluation { score, uncertainty } = evaluated;
         let conflicts = cell.zip(outcome.conflicts);
+        let worst = outcome.stability.and_then(|stability| stability.worst);
         let cost = if score.cost.is_finite() { score.cost } else { 0.0 };
         OutcomeAnswer {
             cost_um: to_um(cost),
             cost_u_um: uncertainty.map(to_um),
             probability_above_tolerance: evaluated.probability_above(setting.tolerance),
             unreachable_points: score.unreachable,
+            unstable_points: outcome.stability.map(|stability| stability.unstable),
+            stable_depth_mm: worst.and_then(|cut| cut.limit).map(|limit| to_mm(limit.depth)),
+            depth_mm: worst.map(|cut| to_mm(cut.depth)),
             in_collision: conflicts.map_or(0, |(_, conflicts)| conflicts.points),
             least_clearance_mm: conflicts.map(|(_, conflicts)| without_rounding(to_mm(conflicts.distance))),
             nearest: conflicts
@@ -166,8 +177,9 @@ impl PlacementAnswer {
             lost => format!(
                 "{}: no placement was found at which all points can be reached{}; the best, {}, has no permitted posture at {lost} of {} points{}{}.",
                 self.analysis,
-                match self.recommended.in_collision {
-                    0 => "",
+                match (self.recommended.in_collision, self.recommended.unstable_points) {
+                    (0, None | Some(0)) => "",
+                    (0, Some(_)) => " with a stable cut",
                     _ => " with the demanded clearance",
                 },
                 self.place_in_words(),
@@ -179,6 +191,7 @@ impl PlacementAnswer {
         if self.recommended.unreachable_points == 0 && self.nominal.unreachable_points == 0 {
             lines.push(self.gain_in_words());
         }
+        lines.extend(self.stability_in_words());
         if self.tool_turns_with_part {
             lines.push(
                 "The tool turns with the part; in a study use spin = \"along-feed\", otherwise column turn_deg of the table has its spin.".to_owned(),
@@ -239,6 +252,24 @@ impl PlacementAnswer {
             }
         });
         lines
+    }
+
+    /// The stable depth at both placements; none where it was not evaluated.
+    fn stability_in_words(&self) -> Option<String> {
+        let of = |outcome: &OutcomeAnswer| {
+            let unstable = outcome.unstable_points?;
+            let limit = match (outcome.stable_depth_mm, outcome.depth_mm) {
+                (Some(limit), Some(depth)) => format!("{limit:.3} mm (programmed {depth:.3} mm)"),
+                _ => "deeper than what was sought".to_owned(),
+            };
+            Some(match unstable {
+                0 => limit,
+                count => format!("{limit}: unstable at {count} of {} points", self.points),
+            })
+        };
+        let nominal = of(&self.nominal).unwrap_or_else(|| "not known".to_owned());
+        let recommended = of(&self.recommended)?;
+        Some(format!("Least stable depth: {recommended}; nominal: {nominal}."))
     }
 
     /// What is in the way at a placement, if anything is: ` (40 points are too near; at the worst spindle and wall touch)`.

@@ -6,6 +6,8 @@
 //! - the clearance of arms without named branches, in the postures in which they follow the path;
 //! - the whole turns of the joints along a cut: a joint that would have to turn past its limit, less the margin, loses
 //!   the points where it does ([`FollowedPath::checked`]; part of the search itself);
+//! - the stability of the cut, if it must be stable: a point where it is not is lost. The search evaluates up to [`STABILITY_POINTS`]
+//!   points, the result all of them;
 //! - the force-deflection equilibrium of a cut ([`FollowedPath::outcome`]): numbers of the result are those of an
 //!   analysis of the path there.
 //!
@@ -24,6 +26,10 @@ use armill_core::path::{LoadedTrack, Track};
 use armill_core::robot::{BranchPattern, Unreachable};
 use armill_core::spatial::Wrench;
 use armill_core::watch::{Cancelled, Watch};
+use armill_study::analysis::path::PathAnalysis;
+use armill_study::analysis::path::vibration::{cuts, stability};
+use armill_study::analysis::vibration::Cuts;
+use armill_study::analysis::vibration::points::CutStability;
 
 use super::rail::home_at;
 
@@ -31,6 +37,9 @@ use super::rail::home_at;
 const FAR: f64 = 0.5;
 /// Between points that are so close, the turn of a joint is known, rad.
 const CLOSE: f64 = 1.0;
+
+/// Points of the path at which a search evaluates the stability of the cut.
+const STABILITY_POINTS: usize = 32;
 
 /// Places that are rounded as in a result are nearer to bodies by less than this, m: 0.05 µm, and 0.00005 deg at 5 m.
 const ROUNDED: f64 = 5e-6;
@@ -60,6 +69,8 @@ pub(super) struct FollowedPath<'a> {
     pub path: LoadedTrack<'a>,
     /// Some of its points.
     pub some: Track,
+    /// Its analysis.
+    pub analysis: &'a PathAnalysis,
     pub watch: Watch<'a>,
 }
 
@@ -81,6 +92,8 @@ pub(super) struct Outcome {
     pub there: Option<PathThere>,
     /// Points without the demanded clearance, if there are any.
     pub conflicts: Option<PathConflicts>,
+    /// Stability of its cuts, if the study asks for the vibration and the path is followed.
+    pub stability: Option<CutStability>,
     /// Cost and uncertainty.
     pub evaluation: PlacementEvaluation,
 }
@@ -154,7 +167,8 @@ impl FollowedPath<'_> {
         }))
     }
 
-    /// `score` with the points that are lost because joints cannot turn as far as the path requires.
+    /// `score` with the points that are lost because joints cannot turn as far as the path requires, or because the cut must be stable and
+    /// is not.
     pub fn checked(
         &self,
         objective: &PlacementObjective,
@@ -165,6 +179,61 @@ impl FollowedPath<'_> {
         if objective.selection != PostureSelection::ForPath {
             return Ok(score);
         }
+        let score = self.turned(objective, placement, score, extent)?;
+        // What is lost already has no posture at which to look.
+        if score.unreachable > 0 || !self.analysis.setting.must_be_stable() {
+            return Ok(score);
+        }
+        Ok(Score {
+            unreachable: self.unstable(objective, placement, &score)?,
+            ..score
+        })
+    }
+
+    /// Of at most [`STABILITY_POINTS`] points those whose cut is not stable.
+    fn unstable(
+        &self,
+        objective: &PlacementObjective,
+        placement: &PartPlacement,
+        score: &Score,
+    ) -> Result<usize, Cancelled> {
+        let home = self.home(placement);
+        let question = Question {
+            cases: &[Wrench::ZERO],
+            choice: choice_of(score, objective.branches),
+            home: home.as_deref().or(self.question.home),
+            clearance: None,
+            ..*self.question
+        };
+        let track = self.path.track.moved(placement.base_from_part, placement.spin);
+        let stride = track.len().div_ceil(STABILITY_POINTS).max(1);
+        let count = track.len().div_ceil(stride);
+        let pose = |index: usize| track.stop(index * stride).base_from_tool;
+        let answers = evaluate(&question, count, pose, self.quiet())?;
+        let Some(cuts) = cuts(self.analysis, &track, self.path.load) else {
+            return Ok(0);
+        };
+        let of_some = Cuts {
+            at: Box::new(|index| (cuts.at)(index * stride)),
+            are_followed: false,
+        };
+        let found = CutStability::of(
+            self.question.arm.robot,
+            &self.analysis.setting,
+            &answers,
+            &of_some,
+        );
+        Ok(found.map_or(0, |found| found.unstable))
+    }
+
+    /// `score` with the points that are lost because joints cannot turn as far as the path requires.
+    fn turned(
+        &self,
+        objective: &PlacementObjective,
+        placement: &PartPlacement,
+        score: Score,
+        extent: Extent,
+    ) -> Result<Score, Cancelled> {
         let lost = |track: &Track| {
             let home = self.home(placement);
             let question = Question {
@@ -207,7 +276,7 @@ impl FollowedPath<'_> {
             objective,
         };
         let first = placeable(&nominal).evaluated(placement);
-        let score = self.checked(&objective, placement, first.score, Extent::All)?;
+        let score = self.turned(&objective, placement, first.score, Extent::All)?;
         let is_path = objective.selection == PostureSelection::ForPath;
         if !is_path || score.unreachable > 0 {
             return Ok(Outcome {
@@ -219,6 +288,7 @@ impl FollowedPath<'_> {
                 placement: *placement,
                 objective,
                 there: None,
+                stability: None,
                 evaluation: PlacementEvaluation {
                     score,
                     uncertainty: match score.unreachable {
@@ -241,6 +311,7 @@ impl FollowedPath<'_> {
             track: &there,
             load: &along.load,
         };
+        let stability = stability(self.question.arm.robot, self.analysis, followed, &along.answers);
         // The tool is turned by the spin of the placement already.
         let placement = PartPlacement {
             spin: 0.0,
@@ -263,7 +334,11 @@ impl FollowedPath<'_> {
             .along(objective.component, &there, &along.answers);
         // In the search joints are those of lanes: the last word has the analysis of the path there.
         let lost = along.answers.points.iter().filter(|point| point.is_err()).count();
+        let unstable = stability
+            .filter(|_| self.analysis.setting.must_be_stable())
+            .map_or(0, |stability| stability.unstable);
         Ok(Outcome {
+            stability,
             conflicts: match lost {
                 0 => None,
                 _ => self.conflicts(&objective, &placement, &score)?,
@@ -279,7 +354,7 @@ impl FollowedPath<'_> {
             evaluation: PlacementEvaluation {
                 score: Score {
                     cost,
-                    unreachable: lost,
+                    unreachable: lost + unstable,
                     ..score
                 },
                 uncertainty,

@@ -346,6 +346,20 @@ impl LeaningSearch<'_> {
     }
 }
 
+/// Refuses a cut that must be stable: searches along the path do not evaluate its stability.
+pub(super) fn check_stability(
+    analysis: &PathAnalysis,
+    search: Option<&PostureSearch>,
+) -> Result<(), StudyError> {
+    if search.is_none() || !analysis.setting.must_be_stable() {
+        return Ok(());
+    }
+    Err(StudyError::value(
+        "`vibration.must_be_stable` is not evaluated by a search in which the tool leans or external axes move",
+        "remove `lean` and `axes` from posture.search, or `must_be_stable` from [vibration]",
+    ))
+}
+
 /// The result of a placement by a search along the path there.
 pub(super) fn outcome(
     free: &FreePath<'_>,
@@ -399,6 +413,7 @@ pub(super) fn outcome(
         .objective
         .along(objective.component, &turned, &along.answers);
     Ok(Outcome {
+        stability: None,
         path: on_part(under_these, objective.component, &all),
         placement: *placement,
         objective,

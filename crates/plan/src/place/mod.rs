@@ -130,6 +130,7 @@ impl<'a> PlacementSearch<'a> {
             ));
         }
         leaning::check(&table, free_search(analysis, holes.is_some()), &study.robot.robot)?;
+        leaning::check_stability(analysis, free_search(analysis, holes.is_some()))?;
         let faults = table.faults();
         if let Some((_, _, hint)) = faults.first() {
             let messages: Vec<&str> = faults.iter().map(|(_, message, _)| message.as_str()).collect();
@@ -270,6 +271,7 @@ impl<'a> PlacementSearch<'a> {
             question: &question,
             path: LoadedTrack { track, load: &load },
             some: track.every(stride),
+            analysis: self.analysis,
             watch: quiet,
         };
         let turn = ToolTurn::of(track);

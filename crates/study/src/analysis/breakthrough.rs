@@ -21,7 +21,8 @@ use armill_core::units::{to_mm, to_um};
 use crate::analysis::holes::HolesAnalysis;
 use crate::analysis::numbers::Numbers;
 use crate::analysis::quantity::Quantity;
-use crate::analysis::vibration::{at_points, has_modes};
+use crate::analysis::vibration::arm_modes::has_modes;
+use crate::analysis::vibration::points::of_modes;
 use crate::analysis::vibration_quantity::{BREAKTHROUGH_FEED, BREAKTHROUGH_OVERSHOOT, BREAKTHROUGH_SPEED};
 
 /// Greatest speed at breakthrough over the programmed feed for which the feed need not be reduced.
@@ -40,9 +41,11 @@ pub fn columns<'a>(robot: &'a Robot, analysis: &'a HolesAnalysis) -> Vec<Numbers
         quantity,
         name: quantity.key.to_owned(),
         fill: Box::new(move |rows, points, values| {
-            values.extend(at_points(robot, rows, points, &|arm, index| {
+            let of_point = |arm: &[Mode], (): &mut (), index: usize| {
                 Breakthrough::of(arm, analysis, index).as_ref().map(value)
-            }));
+            };
+            let found = of_modes(robot, rows.setting, rows.answers, points, &of_point);
+            values.extend(found.into_iter().map(Option::flatten));
         }),
     };
     vec![

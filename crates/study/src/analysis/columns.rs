@@ -27,6 +27,7 @@ use crate::analysis::clearance::{clearance_mm, nearest_bodies};
 use crate::analysis::numbers::Numbers;
 use crate::analysis::quantity::{self, Quantity};
 use crate::analysis::rows::{MM_DECIMALS, Rows, of_points};
+use crate::analysis::vibration;
 use crate::error::StudyError;
 use crate::joint_order::{in_joint_order, joint_order};
 use crate::joint_unit::JointUnit;
@@ -123,7 +124,7 @@ pub fn numbers_of<'a>(
     let contributors = rows.setting.contributor_names(robot);
     let mut columns = found.own_columns(robot);
     columns.extend(numbers(robot, contributors, rows.answers));
-    columns.extend(found.vibration_columns(robot, rows.setting));
+    columns.extend(vibration::columns::columns(rows.vibration));
     columns
 }
 

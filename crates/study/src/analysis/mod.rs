@@ -56,6 +56,7 @@ use self::rows::Rows;
 use self::runner::Runner;
 use self::sections::Section;
 pub use self::sheet::Sheet;
+use self::vibration::{Cuts, SeriesVibration};
 use crate::error::StudyError;
 use crate::input::memory::{ExtraBytes, OF_FIELD, OF_MAP, PointMemory};
 use crate::input::setting::Setting;
@@ -91,6 +92,8 @@ pub struct AnalysisResult<'a> {
     pub name: &'a str,
     /// Its data.
     pub found: AnalysisData<'a>,
+    /// The vibration at the points of each of its series; empty if the study does not ask for it.
+    pub vibration: Vec<SeriesVibration>,
 }
 
 /// The data of one result, with the analysis they belong to.
@@ -204,10 +207,18 @@ impl Subject {
 }
 
 impl AnalysisResult<'_> {
-    /// The data of a path, without its analysis.
-    pub fn into_path(self) -> Option<Box<PathResult>> {
+    /// Every series of its points, with their vibration.
+    pub fn rows(&self) -> Vec<Rows<'_>> {
+        let numbered = self.found.rows().into_iter().enumerate();
+        numbered
+            .map(|(series, rows)| rows.with_vibration(self.vibration.get(series)))
+            .collect()
+    }
+
+    /// The data of a path, without its analysis, and its vibration.
+    pub fn into_path(self) -> Option<(Box<PathResult>, Vec<SeriesVibration>)> {
         match self.found {
-            AnalysisData::Path(_, found) => Some(found),
+            AnalysisData::Path(_, found) => Some((found, self.vibration)),
             AnalysisData::Map(..)
             | AnalysisData::Sections(_)
             | AnalysisData::Volume(..)
@@ -241,20 +252,35 @@ impl AnalysisData<'_> {
         }
     }
 
+    /// The vibration at the points of each of its series; empty if the study does not ask for it.
+    pub fn vibration(&self, robot: &Robot) -> Vec<SeriesVibration> {
+        let of = |rows: &Rows<'_>| {
+            let cuts = match self {
+                AnalysisData::Path(analysis, found) => {
+                    path::vibration::cuts(analysis, &analysis.track, &found.along.load)
+                }
+                _ => on_plane(rows.setting),
+            };
+            SeriesVibration::of(robot, rows.setting, rows.answers, cuts.as_ref())
+        };
+        self.rows().iter().filter_map(of).collect()
+    }
+
     /// The columns that only its kind has.
     pub fn own_columns<'a>(&'a self, robot: &'a Robot) -> Vec<Numbers<'a>> {
         match self {
-            AnalysisData::Path(analysis, found) => path::columns::columns(robot, analysis, found),
+            AnalysisData::Path(analysis, found) => path::columns::columns(analysis, found),
             AnalysisData::Holes(analysis, found) => holes::columns::columns(robot, analysis, found),
             AnalysisData::Map(..) | AnalysisData::Sections(_) | AnalysisData::Volume(..) => Vec::new(),
         }
     }
+}
 
-    /// Columns of the vibration of points on a plane, in a box or in a hole; those of a path are its own.
-    pub fn vibration_columns<'a>(&self, robot: &'a Robot, setting: &Setting) -> Vec<Numbers<'a>> {
-        match self {
-            AnalysisData::Path(..) => Vec::new(),
-            _ => vibration::columns_on_plane(robot, setting),
-        }
-    }
+/// The cut of the study at every point of a map or volume, if it has one.
+fn on_plane(setting: &Setting) -> Option<Cuts<'static>> {
+    let cut = setting.vibration.as_ref()?.on_plane?;
+    Some(Cuts {
+        at: Box::new(move |_| Some(cut)),
+        are_followed: false,
+    })
 }

@@ -372,7 +372,7 @@ pub const HOLE_Y: Quantity = deviation(
 pub const DEPTH: Quantity = deviation("depth_um", "deviation out of the part: too shallow", IN_HOLE);
 
 /// All quantities, in the order of the tables: of a path, of holes, of every analysis.
-pub const ALL: [&Quantity; 44] = [
+pub const ALL: [&Quantity; 46] = [
     &LINE,
     &DISTANCE,
     &FEED,
@@ -415,6 +415,8 @@ pub const ALL: [&Quantity; 44] = [
     &JOINT_MM,
     &vibration_quantity::LOWEST_MODE,
     &vibration_quantity::STABLE_DEPTH,
+    &vibration_quantity::AMPLITUDE,
+    &vibration_quantity::SURFACE_ERROR,
     &SHARE,
     &OF_CASE,
 ];

@@ -40,7 +40,7 @@ use crate::input::quantities::{grid, load_cases, plane_at, pose_mm_deg};
 use crate::input::setting::Setting;
 use crate::input::stiffness;
 use crate::input::tables::{LoadFrameName, PlaneTable, PostureTable, ToolTable};
-use crate::input::vibration::{CutOnPlane, VibrationSetting, VibrationTable, modes_of};
+use crate::input::vibration::{CutAtPoint, VibrationSetting, VibrationTable, modes_of};
 use crate::naming::usual_reference;
 
 /// The plane of the study with the changes of the analysis.
@@ -63,7 +63,7 @@ fn cut_on_plane(
     table: &CutTable,
     plane: &Plane,
     feed_deg: f64,
-) -> Option<CutOnPlane> {
+) -> Option<CutAtPoint> {
     let cut = cut::resolve(log, table)?;
     let (Some(spindle), Some(feed)) = (cut.cutting.spindle, cut.cutting.feed) else {
         let message = "the stable depth at a point of a map needs the spindle speed and the feed of the cut";
@@ -78,7 +78,7 @@ fn cut_on_plane(
     let along = Vector3::new(-cos, sin, 0.0);
     let axes = Matrix3::from_columns(&[along, Vector3::z().cross(&along), Vector3::z()]);
     let part_from_feed = Rotation3::from_matrix_unchecked(axes);
-    Some(CutOnPlane {
+    Some(CutAtPoint {
         milling: milling.ok()?,
         spindle,
         base_from_feed: plane.base_from_part.rotation.to_rotation_matrix() * part_from_feed,
@@ -328,7 +328,10 @@ impl Resolver<'_> {
         if let Some(ratio) = table.damping_ratio {
             model.structure.damping = Some(Damping::Ratio(ratio));
         }
-        let mut found = VibrationSetting::default();
+        let mut found = VibrationSetting {
+            must_be_stable: table.must_be_stable.unwrap_or(false),
+            ..VibrationSetting::default()
+        };
         if let Some(file) = &table.tool_modes {
             match modes_of(&self.folder.join(file)) {
                 Ok(data) => {
@@ -341,8 +344,7 @@ impl Resolver<'_> {
                 }
             }
         }
-        let structure = &model.structure;
-        if found.tool_modes.is_empty() && structure.masses.is_empty() && structure.motors.is_empty() {
+        if found.tool_modes.is_empty() && !model.structure.has_inertia() {
             let message =
                 "nothing vibrates: neither robot nor tool has a mass, and there are no modes of the tool";
             let hint = "add [[mass]] to the robot file, or tool_modes = \"modes.toml\" here";

@@ -12,6 +12,7 @@ use armill_core::nalgebra::Point3;
 use armill_core::path::Track;
 use armill_core::units::to_mm;
 
+use crate::analysis::vibration::points::SeriesVibration;
 use crate::input::setting::Setting;
 use crate::number::decimals;
 
@@ -30,6 +31,8 @@ pub struct Rows<'a> {
     pub at_mm: Vec<[f64; 3]>,
     /// How they are arranged.
     pub layout: Layout,
+    /// Their vibration, if the study asks for it.
+    pub vibration: Option<&'a SeriesVibration>,
 }
 
 /// How the points of a series are arranged.
@@ -79,7 +82,13 @@ impl<'a> Rows<'a> {
             answers,
             at_mm: points.map(mm).collect(),
             layout,
+            vibration: None,
         }
+    }
+
+    /// The same with the vibration of its points.
+    pub fn with_vibration(self, vibration: Option<&'a SeriesVibration>) -> Rows<'a> {
+        Rows { vibration, ..self }
     }
 
     /// The points of a plane.

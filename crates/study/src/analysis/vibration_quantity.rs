@@ -20,7 +20,7 @@ pub const STABLE_DEPTH: Quantity = Quantity {
     key: "stable_depth_mm",
     unit: Some("mm"),
     decimals: 4,
-    words: "depth of cut up to which the cut is stable at the programmed spindle speed; twice the diameter of the cutter where it is deeper",
+    words: "depth of cut up to which the cut is stable at the programmed spindle speed; twice the diameter of the cutter or three times the depth, the greater, where it is deeper",
     origin: Some(Origin {
         file: "core/src/stability/lobes.rs",
         function: "StabilityLobes::at_speed",
@@ -28,6 +28,35 @@ pub const STABLE_DEPTH: Quantity = Quantity {
         validation: Some("stability-lobes"),
     }),
 };
+
+/// A value of the vibration under the teeth.
+const fn forced(key: &'static str, words: &'static str, function: &'static str) -> Quantity {
+    Quantity {
+        key,
+        unit: Some("um"),
+        decimals: 3,
+        words,
+        origin: Some(Origin {
+            file: "core/src/stability/forced.rs",
+            function,
+            theory: Some("stability"),
+            validation: None,
+        }),
+    }
+}
+
+/// Vibration across the tool.
+pub const AMPLITUDE: Quantity = forced(
+    "vibration_amplitude_um",
+    "largest distance across the tool of the tip from its mean position, by the force of the teeth in a stable cut",
+    "Forced::largest_in_plane",
+);
+/// Error of a wall.
+pub const SURFACE_ERROR: Quantity = forced(
+    "surface_error_vibration_um",
+    "error of the wall by this vibration, the largest over the depth by size, positive where the wall is deeper in the part; without the mean deflection",
+    "Forced::surface_error",
+);
 
 /// The release of the thrust of a drill.
 const RELEASE: Origin = Origin {

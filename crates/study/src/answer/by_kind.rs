@@ -5,8 +5,11 @@ use rayon::prelude::*;
 use crate::analysis;
 use crate::analysis::holes::answer::HolesAnswer;
 use crate::analysis::map::answer::MapAnswer;
+use crate::analysis::path::PathSource;
 use crate::analysis::path::answer::PathAnswer;
+use crate::analysis::path::vibration::engagement;
 use crate::analysis::sections::Section;
+use crate::analysis::vibration::VibrationAnswer;
 use crate::analysis::volume::answer::VolumeAnswer;
 use crate::analysis::{AnalysisData, AnalysisResult};
 use crate::file::resolve::Study;
@@ -38,19 +41,21 @@ impl AnalysisAnswers {
                 done.name,
                 &sheet.setting,
                 map,
+                vibration(done, 0),
             )]),
             AnalysisData::Sections(sections) => {
-                let section = |section: &Section<'_>| {
+                let section = |(index, section): (usize, &Section<'_>)| {
                     let name = format!("{}: {}", done.name, section.label);
-                    analysis::map::answer::answer(robot, &name, &section.sheet.setting, &section.map)
+                    let (setting, vibration) = (&section.sheet.setting, vibration(done, index));
+                    analysis::map::answer::answer(robot, &name, setting, &section.map, vibration)
                 };
-                AnswerKind::Maps(sections.par_iter().map(section).collect())
+                AnswerKind::Maps(sections.par_iter().enumerate().map(section).collect())
             }
             AnalysisData::Volume(setting, volume) => AnswerKind::Volume(Box::new(
-                analysis::volume::answer::answer(robot, done.name, setting, volume),
+                analysis::volume::answer::answer(robot, done.name, setting, volume, vibration(done, 0)),
             )),
             AnalysisData::Path(analysis, found) => AnswerKind::Path(Box::new(
-                analysis::path::answer::answer(robot, done.name, analysis, found),
+                analysis::path::answer::answer(robot, done.name, analysis, found, vibration(done, 0)),
             )),
             AnalysisData::Holes(analysis, found) => AnswerKind::Holes(Box::new(
                 analysis::holes::answer::answer(robot, done.name, analysis, found),
@@ -67,5 +72,19 @@ impl AnalysisAnswers {
             }
         }
         answers
+    }
+}
+
+/// The summary of the vibration of one series of a result.
+fn vibration(done: &AnalysisResult<'_>, series: usize) -> Option<VibrationAnswer> {
+    done.vibration.get(series)?;
+    let rows = done.rows();
+    match &done.found {
+        AnalysisData::Path(path, _) => {
+            let is_program = matches!(path.source, PathSource::Program { .. });
+            let line = |index: usize| is_program.then(|| path.track.path.points[index].line);
+            VibrationAnswer::of(rows.get(series)?, engagement(path), &line)
+        }
+        _ => VibrationAnswer::of(rows.get(series)?, "cut", &|_| None),
     }
 }

@@ -45,6 +45,7 @@ use serde::Serialize;
 
 use crate::analysis;
 use crate::analysis::path::{Cut, PathAnalysis};
+use crate::analysis::vibration::VibrationAnswer;
 use crate::analysis::{AnalysisResult, Subject};
 use crate::answer::by_kind::AnalysisAnswers;
 use crate::budget::{self, BudgetAnswer};
@@ -312,6 +313,15 @@ fn warnings(study: &Study, answers: &AnalysisAnswers) -> Vec<String> {
     }
     warnings.extend(answers.paths.iter().flat_map(analysis::path::warnings::warnings));
     warnings.extend(answers.holes.iter().flat_map(analysis::holes::warnings::warnings));
+    let of_maps = answers.maps.iter().map(|map| (&map.name, &map.vibration));
+    let of_volumes = answers
+        .volumes
+        .iter()
+        .map(|volume| (&volume.name, &volume.vibration));
+    let of_paths = answers.paths.iter().map(|path| (&path.name, &path.vibration));
+    for (name, vibration) in of_maps.chain(of_volumes).chain(of_paths) {
+        warnings.extend(vibration.as_ref().and_then(|vibration| vibration.warning(name)));
+    }
     for analysis in &study.analyses {
         if let Subject::Path(path) = &analysis.subject {
             let uncertain = path.measured.as_ref().and_then(|measured| measured.warning());
@@ -372,7 +382,7 @@ fn lost_points(name: &str, counts: &CountsAnswer) -> Option<String> {
 impl StudyAnswer {
     /// Whether every point of every map, path, box and set of holes is within the tolerance.
     ///
-    /// A point that is not reached, or only outside joint limits, is not.
+    /// A point that is not reached, or only outside joint limits, is not. A cut that must be stable is.
     pub fn meets_tolerance(&self) -> bool {
         let maps = self
             .maps
@@ -392,5 +402,29 @@ impl StudyAnswer {
             .chain(volumes)
             .chain(holes)
             .all(|fraction| fraction == 1.0)
+            && self.is_stable_as_demanded()
+    }
+
+    /// Whether every cut that must be stable is.
+    fn is_stable_as_demanded(&self) -> bool {
+        self.vibrations()
+            .iter()
+            .all(|(_, vibration)| vibration.meets_demand())
+    }
+
+    /// The vibration of each analysis that has it, by name.
+    pub fn vibrations(&self) -> Vec<(&str, &VibrationAnswer)> {
+        let maps = self.maps.iter().map(|map| (map.name.as_str(), &map.vibration));
+        let volumes = self
+            .volumes
+            .iter()
+            .map(|volume| (volume.name.as_str(), &volume.vibration));
+        let paths = self
+            .paths
+            .iter()
+            .map(|path| (path.name.as_str(), &path.vibration));
+        let all = maps.chain(volumes).chain(paths);
+        all.filter_map(|(name, vibration)| Some((name, vibration.as_ref()?)))
+            .collect()
     }
 }

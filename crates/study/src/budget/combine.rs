@@ -3,6 +3,7 @@
 //! | contribution | origin | bias | scatter of one cut |
 //! |---|---|---|---|
 //! | deviation under load | load | effect of the load: its mean force, or the mean of the given cases | between these cases |
+//! | vibration under the teeth | load | with `[vibration]` and a cut with one wall: error of the wall, without its mean; u from the modes | - |
 //! | predicted | unloaded | without a ball-bar: gravity, backlash and geometry of the study | - |
 //! | rounded corners, joints that follow late | unloaded | without a ball-bar: the motion of the study; u from the lag | - |
 //! | both directions | unloaded | mean of clockwise and anticlockwise runs | - |
@@ -105,6 +106,7 @@ pub fn combine(
         load,
         without,
         motion,
+        vibration,
         uncertainties,
     } = parts(study, path, found, biased, watch)?;
     let cases: Vec<Vec<f64>> = load.iter().map(|case| turn.of_even(case)).collect();
@@ -118,6 +120,14 @@ pub fn combine(
         u: uncertainty(&uncertainties, &turn, experiment),
         ..under_load(&cases[..biased])
     }];
+    contributions.extend(vibration.map(|(outward, changes)| Contribution {
+        origin: Origin::Load,
+        ..of_unloaded(
+            "vibration under the teeth",
+            turn.of_even(&outward),
+            uncertainty(&changes, &turn, experiment),
+        )
+    }));
     let (mut has_cut_way, mut both_ways) = (None, false);
     let (mut without_load, mut measured_scatter) = (None, None);
     if let Some(test) = test {

@@ -4,11 +4,14 @@
 use armill_core::map::{WithoutLoad, radial_motion, radial_uncertainties, radial_without_load};
 use armill_core::nalgebra::Point2;
 use armill_core::path::{Shape, Track};
+use armill_core::stability::WallSide;
 use armill_core::watch::Watch;
 
 use crate::analysis::path::PathAnalysis;
 use crate::analysis::path::run::PathResult;
+use crate::analysis::path::vibration::cuts;
 use crate::analysis::runner::Runner;
+use crate::analysis::vibration::wall::WallErrors;
 use crate::error::StudyError;
 use crate::file::resolve::Study;
 
@@ -21,6 +24,9 @@ pub struct DeviationParts {
     pub without: Option<WithoutLoad>,
     /// Rounded corners, and joints that follow late; none if no motion was requested.
     pub motion: Option<[Vec<f64>; 2]>,
+    /// The wall by the vibration under the teeth, and its change by each uncertain parameter of the modes; none without `[vibration]` and a
+    /// cut with one wall.
+    pub vibration: Option<(Vec<f64>, Vec<Vec<f64>>)>,
     /// Change of the mean of the cases of the bias by each independent unknown.
     pub uncertainties: Vec<Vec<f64>>,
 }
@@ -60,7 +66,23 @@ pub fn parts(
             .map(|(index, all)| all - at(index))
             .collect()
     };
+    let cuts = cuts(path, track, &found.along.load);
+    let walls =
+        cuts.and_then(|cuts| WallErrors::of(&study.robot.robot, &path.setting, &found.along.answers, &cuts));
+    let vibration = walls.map(|walls| {
+        // The circle turns to the left: the part on the right of the feed is outside.
+        let sign = match walls.side {
+            WallSide::Right => 1.0,
+            WallSide::Left => -1.0,
+        };
+        let outwards = |errors: Vec<f64>| errors.into_iter().map(|error| sign * error).collect();
+        (
+            outwards(walls.errors),
+            walls.changes.into_iter().map(outwards).collect(),
+        )
+    });
     Ok(DeviationParts {
+        vibration,
         load: found.radial.iter().map(|case| of_load(&case.outward)).collect(),
         uncertainties: radial_uncertainties(&question, track, &found.along, centre, biased),
         without,

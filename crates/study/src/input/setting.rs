@@ -63,6 +63,13 @@ pub struct Setting {
 }
 
 impl Setting {
+    /// Whether the cut must be stable.
+    pub fn must_be_stable(&self) -> bool {
+        self.vibration
+            .as_ref()
+            .is_some_and(|vibration| vibration.must_be_stable)
+    }
+
     /// The names of the contributors to a deviation: the joints, the others of the model, those of the motion.
     pub fn contributor_names(&self, robot: &Robot) -> Vec<String> {
         contributor_names(robot, &self.model, self.motion.is_some())

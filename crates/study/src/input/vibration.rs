@@ -24,6 +24,9 @@ pub struct VibrationTable {
     /// Maps and volumes, with the cut of the study: direction of the feed on the plane, from its y' towards z'; 0 if left out.
     #[schemars(range(min = -360.0, max = 360.0))]
     pub feed_deg: Option<f64>,
+    /// Whether the cut must be stable, as a demanded clearance must be kept: placements and searches for postures avoid points where it is
+    /// not, and the tolerance is not met there.
+    pub must_be_stable: Option<bool>,
 }
 
 /// What is asked of the vibration at each point, SI.
@@ -34,18 +37,36 @@ pub struct VibrationSetting {
     /// What they are and where they come from.
     pub tool_modes_from: Option<String>,
     /// The cut at every point of a map or volume, if its stable depth is asked for.
-    pub on_plane: Option<CutOnPlane>,
+    pub on_plane: Option<CutAtPoint>,
+    /// Whether the cut must be stable.
+    pub must_be_stable: bool,
 }
 
 /// A cut with one direction of the feed.
 #[derive(Clone, Copy, Debug)]
-pub struct CutOnPlane {
+pub struct CutAtPoint {
     /// The cut.
     pub milling: Milling,
     /// Spindle speed, rad/s.
     pub spindle: f64,
     /// Axes of the feed frame in base.
     pub base_from_feed: Rotation3<f64>,
+}
+
+/// Deepest limit of the depth that is sought, in diameters of the cutter and in programmed depths.
+const DEEPEST: [f64; 2] = [2.0, 3.0];
+
+impl CutAtPoint {
+    /// Deepest limit of the depth that is sought, m.
+    pub fn deepest_sought(&self) -> f64 {
+        deepest_sought(&self.milling)
+    }
+}
+
+/// Deepest limit of the depth that is sought for this cut, m.
+pub fn deepest_sought(milling: &Milling) -> f64 {
+    let [of_diameter, of_depth] = DEEPEST;
+    (of_diameter * milling.cutter().diameter()).max(of_depth * milling.cut().depth)
 }
 
 /// The modal data of this file.

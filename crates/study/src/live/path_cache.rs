@@ -10,6 +10,7 @@ use armill_core::watch::Watch;
 use armill_formats::input::Inputs;
 
 use crate::analysis::path::run::PathResult;
+use crate::analysis::vibration::SeriesVibration;
 use crate::analysis::{AnalysisData, AnalysisResult, Subject};
 use crate::error::StudyError;
 use crate::live::path_columns::column_bytes;
@@ -31,6 +32,7 @@ struct EvaluatedPath {
     inputs: Inputs,
     edited: EditedAnalysis<'static>,
     found: Box<PathResult>,
+    vibration: Vec<SeriesVibration>,
 }
 
 impl std::fmt::Debug for EvaluatedPath {
@@ -108,10 +110,12 @@ impl PathCache {
         let done = AnalysisResult {
             name: &edited.name,
             found: AnalysisData::Path(path, kept.found),
+            vibration: kept.vibration,
         };
         let given = work(&edited, &done);
-        *last = done.into_path().map(|found| EvaluatedPath {
+        *last = done.into_path().map(|(found, vibration)| EvaluatedPath {
             found,
+            vibration,
             edited: edited.in_folder(Path::new("")),
             text: kept.text,
             folder: kept.folder,
@@ -125,15 +129,16 @@ impl PathCache {
         &self,
         text: StudyText<'_>,
         edited: EditedAnalysis<'_>,
-        found: Option<Box<PathResult>>,
+        found: Option<(Box<PathResult>, Vec<SeriesVibration>)>,
         inputs: Inputs,
     ) {
-        let kept = found.map(|found| EvaluatedPath {
+        let kept = found.map(|(found, vibration)| EvaluatedPath {
             text: text.bytes.to_vec(),
             folder: text.folder.to_owned(),
             inputs,
             edited: edited.in_folder(Path::new("")),
             found,
+            vibration,
         });
         *self.last.lock().unwrap_or_else(PoisonError::into_inner) = kept;
     }

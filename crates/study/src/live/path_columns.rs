@@ -223,7 +223,7 @@ pub(super) fn path_in_view(edited: &EditedAnalysis<'_>, done: &AnalysisResult<'_
     let AnalysisData::Path(path, found) = &done.found else {
         return None;
     };
-    let rows = done.found.rows();
+    let rows = done.rows();
     let evaluated = |worst: &&crate::analysis::path::run::PointDetail| {
         worst.answers.points.first().is_some_and(Result::is_ok)
     };
@@ -273,7 +273,7 @@ pub(super) fn column_bytes(
         let message = format!("the analysis `{}` is not a path", done.name);
         return Err(StudyError::value(message, "choose an analysis of the kind path"));
     };
-    let rows = done.found.rows();
+    let rows = done.rows();
     let all = columns(edited, &done.found, &rows);
     let count = path.track.len();
     let mut bytes = Vec::new();

@@ -50,7 +50,7 @@ pub(super) fn draw(results: StudyResults<'_>) -> Vec<Picture> {
         .into_par_iter()
         .with_max_len(1)
         .flat_map_iter(|(done, maps, path, holes)| {
-            let clearance = least_clearance(done.name, &study.robot.robot, &done.found.rows());
+            let clearance = least_clearance(done.name, &study.robot.robot, &done.rows());
             pictures_of(study, done, maps, path, holes)
                 .into_iter()
                 .chain(clearance)

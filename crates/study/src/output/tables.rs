@@ -68,7 +68,7 @@ pub(super) fn files(
     csv: Csv,
     save: &Save<'_>,
 ) -> Result<(), StudyError> {
-    let series = done.found.rows();
+    let series = done.rows();
     let rows_of_table = || {
         let table = columns::table(&study.robot.robot, &analysis.name, &done.found, &series)?;
         #[cfg(feature = "parquet")]
@@ -123,7 +123,7 @@ pub(super) fn files(
 /// # Errors
 /// A table that cannot be made, which would be a fault of armill.
 pub(super) fn rows_of(study: &Study, done: &AnalysisResult<'_>) -> Result<Table, StudyError> {
-    columns::table(&study.robot.robot, done.name, &done.found, &done.found.rows())
+    columns::table(&study.robot.robot, done.name, &done.found, &done.rows())
 }
 
 /// The metadata of a Parquet file: version, study, analysis, robot.

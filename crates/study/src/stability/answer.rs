@@ -46,8 +46,8 @@ pub struct StabilityAnswer {
     pub mode_coupling_frequency_hz: Option<f64>,
     /// The mode with the largest part in it.
     pub mode_coupling_cause: Option<String>,
-    /// The lower of both limits: `regeneration` or `mode coupling`.
-    pub limited_by: Option<String>,
+    /// Which of `stable_depth_mm`, the limit of the verdict, and `mode_coupling_depth_mm` is lower: `regeneration` or `mode coupling`.
+    pub lower_limit: Option<String>,
     /// Lowest limit at any speed, beyond the range of the lobes too.
     pub critical_depth_mm: Option<f64>,
     /// Lowest limit within the range of the lobes.
@@ -145,7 +145,7 @@ pub fn answer(question: &Question, found: &Evaluation) -> StabilityAnswer {
     };
     let boundary = found.boundary.as_ref().map(|(boundary, _)| boundary);
     let zeroth = found.zeroth.as_ref().map(|zeroth| zeroth.boundary);
-    let limited_by = match (boundary, &found.mode_coupling) {
+    let lower_limit = match (boundary, &found.mode_coupling) {
         (None, None) => None,
         (Some(b), Some(coupling)) if coupling.depth < b.depth => Some("mode coupling"),
         (None, Some(_)) => Some("mode coupling"),
@@ -195,7 +195,7 @@ pub fn answer(question: &Question, found: &Evaluation) -> StabilityAnswer {
             .mode_coupling
             .map(|boundary| to_hz(boundary.angular_frequency)),
         mode_coupling_cause: found.mode_coupling.as_ref().map(name),
-        limited_by: limited_by.map(str::to_owned),
+        lower_limit: lower_limit.map(str::to_owned),
         critical_depth_mm: found.critical.map(|boundary| to_mm(boundary.depth)),
         lowest_depth_mm: lowest,
         depth_u_percent: found.zeroth.as_ref().map(|zeroth| 100.0 * zeroth.of_log_depth),
@@ -213,10 +213,7 @@ pub fn answer(question: &Question, found: &Evaluation) -> StabilityAnswer {
 /// Probability from the relative uncertainty of the zeroth-order limit about the limit of the semi-discretisation.
 fn probability(question: &Question, found: &Evaluation) -> Option<f64> {
     let (zeroth, (boundary, _)) = (found.zeroth.as_ref()?, found.boundary.as_ref()?);
-    let shifted = armill_core::stability::BoundaryUncertainty {
-        boundary: *boundary,
-        ..zeroth.clone()
-    };
+    let shifted = zeroth.clone().about(*boundary);
     (zeroth.of_log_depth > 0.0).then(|| shifted.probability_stable(question.milling.cut().depth))
 }
 

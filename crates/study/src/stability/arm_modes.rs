@@ -1,18 +1,11 @@
 //! Modes of the arm at a point of a path, in the feed frame, as modes of the cut.
 
-use armill_core::nalgebra::Rotation3;
-use armill_core::robot::Robot;
-use armill_core::source::ArmState;
-use armill_core::stability::{ModeUncertainty, NamedMode};
+use armill_core::stability::NamedMode;
 
 use crate::analysis::path::PathAnalysis;
-use crate::analysis::vibration::has_modes;
+use crate::analysis::vibration::arm_modes::{has_modes, in_feed_frame, named_modes};
 use crate::joint_order::joint_positions;
-use crate::modes::compliance_covariance;
 use crate::{Study, StudyError};
-
-/// Relative standard uncertainty of a damping ratio that is assumed.
-const ASSUMED_U: f64 = 0.5;
 
 /// A posture at a point of a path.
 #[derive(Clone, Debug)]
@@ -51,44 +44,10 @@ pub fn arm_modes(
         return Err(StudyError::value(message, "from 1"));
     }
     let q = joint_positions(robot, &posture.joints_deg)?;
-    let arm = setting.arm(robot);
-    let mut state = ArmState::new(arm);
-    state.set_joints(&q);
-    let unstable = |error: armill_core::source::Unstable| StudyError::value(error.to_string(), "");
-    let found = state.modes().map_err(unstable)?;
-    let compliances = state.tangent_compliances().map_err(unstable)?;
-    let covariance = compliance_covariance(&arm);
-    let known = arm.has_known_uncertainty();
-    let damping_u = match setting.model.structure.damping {
-        Some(_) => 0.0,
-        None => ASSUMED_U,
-    };
-    let base_from_feed: Rotation3<f64> = path.track.base_from_feed(posture.point - 1);
-    let by_masses = state.frequency_uncertainties_by_masses(&found.modes);
-    let modes = found.modes.iter().enumerate().map(|(index, mode)| {
-        let by_compliances = match known {
-            true => mode.relative_uncertainty(&compliances, &covariance),
-            false => 0.0,
-        };
-        NamedMode {
-            name: format!("arm mode {}{}", index + 1, most_of(robot, &mode.shares)),
-            mode: mode.at_tool.in_axes(&base_from_feed),
-            // The frequency follows the root of the stiffness.
-            uncertainty: ModeUncertainty {
-                frequency: by_compliances.hypot(by_masses[index]),
-                damping: damping_u,
-                stiffness: 2.0 * by_compliances,
-            },
-        }
-    });
-    Ok(modes.collect())
-}
-
-/// The joint with the largest share, in words; empty if a spring has it.
-fn most_of(robot: &Robot, shares: &[f64]) -> String {
-    let largest = shares.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
-    let of_joint = largest.and_then(|(k, share)| Some((robot.joints().get(k)?, share)));
-    of_joint.map_or_else(String::new, |(joint, share)| {
-        format!(" ({:.0} % {})", 100.0 * share, joint.name)
-    })
+    let modes =
+        named_modes(setting.arm(robot), &q).map_err(|error| StudyError::value(error.to_string(), ""))?;
+    Ok(in_feed_frame(
+        modes,
+        &path.track.base_from_feed(posture.point - 1),
+    ))
 }

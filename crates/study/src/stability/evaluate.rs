@@ -54,26 +54,9 @@ pub fn evaluate(question: &Question) -> Result<Evaluation, StudyError> {
         programmed: discretisation::floquet(&bare, &question.milling, spindle, PeriodSteps::ByFastestMode),
         critical: lobes.critical(),
         mode_coupling: lobes.mode_coupling(),
-        walls: walls(question)
-            .into_iter()
+        walls: WallSide::of(&question.milling)
             .map(|side| forced.surface_error(side))
             .collect(),
         forced,
     })
-}
-
-/// The walls along the feed that the cut leaves.
-fn walls(question: &Question) -> Vec<WallSide> {
-    let engagement = question.milling.cut().engagement;
-    let radius = question.milling.cutter().radius();
-    let [right, left] = engagement.edges();
-    let reached = [
-        (left >= radius, WallSide::Left),
-        (right <= -radius, WallSide::Right),
-    ];
-    reached
-        .into_iter()
-        .filter(|(is_reached, _)| *is_reached)
-        .map(|(_, side)| side)
-        .collect()
 }

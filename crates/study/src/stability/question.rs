@@ -6,6 +6,8 @@ use armill_core::units::from_mm;
 use armill_formats::modal::ModalData;
 
 use super::arm_modes::{ArmPosture, arm_modes};
+use crate::analysis::path::Cut;
+use crate::input::vibration::deepest_sought;
 use crate::{Study, StudyError};
 
 /// Options in place of values of the study; SI.
@@ -46,8 +48,27 @@ pub struct Question {
 
 /// Lowest and highest speed of the lobes over the programmed one.
 const SPEEDS: [f64; 2] = [0.5, 2.0];
-/// Deepest limit sought in diameters, and in programmed depths.
-const DEEPEST: [f64; 2] = [2.0, 3.0];
+
+/// Modes at the tip, and where they come from.
+#[derive(Clone, Debug, Default)]
+pub struct GivenModes {
+    modes: Vec<NamedMode>,
+    from: Vec<String>,
+    remarks: Vec<String>,
+}
+
+impl GivenModes {
+    /// With those of this file, if there is one.
+    #[must_use]
+    pub fn and(mut self, data: Option<ModalData>) -> GivenModes {
+        if let Some(data) = data {
+            self.from.push(format!("{} ({})", data.name, data.source));
+            self.modes.extend(data.modes);
+            self.remarks.extend(data.note);
+        }
+        self
+    }
+}
 
 impl Question {
     /// The cut of the path called `name`, or of the first path that has one, with these modes and those of the arm in a posture.
@@ -75,9 +96,29 @@ impl Question {
                 ),
             });
         };
+        let mut given = GivenModes::default();
+        if let Some(posture) = posture {
+            given.modes.extend(arm_modes(study, analysis, posture)?);
+            given
+                .from
+                .push(format!("{} in the given posture", study.robot.robot.name()));
+        }
+        Question::of_cut(path, cut, given.and(data), options)
+    }
+
+    /// A cut called `name`, with these modes.
+    ///
+    /// # Errors
+    /// No modes; a spindle speed or feed that neither the cut nor an option gives; values outside what can be cut.
+    pub fn of_cut(
+        name: &str,
+        cut: &Cut,
+        given: GivenModes,
+        options: &Options,
+    ) -> Result<Question, StudyError> {
         let missing = |what: &str, option: &str, key: &str| {
             StudyError::value(
-                format!("the {what} of the cut of `{path}` is not known"),
+                format!("the {what} of the cut of `{name}` is not known"),
                 format!("give {option}, or `{key}` in [cut]"),
             )
         };
@@ -89,37 +130,22 @@ impl Question {
             .feed
             .or(cut.cutting.feed)
             .ok_or_else(|| missing("feed", "--feed-mm-per-min", "feed_mm_per_min"))?;
-        let milling = cut.milling([spindle, feed], options.depth).map_err(of_cut)?;
-        let depth = milling.cut().depth;
-        let diameter = cut.cutting.cutter.diameter();
-        let sought = (DEEPEST[0] * diameter).max(DEEPEST[1] * depth);
-        let mut remarks = cut.remarks.clone();
-        let mut modes = Vec::new();
-        let mut from = Vec::new();
-        if let Some(posture) = posture {
-            modes.extend(arm_modes(study, analysis, posture)?);
-            from.push(format!("{} in the given posture", study.robot.robot.name()));
-        }
-        if let Some(data) = data {
-            remarks.extend(data.note);
-            modes.extend(data.modes);
-            from.push(format!("{} ({})", data.name, data.source));
-        }
-        if modes.is_empty() {
+        if given.modes.is_empty() {
             return Err(StudyError::value(
                 "no modes are given",
                 "give --modes FILE with modal data of the tool, or --joints-deg for those of an arm with masses",
             ));
         }
+        let milling = cut.milling([spindle, feed], options.depth).map_err(of_cut)?;
         Ok(Question {
-            path: path.to_owned(),
-            milling,
+            path: name.to_owned(),
             spindle,
             speeds: options.speeds.unwrap_or(SPEEDS.map(|part| part * spindle)),
-            deepest: options.deepest.unwrap_or(sought),
-            modes,
-            modes_from: from.join(", "),
-            remarks,
+            deepest: options.deepest.unwrap_or_else(|| deepest_sought(&milling)),
+            milling,
+            modes: given.modes,
+            modes_from: given.from.join(", "),
+            remarks: cut.remarks.iter().cloned().chain(given.remarks).collect(),
         })
     }
 }

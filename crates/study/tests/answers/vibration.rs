@@ -8,11 +8,14 @@ use armill_core::nalgebra::{Matrix3, Matrix6, Rotation3, Vector3, Vector6};
 use armill_core::stability::{CutOfAnyDepth, StabilityLobes};
 use armill_core::units::from_deg;
 use armill_core::watch::Watch;
-use armill_study::analysis::Subject;
+use armill_study::analysis::{AnalysisData, Subject};
+use armill_study::answer::{StudyAnswer, answer};
 use armill_study::file::resolve::read;
+use armill_study::joint_order::shown_positions;
 use armill_study::live::{StudyText, table_csv};
+use armill_study::stability::{self, ArmPosture, Options, Question, evaluate};
 
-use crate::{PLATE, study};
+use crate::{PLATE, answered, found, study};
 
 /// All mass of the arm in one point, at the tip.
 const MASS_KG: f64 = 40.0;
@@ -190,4 +193,141 @@ fn what_cannot_vibrate_or_be_read_is_reported_at_its_key() {
     let still = refused(&format!("{AT_THE_TIP}[vibration]\n{still}"));
     assert!(still.contains("needs the spindle speed and the feed"), "{still}");
     assert!(refused(&format!("{AT_THE_TIP}[vibration]\ndamping_ratio = 2\n")).contains("damping_ratio"));
+}
+
+const RECTANGLE: &str =
+    "[[analysis]]\nkind = \"path\"\nname = \"s\"\nrectangle = { size_mm = [120, 80] }\nstep_mm = 20\n";
+
+#[test]
+fn the_summary_of_a_map_has_the_least_of_its_column_and_where_it_is() {
+    let study = study(&format!(
+        "{PLATE}{AT_THE_TIP}[vibration]\ndamping_ratio = 0.02\nfeed_deg = 30\n{CUT}"
+    ));
+    let done = found(&study);
+    let answer = answer(&study, &done);
+    let summary = answer.maps[0].vibration.as_ref().unwrap();
+    let cut = summary.cut.as_ref().unwrap();
+    let [rows] = &done[0].rows()[..] else {
+        panic!("a map")
+    };
+    let points = &rows.vibration.unwrap().points;
+    let with_cut = || {
+        points
+            .iter()
+            .enumerate()
+            .filter_map(|(k, point)| Some((k, point.as_ref()?.cut?)))
+    };
+    let (at, least) = with_cut()
+        .min_by(|a, b| a.1.stable_depth().total_cmp(&b.1.stable_depth()))
+        .unwrap();
+    assert!((cut.stable_depth_mm.unwrap() / (least.stable_depth() * 1e3) - 1.0).abs() < 1e-9);
+    assert_eq!(cut.at_mm, rows.at_mm[at]);
+    assert_eq!((cut.points, cut.depth_mm), (with_cut().count(), 1.0));
+    assert!((cut.spindle_rpm - 9000.0).abs() < 1e-9);
+    assert_eq!(cut.engagement, "cut");
+    let hz: Vec<f64> = points
+        .iter()
+        .flatten()
+        .map(|point| point.lowest.unwrap() / std::f64::consts::TAU)
+        .collect();
+    let [low, high] = summary.lowest_mode_hz.unwrap();
+    assert_eq!(low, hz.iter().copied().fold(f64::INFINITY, f64::min));
+    assert_eq!(high, hz.iter().copied().fold(0.0, f64::max));
+    assert!(answer.answer.contains(&cut.verdict), "{}", answer.answer);
+}
+
+#[test]
+fn the_summary_of_a_path_is_that_of_the_stability_command_in_the_same_posture() {
+    let text = format!("{PLATE}{AT_THE_TIP}{CUT}[vibration]\n{RECTANGLE}");
+    let study = study(&text);
+    let done = found(&study);
+    let answer = answer(&study, &done);
+    let cut = answer.paths[0].vibration.as_ref().unwrap().cut.as_ref().unwrap();
+    let AnalysisData::Path(_, path) = &done[0].found else {
+        panic!("a path")
+    };
+    let index = done[0].vibration[0].worst.as_ref().unwrap().index;
+    let robot = &study.robot.robot;
+    let posture = ArmPosture {
+        joints_deg: shown_positions(robot, path.along.answers.joints_at(index)),
+        point: index + 1,
+    };
+    let question = Question::of_study(&study, None, (None, Some(&posture)), &Options::default()).unwrap();
+    let command = stability::answer(&question, &evaluate(&question).unwrap());
+    let same = |a: Option<f64>, b: Option<f64>| (a.unwrap() / b.unwrap() - 1.0).abs() < 1e-9;
+    assert!(same(cut.stable_depth_mm, command.zeroth_order_depth_mm));
+    assert!(same(cut.semi_discretisation_depth_mm, command.stable_depth_mm));
+    assert!(same(cut.probability_stable, command.probability_stable));
+    assert_eq!(cut.is_stable, command.is_stable);
+    // Vibration at this point: the larger of both axes at least, both together at most.
+    let point = done[0].vibration[0].points[index].unwrap();
+    let forced = point.cut.unwrap().forced.unwrap();
+    let [x, y, _] = command.vibration.amplitude_um;
+    let amplitude = forced.amplitude * 1e6;
+    assert!(
+        amplitude >= 0.999 * x.max(y) && amplitude <= 2.001 * x.hypot(y),
+        "{amplitude} {x} {y}"
+    );
+    // Both walls of a slot; the mean across the feed is in the error of the command, and not in that of the point.
+    let wall = forced.wall.unwrap() * 1e6;
+    let mean = command.vibration.mean_um[1];
+    let expected = command.vibration.walls.iter().flat_map(|wall| {
+        let sign = if wall.side == "left" { 1.0 } else { -1.0 };
+        [wall.least_um, wall.greatest_um].map(|um| um - sign * mean)
+    });
+    let largest = expected.map(f64::abs).fold(0.0, f64::max);
+    assert!((wall.abs() / largest - 1.0).abs() < 1e-9, "{wall} {largest}");
+    let (heads, rows) = rows(&text);
+    let column = |key: &str| rows[index][column(&heads, key)].parse::<f64>().unwrap();
+    assert!((column("vibration_amplitude_um") - amplitude).abs() < 1e-3);
+    assert!((column("surface_error_vibration_um") - wall).abs() < 1e-3);
+}
+
+#[test]
+fn a_cut_that_chatters_is_warned_of_and_does_not_meet_a_demand() {
+    let deep = CUT.replace("axial_depth_mm = 1\n", "axial_depth_mm = 15\n");
+    let text = |demand: &str| format!("{PLATE}{AT_THE_TIP}{deep}[vibration]\n{demand}{RECTANGLE}");
+    let wide = |text: &str| text.replace("tolerance_um = 60", "tolerance_um = 100000");
+    let of = |text: &str| answered(&study(&wide(text)));
+    let free = of(&text(""));
+    let cut = free.paths[0].vibration.as_ref().unwrap().cut.as_ref().unwrap();
+    assert!(!cut.is_stable && cut.utilisation > 1.0, "{}", cut.verdict);
+    let warning = free
+        .warnings
+        .iter()
+        .find(|warning| warning.starts_with("s: the cut chatters"));
+    assert!(warning.unwrap().contains(&cut.verdict));
+    assert!(free.meets_tolerance());
+    assert!(!of(&text("must_be_stable = true\n")).meets_tolerance());
+    let thin =
+        of(&text("must_be_stable = true\n").replace("axial_depth_mm = 15\n", "axial_depth_mm = 0.01\n"));
+    assert!(thin.meets_tolerance(), "{:?}", thin.warnings);
+    assert!(!thin.warnings.iter().any(|warning| warning.contains("chatter")));
+}
+
+#[test]
+fn a_cut_that_is_stable_only_within_its_uncertainty_may_chatter() {
+    let at = |depth: f64| {
+        let cut = CUT.replace("axial_depth_mm = 1\n", &format!("axial_depth_mm = {depth}\n"));
+        answered(&study(&format!(
+            "{PLATE}{AT_THE_TIP}{cut}[vibration]\n{RECTANGLE}"
+        )))
+    };
+    let of = |answer: &StudyAnswer| answer.paths[0].vibration.clone().unwrap().cut.unwrap();
+    let found = of(&at(1.0));
+    let least = found
+        .stable_depth_mm
+        .unwrap()
+        .min(found.semi_discretisation_depth_mm.unwrap());
+    let near = at(0.97 * least);
+    let cut = of(&near);
+    assert!(
+        cut.is_stable && cut.probability_stable.unwrap() < 0.977,
+        "{cut:?}"
+    );
+    assert!(
+        near.warnings
+            .iter()
+            .any(|warning| warning.starts_with("s: the cut may chatter"))
+    );
 }

@@ -39,8 +39,15 @@ def posture(
 
 @command
 def stability(
-    study: StudyLike,
+    study: StudyLike | None = None,
     *,
+    material: str | None = None,
+    cutter_diameter_mm: float | None = None,
+    teeth: int | None = None,
+    helix_deg: float | None = None,
+    corner_radius_mm: float | None = None,
+    side: str | None = None,
+    radial_mm: float | None = None,
     modes: Path | None = None,
     joints_deg: npt.ArrayLike | None = None,
     point: int | None = None,
@@ -55,8 +62,8 @@ def stability(
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> Answer:
-    """study, modal data -> Answer: stability of the cut against chatter: lobes, limits of the depth, vibration."""
-    return call("stability", [study], locals())
+    """study or cut, modal data -> Answer: stability of the cut against chatter: lobes, limits of the depth, vibration."""
+    return call("stability", [] if study is None else [study], locals())
 
 
 @command

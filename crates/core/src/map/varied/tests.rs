@@ -33,6 +33,14 @@ fn along_feed(a: f64) -> TipCompliance {
     }
 }
 
+/// This tolerance without vibration.
+fn still(tolerance: f64) -> PointDemand {
+    PointDemand {
+        tolerance,
+        vibrating: None,
+    }
+}
+
 fn varied(cutter: Cutter, cut: Cut, tip: TipCompliance, limit: f64) -> Varied {
     let mean = mean(cutter, cut);
     let cuts = CutsAlong {
@@ -50,10 +58,10 @@ fn varied(cutter: Cutter, cut: Cut, tip: TipCompliance, limit: f64) -> Varied {
         ],
     };
     assert!(
-        Varied::of(&cuts, 0, tip, limit).is_none(),
+        Varied::of(&cuts, 0, tip, still(limit)).is_none(),
         "in air nothing is permitted"
     );
-    Varied::of(&cuts, 1, tip, limit).unwrap()
+    Varied::of(&cuts, 1, tip, still(limit)).unwrap()
 }
 
 fn flat() -> Cutter {
@@ -246,4 +254,61 @@ fn a_tool_that_is_pulled_in_deviates_without_bound() {
     let none = Cut { depth: 1e9, ..drawn };
     assert_eq!(requested.deviation(&none), f64::INFINITY);
     assert_eq!(fed(&drawn, 2.0).feed, 2.0 * drawn.feed);
+}
+
+/// A mode at 40 Hz across the feed with this stiffness (N/m) and a damping of 3 %.
+fn across_the_feed(stiffness: f64) -> Vibrating {
+    let omega = std::f64::consts::TAU * 40.0;
+    let shape = omega / f64::sqrt(stiffness);
+    Vibrating {
+        modes: vec![crate::dynamics::Mode {
+            angular_frequency: omega,
+            damping_ratio: 0.03,
+            shape: nalgebra::Vector6::new(0.0, shape, 0.0, 0.0, 0.0, 0.0),
+        }],
+        spindle: std::f64::consts::TAU * 11.0,
+    }
+}
+
+fn vibrating(cut: Cut, tip: TipCompliance, tolerance: f64, vibrating: Vibrating) -> Varied {
+    let mut varied = varied(flat(), cut, tip, tolerance);
+    let milling = Milling::new(flat(), law(), cut).unwrap();
+    varied.vibration_by_force = vibrating.amplitude(&milling).unwrap() / milling.mean_force().norm();
+    varied.demand.vibrating = Some(vibrating);
+    varied
+}
+
+#[test]
+fn an_unstable_cut_is_not_permitted_however_large_the_tolerance_is() {
+    let (drawn, weak) = (cut(Immersion::Up(3.0 * MM)), across_the_feed(2e6));
+    let milling = Milling::new(flat(), law(), drawn).unwrap();
+    let lobes = crate::stability::StabilityLobes::new(
+        &weak.modes,
+        &crate::stability::CutOfAnyDepth::new(&milling),
+        30.0 * MM,
+    );
+    let limit = lobes.unwrap().at_speed(weak.spindle).unwrap().depth;
+    assert!(limit > 0.2 * MM && limit < 20.0 * MM, "{limit}");
+    let mut found = vibrating(drawn, along_feed(1e-9), 1.0, weak);
+    let depth = up_to(found.limits().depth);
+    assert!(just_below(depth, limit), "{depth} {limit}");
+    // A law without edge forces is as stable at any feed.
+    let deep = Cut {
+        depth: 1.01 * limit,
+        ..drawn
+    };
+    let mut found = vibrating(deep, along_feed(1e-9), 1.0, across_the_feed(2e6));
+    assert_eq!(found.limits().feed_per_tooth, Permitted::Nothing);
+}
+
+#[test]
+fn the_vibration_uses_up_a_part_of_the_tolerance() {
+    // Stiff: stable at every depth examined, and the force is proportional to the depth.
+    let (a, tolerance, drawn) = (2e-7, 40e-6, cut(Immersion::Up(3.0 * MM)));
+    let stiff = across_the_feed(1e9);
+    let milling = Milling::new(flat(), law(), drawn).unwrap();
+    let by_depth = (a * milling.mean_force().x.abs() + stiff.amplitude(&milling).unwrap()) / drawn.depth;
+    let mut found = vibrating(drawn, along_feed(a), tolerance, stiff);
+    let depth = up_to(found.limits().depth);
+    assert!(just_below(depth, tolerance / by_depth), "{depth}");
 }

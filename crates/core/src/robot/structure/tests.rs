@@ -328,3 +328,29 @@ fn motors_and_dampers_are_of_joints_and_within_their_range() {
     assert!(damped(vec![0.0, -1.0]).starts_with("damping of joint number 2: -1 is not"));
     assert!(damped(vec![1.0; 7]).contains("joint number 7"));
 }
+
+#[test]
+fn a_body_with_mass_or_inertia_and_a_rotor_have_inertia_and_nothing_else_has() {
+    let nothing = Structure {
+        springs: vec![spring(1e-7)],
+        ..Structure::EMPTY
+    };
+    assert!(!nothing.has_inertia());
+    let of_bodies = |masses: Vec<Mass>| Structure {
+        masses,
+        ..nothing.clone()
+    };
+    let point = |value: f64| Mass {
+        inertia: None,
+        ..mass(value)
+    };
+    assert!(!of_bodies(vec![point(0.0)]).has_inertia());
+    assert!(of_bodies(vec![point(0.0), point(1e-3)]).has_inertia());
+    assert!(of_bodies(vec![mass(0.0)]).has_inertia());
+    let of_rotor = |inertia: f64| Structure {
+        motors: vec![motor(inertia)],
+        ..nothing.clone()
+    };
+    assert!(of_rotor(1e-3).has_inertia());
+    assert!(!of_rotor(0.0).has_inertia());
+}

@@ -1,7 +1,7 @@
 use nalgebra::Vector3;
 
 use super::*;
-use crate::load::{Cutter, Hand, Immersion};
+use crate::load::{Cut, Cutter, CuttingLaw, Engagement, Hand, Immersion, LeanInCut, Mechanistic};
 use crate::stability::examples::{benchmark, benchmark_mode, cutting, mode, rpm};
 
 /// Displacement at the angle `at` after the transient has decayed, by Runge-Kutta in time under the force of the rigid cut.
@@ -130,4 +130,63 @@ fn a_resonance_of_the_teeth_is_the_largest_and_a_helix_spreads_the_error_over_th
         .unwrap()
         .surface_error(WallSide::Right);
     assert!(error.least < error.greatest && error.least <= error.at_tip && error.at_tip <= error.greatest);
+}
+
+#[test]
+fn one_mode_under_straight_teeth_follows_the_sum_of_its_harmonics() {
+    // Slot, two straight teeth, shear force alone. The tooth at the angle p is at (R sin p, R cos p) and moves along (cos p, -sin p): the
+    // force on the tool is K_t b f sin p against that and K_r b f sin p towards the axis, across the feed
+    // b f (K_t sin^2 p - K_r sin p cos p) = b f/2 (K_t - K_t cos 2p - K_r sin 2p). One of the two teeth is in the cut at any time.
+    let (shear, radial, depth, feed) = (700e6, 210e6, 2e-3, 1e-4);
+    let law = CuttingLaw::Mechanistic(
+        Mechanistic::new(Vector3::new(shear, radial, 0.0), Vector3::zeros()).unwrap(),
+    );
+    let cutter = Cutter::flat(10e-3, 2).unwrap();
+    let cut = Cut {
+        depth,
+        engagement: Engagement::of(Immersion::Slot, cutter.diameter()).unwrap(),
+        feed,
+        rise: 0.0,
+        lean: LeanInCut::default(),
+    };
+    let milling = Milling::new(cutter, law, cut).unwrap();
+    let (frequency, damping, mass, speed) = (70.0, 0.04, 30.0, TAU * 9.0);
+    let omega = TAU * frequency;
+    let mode = Mode {
+        angular_frequency: omega,
+        damping_ratio: damping,
+        shape: nalgebra::Vector6::new(0.0, 1.0 / f64::sqrt(mass), 0.0, 0.0, 0.0, 0.0),
+    };
+    let size = depth * feed / 2.0 * f64::hypot(shear, radial);
+    let passing = 2.0 * speed;
+    let gain = 1.0 / (mass * f64::hypot(omega * omega - passing * passing, 2.0 * damping * omega * passing));
+    let forced = Forced::new(&[mode], &milling, speed).unwrap();
+    let found = [forced.largest_in_plane(), forced.amplitude().y];
+    // 512 angles: at most half a step from the extreme.
+    for found in found {
+        assert!(
+            (found / (size * gain) - 1.0).abs() < 3e-5,
+            "{found} {}",
+            size * gain
+        );
+    }
+    let mean = forced.mean().y * mass * omega * omega;
+    assert!((mean / (depth * feed / 2.0 * shear) - 1.0).abs() < 1e-9, "{mean}");
+    // Walls: made where tooth 0 is at 0 and at 180 deg, both the same place in a period of half a turn; without the mean they are opposite.
+    let still = forced.clone().without_mean();
+    assert_eq!(still.mean(), Vector3::zeros());
+    let walls = [WallSide::Left, WallSide::Right].map(|side| still.surface_error(side));
+    assert!((walls[0].at_tip + walls[1].at_tip).abs() < 1e-12 * size * gain + 1e-18);
+    let lag = f64::atan2(2.0 * damping * omega * passing, omega * omega - passing * passing);
+    let expected = -depth * feed / 2.0 * gain * (shear * f64::cos(lag) - radial * f64::sin(lag));
+    assert!(
+        (walls[0].at_tip / expected - 1.0).abs() < 1e-9,
+        "{} {expected}",
+        walls[0].at_tip
+    );
+    assert_eq!(walls[0].largest(), expected.signum() * walls[0].at_tip.abs());
+    assert_eq!(
+        WallSide::of(&milling).collect::<Vec<_>>(),
+        [WallSide::Left, WallSide::Right]
+    );
 }

@@ -13,6 +13,7 @@ use serde::Serialize;
 
 use crate::analysis::clearance::LeastClearance;
 use crate::analysis::point::{PointAnswer, ReachedPoint, SettingAnswer};
+use crate::analysis::vibration::VibrationAnswer;
 use crate::input::setting::Setting;
 use crate::number::without_rounding;
 
@@ -55,6 +56,8 @@ pub struct MapAnswer {
     /// Uncertainty of the region: points outside joint limits are treated as out of tolerance. None where the
     /// uncertainty of the deviations is not known.
     pub certainty: Option<CertaintyAnswer>,
+    /// Modes of the arm and stability of the cut; none without `[vibration]`.
+    pub vibration: Option<VibrationAnswer>,
     /// The common setting of all points.
     pub setting: SettingAnswer,
     /// The points.
@@ -183,7 +186,13 @@ pub struct PointFlag {
 }
 
 /// The result of one plane; `name` is that of the analysis, with the label of a section.
-pub fn answer(robot: &Robot, name: &str, setting: &Setting, map: &PlaneMap) -> MapAnswer {
+pub fn answer(
+    robot: &Robot,
+    name: &str,
+    setting: &Setting,
+    map: &PlaneMap,
+    vibration: Option<VibrationAnswer>,
+) -> MapAnswer {
     let counts = Counts::of(&map.answers, setting.tolerance);
     let point = |(index, evaluation)| {
         // The TCP is the point of the plane, at any orientation of the tool.
@@ -217,6 +226,7 @@ pub fn answer(robot: &Robot, name: &str, setting: &Setting, map: &PlaneMap) -> M
         largest_along_normal,
         region: region_answer(&map.region(setting.tolerance)),
         certainty: map.certainty(setting.tolerance).as_ref().map(certainty_answer),
+        vibration,
         setting: SettingAnswer::of(robot, setting),
         grid: grid_answer(map, setting.tolerance),
     }

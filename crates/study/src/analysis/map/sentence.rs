@@ -3,6 +3,7 @@
 use armill_core::robot::Robot;
 
 use crate::analysis::map::answer::MapAnswer;
+use crate::analysis::vibration::VibrationAnswer;
 use crate::analysis::words::{LimitCounts, LostPoints, largest_contributor, micrometres};
 use crate::uncertainty_words::u_in_words;
 
@@ -44,7 +45,7 @@ pub fn sentence(robot: &Robot, map: &MapAnswer) -> String {
         format!("; along the normal (depth) it is up to {} µm", micrometres(um))
     });
     format!(
-        "{}, branch {}: {}{evaluation}{limits}; the in-plane deviation ranges from {} to {} µm ({}) and is largest at ({:.0}, {:.0}, {:.0}) mm{along_normal}; largest contribution: {}.",
+        "{}, branch {}: {}{evaluation}{limits}; the in-plane deviation ranges from {} to {} µm ({}) and is largest at ({:.0}, {:.0}, {:.0}) mm{along_normal}; largest contribution: {}.{}",
         map.name,
         map.branch,
         lost.before_others(),
@@ -55,5 +56,8 @@ pub fn sentence(robot: &Robot, map: &MapAnswer) -> String {
         worst.xyz_mm[1],
         worst.xyz_mm[2],
         largest_contributor(robot, worst, &map.setting.contributors),
+        map.vibration
+            .as_ref()
+            .map_or_else(String::new, VibrationAnswer::sentence),
     )
 }

@@ -2,7 +2,6 @@
 //! deviation of the worst case relative to the track, with their part due to backlash and geometry; force, torque, chip and removal rate of a cut.
 
 use armill_core::path::{Pace, Parts, Track, scallop};
-use armill_core::robot::Robot;
 use armill_core::units::{to_deg, to_mm, to_um};
 
 use crate::analysis::numbers::Numbers;
@@ -11,10 +10,9 @@ use crate::analysis::path::motion_columns;
 use crate::analysis::path::process_loads::ProcessPoint;
 use crate::analysis::path::run::PathResult;
 use crate::analysis::quantity::{self, Quantity};
-use crate::analysis::vibration::{self, CutAt};
 
 /// Line, distance and feed, and the deviation relative to the track.
-pub fn columns<'a>(robot: &'a Robot, analysis: &'a PathAnalysis, found: &'a PathResult) -> Vec<Numbers<'a>> {
+pub fn columns<'a>(analysis: &'a PathAnalysis, found: &'a PathResult) -> Vec<Numbers<'a>> {
     let track = &analysis.track;
     let points = &track.path.points;
     let part = |quantity: &'static Quantity, of: fn(Parts) -> f64| {
@@ -61,20 +59,7 @@ pub fn columns<'a>(robot: &'a Robot, analysis: &'a PathAnalysis, found: &'a Path
     columns.extend(process(found));
     columns.extend(unloaded(track, found));
     columns.extend(motion_columns::columns(found));
-    columns.extend(vibration::columns(robot, &analysis.setting, cut_at(analysis)));
     columns
-}
-
-/// The cut at each point: with the engagement and depth of the table, at the feed of the point; none where the path has none.
-fn cut_at(analysis: &PathAnalysis) -> Option<Box<CutAt<'_>>> {
-    let cut = analysis.cut.as_ref()?;
-    let spindle = cut.cutting.spindle?;
-    Some(Box::new(move |index| {
-        let point = &analysis.track.path.points[index];
-        let feed = point.pace.feed().or(cut.cutting.feed)?;
-        let milling = cut.milling([spindle, feed], None).ok()?;
-        Some((milling, spindle, analysis.track.base_from_feed(index)))
-    }))
 }
 
 /// Force, torque, chip thickness and removal rate; none if the load is not from a cut.

@@ -9,7 +9,7 @@
 //! [`robot_program`]) give its points, [`feature`] marks stretches of them; `load` puts on the load: given cases, a [`cut`], a [`drill`], or [`measured`] forces; `shape_tables`: the tables of
 //! shapes; `spin_curve`: a spin that changes along the path. [`resolve`](mod@resolve) joins these, [`run`] evaluates the path, [`motion`] what the controller makes of it. [`answer`], [`sentence`], [`warnings`] are
 //! its answer; [`columns`], [`pictures`] (with `track_views`, [`point_groups`], `turns`, [`process_limits`], `motion_columns`, `corner_picture`) and [`report`] its files. [`process_loads`]:
-//! what the cut asks of tool and spindle.
+//! what the cut asks of tool and spindle; [`vibration`]: the cuts whose stability is evaluated.
 
 pub mod answer;
 pub mod columns;
@@ -39,6 +39,7 @@ pub mod shape_tables;
 mod spin_curve;
 mod track_views;
 mod turns;
+pub mod vibration;
 pub mod warnings;
 
 pub use cut::Cut;

@@ -6,8 +6,8 @@ use armill_core::frame::Isometry;
 use armill_core::kernel::{Answers, OnPath, evaluate_posture};
 use armill_core::load::PathLoad;
 use armill_core::map::{
-    AlongPath, ProgramLimits, RadialDeviation, along_path, along_postures, measure_stock_clearances,
-    obstacles, program_limits, radial_deviations, worst_points,
+    AlongPath, CutDemand, ProgramLimits, RadialDeviation, Vibrating, along_path, along_postures,
+    measure_stock_clearances, obstacles, program_limits, radial_deviations, worst_points,
 };
 use armill_core::motion::Motion;
 use armill_core::nalgebra::{Point3, Translation3, UnitQuaternion};
@@ -22,7 +22,9 @@ use armill_core::workpiece::Plane;
 
 use crate::analysis::path::PathAnalysis;
 use crate::analysis::path::process_loads::ProcessLoads;
+use crate::analysis::path::vibration::{cuts, stability};
 use crate::analysis::runner::Runner;
+use crate::analysis::vibration::arm_modes::modes_at_tip;
 use crate::error::StudyError;
 use crate::input::setting::Setting;
 
@@ -60,6 +62,8 @@ pub struct SearchResult {
     pub other_motion: Option<Motion>,
     /// Number of points with an obstacle without and with the result.
     pub obstacles: [usize; 2],
+    /// Number of points whose cut is not stable without and with the result, if it must be.
+    pub unstable: Option<[usize; 2]>,
     /// Gain of the objective by the result.
     pub gain: Gain,
 }
@@ -168,7 +172,7 @@ impl Runner<'_> {
         };
         let track = turned.as_ref().unwrap_or(&analysis.track);
         let limits = match analysis.reports_limits() {
-            true => program_limits(&question, track, &along, analysis.setting.tolerance, self.watch)?,
+            true => self.limits(analysis, track, &along)?,
             false => None,
         };
         let motion = self.move_along(analysis, track, &load, &mut along)?;
@@ -200,8 +204,43 @@ impl Runner<'_> {
         })
     }
 
+    /// The process limits along a path; with its vibration, if the study asks for it.
+    fn limits(
+        &self,
+        analysis: &PathAnalysis,
+        track: &Track,
+        along: &AlongPath,
+    ) -> Result<Option<ProgramLimits>, StudyError> {
+        let setting = &analysis.setting;
+        let cuts = cuts(analysis, track, &along.load);
+        let vibrating = |index: usize| {
+            let cut = (cuts.as_ref()?.at)(index)?;
+            let modes = modes_at_tip(
+                self.robot,
+                setting,
+                along.answers.joints_at(index),
+                &cut.base_from_feed,
+            )?;
+            Some(Vibrating {
+                modes,
+                spindle: cut.spindle,
+            })
+        };
+        let demand = CutDemand {
+            tolerance: setting.tolerance,
+            vibrating: setting.vibration.is_some().then_some(&vibrating),
+        };
+        Ok(program_limits(
+            &self.question(setting),
+            track,
+            along,
+            demand,
+            self.watch,
+        )?)
+    }
+
     /// The path under this load. A search that is requested changes its posture only where that is a significant
-    /// improvement: fewer obstacles, or the same number and a gain beyond its uncertainty.
+    /// improvement: fewer obstacles and unstable cuts, or as many and a gain beyond its uncertainty.
     pub fn follow(&self, analysis: &PathAnalysis, load: PathLoad) -> Result<Followed, StudyError> {
         let question = self.question(&analysis.setting);
         let track = &analysis.track;
@@ -236,8 +275,16 @@ impl Runner<'_> {
         )?;
         let number = |along: &AlongPath| obstacles(self.robot, &track.path, &along.answers, 0.0).count();
         let numbers = [number(&nominal), number(&found)];
+        let [before, after] = ways.map(|(track, load, along)| {
+            let followed = LoadedTrack { track, load };
+            stability(self.robot, analysis, followed, &along.answers)
+                .filter(|_| analysis.setting.must_be_stable())
+                .map(|stability| stability.unstable)
+        });
+        let unstable = before.zip(after).map(|(before, after)| [before, after]);
         let significant = gain.is_significant(&analysis.setting.least_gain);
-        let applied = numbers[1] < numbers[0] || (numbers[1] == numbers[0] && significant);
+        let faults = [0, 1].map(|way: usize| numbers[way] + unstable.map_or(0, |unstable| unstable[way]));
+        let applied = faults[1] < faults[0] || (faults[1] == faults[0] && significant);
         let (along, other) = match applied {
             true => (found, nominal),
             false => (nominal, found),
@@ -252,6 +299,7 @@ impl Runner<'_> {
                 other,
                 other_motion: None,
                 obstacles: numbers,
+                unstable,
                 gain,
             }),
         })

@@ -3,6 +3,7 @@
 use armill_core::robot::Robot;
 
 use crate::analysis::path::answer::{CutAnswer, MotionAnswer, PathAnswer};
+use crate::analysis::vibration::VibrationAnswer;
 use crate::analysis::words::{LimitCounts, LostPoints, largest_contributor, micrometres};
 use crate::uncertainty_words::u_in_words;
 
@@ -37,9 +38,13 @@ pub fn sentence(robot: &Robot, path: &PathAnswer) -> String {
     let limits = limits.in_words();
     let process = path.cut.as_ref().map_or(String::new(), process);
     let clearance = clearance(path);
+    let vibration = path
+        .vibration
+        .as_ref()
+        .map_or_else(String::new, VibrationAnswer::sentence);
     let motion = path.motion.as_ref().map_or(String::new(), motion);
     format!(
-        "{}, branch {}: {}the tool deviates by up to {} µm ({}) {where_to}{line}{roundness}; largest contribution: {}; {:.1} % of the path is within {} µm{limits}.{clearance}{process}{motion}",
+        "{}, branch {}: {}the tool deviates by up to {} µm ({}) {where_to}{line}{roundness}; largest contribution: {}; {:.1} % of the path is within {} µm{limits}.{clearance}{process}{vibration}{motion}",
         path.name,
         path.followed_branch.as_ref().unwrap_or(&path.branch),
         lost.before_others(),

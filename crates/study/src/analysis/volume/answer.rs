@@ -12,6 +12,7 @@ use serde::Serialize;
 use crate::analysis::clearance::LeastClearance;
 use crate::analysis::map::answer::CountsAnswer;
 use crate::analysis::point::{PointAnswer, ReachedPoint, SettingAnswer};
+use crate::analysis::vibration::VibrationAnswer;
 use crate::input::setting::Setting;
 
 /// A box of points, the tool oriented as on the plane.
@@ -45,12 +46,20 @@ pub struct VolumeAnswer {
     pub best: Option<PointAnswer>,
     /// The point with the largest in-plane deviation.
     pub worst: Option<PointAnswer>,
+    /// Modes of the arm and stability of the cut; none without `[vibration]`.
+    pub vibration: Option<VibrationAnswer>,
     /// The common setting of all points.
     pub setting: SettingAnswer,
 }
 
 /// The result of the box of the analysis called `name`.
-pub fn answer(robot: &Robot, name: &str, setting: &Setting, volume: &VolumeMap) -> VolumeAnswer {
+pub fn answer(
+    robot: &Robot,
+    name: &str,
+    setting: &Setting,
+    volume: &VolumeMap,
+    vibration: Option<VibrationAnswer>,
+) -> VolumeAnswer {
     let counts = volume.counts(setting.tolerance);
     let clearance = LeastClearance::of(setting, &volume.answers);
     let point = |(index, evaluation)| {
@@ -81,6 +90,7 @@ pub fn answer(robot: &Robot, name: &str, setting: &Setting, volume: &VolumeMap) 
             .into(),
         best: volume.answers.best().map(point),
         worst: volume.answers.worst().map(point),
+        vibration,
         setting: SettingAnswer::of(robot, setting),
     }
 }

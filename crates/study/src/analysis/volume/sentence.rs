@@ -2,6 +2,7 @@
 
 use armill_core::robot::Robot;
 
+use crate::analysis::vibration::VibrationAnswer;
 use crate::analysis::volume::answer::VolumeAnswer;
 use crate::analysis::words::{LimitCounts, LostPoints, largest_contributor, micrometres};
 use crate::uncertainty_words::u_in_words;
@@ -25,7 +26,7 @@ pub fn sentence(robot: &Robot, volume: &VolumeAnswer) -> String {
     };
     let limits = limits.in_words();
     format!(
-        "{}, branch {}: {}{:.1} % of the box is within {} µm{limits}; the in-plane deviation is at most {} µm ({}), at ({:.0}, {:.0}, {:.0}) mm; largest contribution: {}.",
+        "{}, branch {}: {}{:.1} % of the box is within {} µm{limits}; the in-plane deviation is at most {} µm ({}), at ({:.0}, {:.0}, {:.0}) mm; largest contribution: {}.{}",
         volume.name,
         volume.branch,
         lost.before_others(),
@@ -37,5 +38,9 @@ pub fn sentence(robot: &Robot, volume: &VolumeAnswer) -> String {
         worst.xyz_mm[1],
         worst.xyz_mm[2],
         largest_contributor(robot, worst, &volume.setting.contributors),
+        volume
+            .vibration
+            .as_ref()
+            .map_or_else(String::new, VibrationAnswer::sentence),
     )
 }

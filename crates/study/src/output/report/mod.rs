@@ -66,6 +66,7 @@ pub(super) fn html(
             .section("Volumes")
             .table(&analysis::volume::report::table(&answer.volumes));
     }
+    report = analysis::vibration::report::add_section(report, &answer.vibrations());
     report = clearance::add_section(report, &study.robot.robot, answer);
     if let Some(given) = &answer.measured {
         report = report.section("Measurement and prediction");

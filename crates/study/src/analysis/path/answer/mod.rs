@@ -43,6 +43,7 @@ use crate::analysis::clearance::{LeastClearance, in_collision};
 use crate::analysis::path::PathAnalysis;
 use crate::analysis::path::run::PathResult;
 use crate::analysis::point::{PointAnswer, SettingAnswer};
+use crate::analysis::vibration::VibrationAnswer;
 use crate::input::setting::Setting;
 use crate::joint_order::joint_order;
 use crate::number::without_rounding;
@@ -115,6 +116,8 @@ pub struct PathAnswer {
     pub search: Option<SearchAnswer>,
     /// What the controller makes of the path; none if the study does not ask for it.
     pub motion: Option<MotionAnswer>,
+    /// Modes of the arm, stability and vibration of the cut; none without `[vibration]`.
+    pub vibration: Option<VibrationAnswer>,
     /// Effect of backlash and geometry on the deviations; none if load and gravity alone move the tool.
     pub unloaded: Option<UnloadedAnswer>,
     /// What was skipped or assumed.
@@ -137,7 +140,13 @@ pub struct CircleCase {
 }
 
 /// The result of the path of the analysis called `name`.
-pub fn answer(robot: &Robot, name: &str, analysis: &PathAnalysis, found: &PathResult) -> PathAnswer {
+pub fn answer(
+    robot: &Robot,
+    name: &str,
+    analysis: &PathAnalysis,
+    found: &PathResult,
+    vibration: Option<VibrationAnswer>,
+) -> PathAnswer {
     let (setting, answers) = (&analysis.setting, &found.along.answers);
     let evaluation = || answers.evaluations().map(|(_, evaluation)| evaluation);
     let points = answers.points.len();
@@ -189,6 +198,7 @@ pub fn answer(robot: &Robot, name: &str, analysis: &PathAnalysis, found: &PathRe
         program: ProgramAnswer::of(analysis, found),
         search: SearchAnswer::of(robot, analysis, found),
         motion: MotionAnswer::of(robot, analysis, found),
+        vibration,
         unloaded: UnloadedAnswer::of(robot, analysis, found),
         notes: notes(analysis, found),
         worst_points,

@@ -41,6 +41,8 @@ pub struct SearchAnswer {
     /// Whether the path is followed with this result: where it has fewer obstacles, or the same number and a gain that
     /// exceeds `least_gain_um`.
     pub applied: bool,
+    /// Points whose cut is not stable, without and with this result; none unless it must be stable (`must_be_stable`).
+    pub unstable_points: Option<[usize; 2]>,
     /// Decrease of the objective by this result.
     pub gain_um: f64,
     /// Standard uncertainty of the gain, from the inputs that both predictions share; null if not known.
@@ -138,6 +140,7 @@ impl SearchAnswer {
                 .map(|axis| MovedAxisAnswer::of(robot, axis.joint, posture))
                 .collect(),
             applied: searched.applied,
+            unstable_points: searched.unstable,
             gain_um: to_um(gain.by()),
             gain_u_um: gain.uncertainty.map(to_um),
             least_gain_um: to_um(gain.required(&analysis.setting.least_gain)),
