@@ -1,7 +1,7 @@
 //! Receptance coupling: a holder and a cutter, as beams, at the end of a machine of known receptance.
 //!
-//! Read in this order: [`section`] (material and cross section), [`joint`] (elastic connection), [`segment`] (a uniform beam and its dynamic
-//! stiffness), `bending` and `rod` (the parts of it), [`tip`] (machine, joints and segments coupled: receptance at the tip), [`sweep`] (at many
+//! Read in this order: [`section`] (material and cross section), [`joint`] (elastic connection), [`segment`] (a uniform beam from end to
+//! end), `bending` and `rod` (the parts of it), [`tip`] (machine, joints and segments coupled: receptance at the tip), [`sweep`] (at many
 //! frequencies), [`tip_modes`] (modes of the coupled tip, fitted).
 //!
 //! Theory: `docs/theory/receptance-coupling.md`.

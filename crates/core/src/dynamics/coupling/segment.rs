@@ -1,19 +1,24 @@
-//! A uniform beam along z: dynamic stiffness of its two ends in all six directions.
+//! A uniform beam along z: how displacement and force at one end follow from those at the other, in all six directions.
 //!
 //! ```text
-//! [f_1; f_2] = [ D11 D12; D12^T D22 ] [u_1; u_2]      u = (x, y, z, rotations about x, y, z)
+//! [u_2; f_2] = [ Tuu Tuf; Tfu Tff ] [u_1; f_1]      u = (x, y, z, rotations about x, y, z)
 //! plane x z: v = x, p = turn about y      plane y z: v = y, p = -turn about x      along and about z: rods
 //! ```
 //!
-//! End 1 is that of smaller z. The twist `u` and the wrench `f` of an end are relative to its centre, axes x, y, z. Bending in two planes,
-//! stretching and torsion are independent, as the section is circular; gyroscopic moments of the turning spindle are neglected.
+//! End 1 is that of smaller z. `u` is the twist of an end, `f` the wrench that the part of larger z exerts, relative to the centre of the section, axes
+//! x, y, z. Bending in two planes, stretching and torsion are independent, as the section is circular; gyroscopic moments of the turning spindle
+//! are neglected. A long beam is divided into equal pieces, as the transfer over many half waves has growing exponentials: pieces are
+//! coupled one by one.
 
-use nalgebra::{Complex, Matrix6};
+use nalgebra::{Complex, Matrix2, Matrix4, Matrix6};
 
-use super::bending::bending;
+use super::bending::Bending;
 use super::joint::Joint;
 use super::rod::{stretching, torsion};
 use super::section::{Material, Section};
+
+/// Halvings of a segment at most.
+const MOST_HALVINGS: u32 = 12;
 
 /// What bends a beam.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -40,47 +45,58 @@ pub struct Segment {
     pub joint: Option<Joint>,
 }
 
-/// Dynamic stiffness of a segment.
+/// Transfer over one piece of a segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SegmentStiffness {
-    /// `D11`.
-    pub near: Matrix6<Complex<f64>>,
-    /// `D12`.
-    pub across: Matrix6<Complex<f64>>,
-    /// `D22`.
-    pub far: Matrix6<Complex<f64>>,
+pub struct Transfer {
+    /// `Tuu`.
+    pub uu: Matrix6<Complex<f64>>,
+    /// `Tuf`, m/N, rad/(N m), ...
+    pub uf: Matrix6<Complex<f64>>,
+    /// `Tfu`, N/m, N m/rad, ...
+    pub fu: Matrix6<Complex<f64>>,
+    /// `Tff`.
+    pub ff: Matrix6<Complex<f64>>,
 }
 
 impl Segment {
-    /// Dynamic stiffness at the angular frequency `w` (rad/s), without the joint; `None` if it is not finite.
-    pub fn stiffness(&self, w: f64) -> Option<SegmentStiffness> {
-        let bending = bending(self, w)?;
-        let (along, about) = (stretching(self, w), torsion(self, w));
-        let zero = Matrix6::zeros();
-        let mut all = [zero; 3];
-        let planes = [bending.near, bending.across, bending.far];
-        let rods = [
-            [along.own, about.own],
-            [along.across, about.across],
-            [along.own, about.own],
-        ];
-        for ((matrix, plane), rod) in all.iter_mut().zip(planes).zip(rods) {
-            // Indices of deflection and rotation, and the sign of the rotation.
-            for (v, p, side) in [(0, 4, 1.0), (1, 3, -1.0)] {
-                matrix[(v, v)] = plane[(0, 0)];
-                matrix[(v, p)] = plane[(0, 1)] * side;
-                matrix[(p, v)] = plane[(1, 0)] * side;
-                matrix[(p, p)] = plane[(1, 1)];
-            }
-            matrix[(2, 2)] = rod[0];
-            matrix[(5, 5)] = rod[1];
-        }
-        let [near, across, far] = all;
-        let is_finite = |m: &Matrix6<Complex<f64>>| m.iter().all(|z| z.re.is_finite() && z.im.is_finite());
-        (is_finite(&near) && is_finite(&across) && is_finite(&far)).then_some(SegmentStiffness {
-            near,
-            across,
-            far,
-        })
+    /// The transfer over one of the equal pieces of the segment at the angular frequency `w` (rad/s), without the joint, and the number of pieces;
+    /// `None` if the segment is too long.
+    pub fn pieces(&self, w: f64) -> Option<(Transfer, usize)> {
+        let of = |halvings: u32| Bending::of(self, self.length / f64::from(1_u32 << halvings), w);
+        let halvings = (0..=MOST_HALVINGS).find(|halvings| of(*halvings).is_short())?;
+        let count = 1_u32 << halvings;
+        let length = self.length / f64::from(count);
+        let plane = of(halvings).transfer();
+        let rods = [stretching(self, length, w), torsion(self, length, w)];
+        let part = |row: usize, column: usize| of_part(&plane, &rods, [row, column]);
+        let transfer = Transfer {
+            uu: part(0, 0),
+            uf: part(0, 1),
+            fu: part(1, 0),
+            ff: part(1, 1),
+        };
+        Some((transfer, usize::try_from(count).ok()?))
     }
+}
+
+/// One of the four parts of the transfer: `[row, column]` is 0 for displacements, 1 for forces.
+fn of_part(
+    plane: &Matrix4<Complex<f64>>,
+    rods: &[Matrix2<Complex<f64>>; 2],
+    part: [usize; 2],
+) -> Matrix6<Complex<f64>> {
+    let [row, column] = part;
+    let mut all = Matrix6::zeros();
+    // Indices of deflection and rotation, and the sign of the rotation.
+    for (v, p, side) in [(0, 4, 1.0), (1, 3, -1.0)] {
+        let own = plane.fixed_view::<2, 2>(2 * row, 2 * column);
+        all[(v, v)] = own[(0, 0)];
+        all[(v, p)] = own[(0, 1)] * side;
+        all[(p, v)] = own[(1, 0)] * side;
+        all[(p, p)] = own[(1, 1)];
+    }
+    for (k, rod) in [2, 5].into_iter().zip(rods) {
+        all[(k, k)] = rod[(row, column)];
+    }
+    all
 }

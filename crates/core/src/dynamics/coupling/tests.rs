@@ -5,7 +5,7 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::{Complex, DMatrix, Matrix3, Matrix6, Vector3, Vector6};
+use nalgebra::{Complex, Matrix2, Matrix3, Matrix4, Matrix6, Vector3, Vector6};
 
 use super::joint::Spring;
 use super::*;
@@ -38,7 +38,8 @@ fn euler(length: f64, outer: f64) -> Segment {
 
 /// The frequency near `guess` at which the receptance along `axis` is infinite, by bisection of its inverse.
 fn resonance(base: &Base, segments: &[Segment], axis: usize, guess: f64) -> f64 {
-    let inverse = |w: f64| 1.0 / tip_receptance(base, segments, w).unwrap()[(axis, axis)].re;
+    // Exactly at the resonance there is no receptance.
+    let inverse = |w: f64| tip_receptance(base, segments, w).map_or(0.0, |found| 1.0 / found[(axis, axis)].re);
     let [mut low, mut high] = [0.995 * guess, 1.005 * guess];
     let side = inverse(low).signum();
     assert_ne!(side, inverse(high).signum(), "no resonance near {guess}");
@@ -282,31 +283,59 @@ fn the_receptance_is_symmetric() {
     }
 }
 
-/// `G = H_22 - H_21 (H_11 + R + C)^-1 H_12` with free-free receptances from the inverse of the dynamic stiffness.
+/// Free-free receptances of Euler's beam in the plane x z: `[v_1, p_1, v_2, p_2]` by forces and moments on both ends, by
+/// `v = a cos(bz) + b sin(bz) + c cosh(bz) + d sinh(bz)`.
+fn free_free(segment: &Segment, w: f64) -> Matrix4<Complex<f64>> {
+    let modulus = Complex::new(1.0, segment.material.loss_factor) * segment.material.modulus;
+    let bending = modulus * segment.section.second_moment();
+    let mass = segment.material.density * segment.section.area();
+    let b = (Complex::new(w * w * mass, 0.0) / bending).powf(0.25);
+    // The derivative of order n of the four functions at z.
+    let derivative = |n: usize, z: f64| {
+        let x = b * z;
+        let circular = [x.cos(), -x.sin(), -x.cos(), x.sin()];
+        let hyperbolic = [x.cosh(), x.sinh()];
+        let scale = (0..n).fold(Complex::new(1.0, 0.0), |product, _| product * b);
+        [circular[n % 4], circular[(n + 3) % 4], hyperbolic[n % 2], hyperbolic[(n + 1) % 2]].map(|part| part * scale)
+    };
+    let rows = |all: [[Complex<f64>; 4]; 4]| Matrix4::from_fn(|i, j| all[i][j]);
+    let length = segment.length;
+    let moved = rows([derivative(0, 0.0), derivative(1, 0.0), derivative(0, length), derivative(1, length)]);
+    let signed = |sign: f64, row: [Complex<f64>; 4]| row.map(|part| part * bending * sign);
+    // On the end of larger z: force -E I times the third, moment E I times the second derivative; on the other the opposite.
+    let forces = rows([
+        signed(1.0, derivative(3, 0.0)),
+        signed(-1.0, derivative(2, 0.0)),
+        signed(-1.0, derivative(3, length)),
+        signed(1.0, derivative(2, length)),
+    ]);
+    moved * forces.try_inverse().unwrap()
+}
+
 #[test]
 fn it_is_receptance_coupling_as_it_is_usually_written() {
-    for w in [58.0, 900.0, 6e3, 3e4] {
-        let mut machine = receptance(&machine(), w);
-        for segment in damped() {
-            let own = segment.stiffness(w).unwrap();
-            let part = |i: usize, j: usize| match (i < 6, j < 6) {
-                (true, true) => own.near[(i, j)],
-                (true, false) => own.across[(i, j - 6)],
-                (false, true) => own.across[(j, i - 6)],
-                (false, false) => own.far[(i - 6, j - 6)],
-            };
-            let free = DMatrix::from_fn(12, 12, part).try_inverse().unwrap();
-            let block = |i: usize, j: usize| Matrix6::from_fn(|a, b| free[(i + a, j + b)]);
-            let joint = segment
-                .joint
-                .map_or_else(Matrix6::zeros, |joint| joint.compliance(w));
-            let inner = (block(0, 0) + machine + joint).try_inverse().unwrap();
-            let expected = block(6, 6) - block(6, 0) * inner * block(0, 6);
-            let found = tip_receptance(&Base::Receptance(machine), &[segment], w).unwrap();
-            let deviation = relative(&expected, &found);
-            assert!(deviation < 1e-7, "{w}: {deviation:.1e}");
-            machine = found;
+    let joint = damped()[1].joint;
+    let material = Material { loss_factor: 0.004, ..STEEL };
+    let holder = Segment { material, ..euler(0.06, 0.03) };
+    let cutter = Segment { material, joint, ..euler(0.08, 0.012) };
+    // Of x and the turn about y.
+    let plane = |m: &Matrix6<Complex<f64>>| Matrix2::new(m[(0, 0)], m[(0, 4)], m[(4, 0)], m[(4, 4)]);
+    for w in [200.0, 900.0, 6e3, 3e4, 8e4] {
+        let machine = receptance(&machine(), w).map_with_location(|i, j, part| {
+            let is_in_plane = |k: usize| k == 0 || k == 4;
+            if is_in_plane(i) == is_in_plane(j) { part } else { Complex::new(0.0, 0.0) }
+        });
+        let mut expected = plane(&machine);
+        for segment in [holder, cutter] {
+            let free = free_free(&segment, w);
+            let block = |i: usize, j: usize| free.fixed_view::<2, 2>(i, j).into_owned();
+            let joint = segment.joint.map_or_else(Matrix6::zeros, |joint| joint.compliance(w));
+            let inner = (block(0, 0) + expected + plane(&joint)).try_inverse().unwrap();
+            expected = block(2, 2) - block(2, 0) * inner * block(0, 2);
         }
+        let found = plane(&tip_receptance(&Base::Receptance(machine), &[holder, cutter], w).unwrap());
+        let deviation = (found - expected).map(Complex::norm).component_div(&expected.map(Complex::norm)).max();
+        assert!(deviation < 1e-8, "{w}: {deviation:.1e}");
     }
 }
 
@@ -470,7 +499,7 @@ fn the_first_mode_of_a_cantilever_has_a_quarter_of_its_mass() {
     let found = tip_modes(&swept(&[], &[segment], [100.0, 3000.0]), None).unwrap();
     let first = &found.modes[0];
     // Structural damping is fitted as viscous: the frequency differs by eta^2.
-    is_near(first.angular_frequency, omega, 2e-4);
+    is_near(first.angular_frequency, omega, 4e-4);
     is_near(first.damping_ratio, 0.01, 0.02);
     let mass = 7850.0 * TAU / 8.0 * outer * outer * length / 4.0;
     is_near(1.0 / first.shape.norm_squared(), mass, 0.01);

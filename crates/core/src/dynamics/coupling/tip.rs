@@ -1,21 +1,22 @@
 //! Receptance at the tip: machine, joints and segments coupled one after the other.
 //!
 //! ```text
-//! f_1 = D11 u_1 + D12 u_2,   u_1 = -(R + C) f_1      G = (D22 - D12^T (1 + (R + C) D11)^-1 (R + C) D12)^-1
-//! G = H_22 - H_21 (H_11 + R + C)^-1 H_12,   [H_11 H_12; H_21 H_22] = D^-1      the same, as receptance coupling is usually written
+//! [u_2; f_2] = [ Tuu Tuf; Tfu Tff ] [u_1; f_1],   u_1 = (R + C) f_1
+//! G = (Tuu (R + C) + Tuf)(Tfu (R + C) + Tff)^-1        free end: G = Tuu Tfu^-1
+//! G = H_22 - H_21 (H_11 + R + C)^-1 H_12        the same, as receptance coupling is usually written
 //! body: R' = (1 - w^2 R M)^-1 R
 //! ```
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | `R`, `C` | receptance of the machine where the segment begins; compliance of the joint | m/N, ... |
-//! | `D`, `H` | dynamic stiffness and free-free receptance of the segment ([`super::segment`]) | N/m, m/N, ... |
-//! | `G` | receptance where the segment ends: `R` of the next segment | m/N, ... |
+//! | `T` | transfer over a piece of the segment ([`super::segment`]) | -, m/N, N/m, ... |
+//! | `H` | free-free receptance of the segment: 1 is the end at the machine | m/N, ... |
+//! | `G` | receptance where the piece ends: `R` of the next one | m/N, ... |
 //! | `M` | mass matrix of a rigid body about the reference point | kg, kg m, kg m^2 |
 //!
-//! The first form needs no inverse of `D`, which has none at rest, and permits `R = 0` (a rigid machine). A free end has the stiffness 0 in place of
-//! `R`: `G = (D22 - D12^T D11^-1 D12)^-1`. Source: Schmitz & Smith, Machining dynamics, chapter on receptance coupling; Bishop & Johnson, The mechanics of
-//! vibration (both recalled).
+//! The first form needs no free-free receptance, which is infinite at rest, and permits `R = 0` (a rigid machine). Source: Schmitz & Smith, Machining
+//! dynamics, chapter on receptance coupling; Bishop & Johnson, The mechanics of vibration (both recalled).
 
 use nalgebra::{Complex, Matrix3, Matrix6, Vector3};
 use thiserror::Error;
@@ -52,7 +53,7 @@ pub struct NotFinite(pub f64);
 /// Receptance at the end of the last segment at the angular frequency `w` (rad/s): 6x6, axes of the segments.
 ///
 /// # Errors
-/// An undamped resonance at exactly this frequency; free or massless segments at rest.
+/// An undamped resonance at exactly this frequency; free segments at rest.
 pub fn tip_receptance(base: &Base, segments: &[Segment], w: f64) -> Result<Matrix6<Complex<f64>>, NotFinite> {
     let mut receptance = match base {
         Base::Rigid => Some(Matrix6::zeros()),
@@ -72,21 +73,20 @@ fn coupled(
     segment: &Segment,
     w: f64,
 ) -> Option<Matrix6<Complex<f64>>> {
-    let own = segment.stiffness(w)?;
-    let by_near = match machine {
-        None => own.near.try_inverse()?,
-        Some(machine) => {
-            let joint = segment
-                .joint
-                .map_or_else(Matrix6::zeros, |joint| joint.compliance(w));
-            let attached = machine + joint;
-            (Matrix6::identity() + attached * own.near).try_inverse()? * attached
-        }
-    };
-    let stiffness = own.far - own.across.transpose() * by_near * own.across;
-    let found = stiffness.try_inverse()?;
-    let is_finite = found.iter().all(|z| z.re.is_finite() && z.im.is_finite());
-    is_finite.then_some(found)
+    let (piece, count) = segment.pieces(w)?;
+    let joint = segment
+        .joint
+        .map_or_else(Matrix6::zeros, |joint| joint.compliance(w));
+    let mut attached = machine.map(|machine| machine + joint);
+    for _ in 0..count {
+        let next = match attached {
+            None => piece.uu * piece.fu.try_inverse()?,
+            Some(own) => (piece.uu * own + piece.uf) * (piece.fu * own + piece.ff).try_inverse()?,
+        };
+        let is_finite = next.iter().all(|z| z.re.is_finite() && z.im.is_finite());
+        attached = Some(is_finite.then_some(next)?);
+    }
+    attached
 }
 
 impl Body {

@@ -79,7 +79,7 @@ fn frf(swept: &[Swept], pair: [usize; 2]) -> Option<Frf> {
         // Of one size over all frequencies, also between a high and a low resonance.
         weights: swept
             .iter()
-            .map(|own| 1.0 / (own.tip[(i, i)].norm() * own.tip[(j, j)].norm()).sqrt())
+            .map(|own| (own.tip[(i, i)].norm() * own.tip[(j, j)].norm()).powf(-0.25))
             .collect(),
     })
 }
