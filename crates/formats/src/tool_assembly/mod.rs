@@ -64,7 +64,11 @@ pub fn read(path: &str, text: &str) -> Result<ToolAssembly, Problems> {
     for (index, table) in file.segment.iter().enumerate() {
         segments.extend(segment(&document, index, table, &mut problems).map(|own| Segment { theory, ..own }));
     }
-    problems.extend(file.spindle.as_ref().and_then(|table| impossible_inertia(&document, table)));
+    problems.extend(
+        file.spindle
+            .as_ref()
+            .and_then(|table| impossible_inertia(&document, table)),
+    );
     Problems::from(problems).into_result()?;
     Ok(ToolAssembly {
         assumptions: assumptions(&file),
@@ -94,7 +98,11 @@ fn segment(
     let outer_mm = match (table.fluted, table.equivalent_diameter_mm) {
         (false, Some(_)) => {
             let message = "`equivalent_diameter_mm` is given for a part without flutes".to_owned();
-            problem(".equivalent_diameter_mm", message, "add `fluted = true`, or remove it");
+            problem(
+                ".equivalent_diameter_mm",
+                message,
+                "add `fluted = true`, or remove it",
+            );
             table.diameter_mm
         }
         (true, Some(equivalent)) if equivalent > table.diameter_mm => {
@@ -111,8 +119,13 @@ fn segment(
     };
     let bore_mm = table.bore_mm.unwrap_or(0.0);
     if bore_mm >= outer_mm {
-        let message = format!("`bore_mm` must be less than the outer diameter of {outer_mm} mm (got {bore_mm})");
-        problem(".bore_mm", message, "diameter of the bore; leave it out for a solid part");
+        let message =
+            format!("`bore_mm` must be less than the outer diameter of {outer_mm} mm (got {bore_mm})");
+        problem(
+            ".bore_mm",
+            message,
+            "diameter of the bore; leave it out for a solid part",
+        );
     }
     let given = [
         ("modulus_gpa", table.modulus_gpa.is_some()),
@@ -130,13 +143,22 @@ fn segment(
         (None, Some(modulus), Some(density)) => [modulus, density, table.poisson_ratio.unwrap_or(POISSON)],
         (None, None, None) => {
             let message = "the segment has no material".to_owned();
-            let hint = "give `material = \"steel\"` or `\"carbide\"`, or `modulus_gpa` and `density_kg_per_m3`";
+            let hint =
+                "give `material = \"steel\"` or `\"carbide\"`, or `modulus_gpa` and `density_kg_per_m3`";
             problem("", message, hint);
             named(MaterialName::Steel)
         }
         (None, modulus, _) => {
-            let missing = if modulus.is_none() { "modulus_gpa" } else { "density_kg_per_m3" };
-            problem("", format!("`{missing}` is missing"), "modulus and density belong together");
+            let missing = if modulus.is_none() {
+                "modulus_gpa"
+            } else {
+                "density_kg_per_m3"
+            };
+            problem(
+                "",
+                format!("`{missing}` is missing"),
+                "modulus and density belong together",
+            );
             named(MaterialName::Steel)
         }
     };
@@ -211,7 +233,11 @@ fn assumptions(file: &AssemblyFile) -> Vec<String> {
             "loss factor {LOSS_FACTOR} assumed for segments without `loss_factor`: the damping of a real tool is mostly that of its joints"
         ));
     }
-    if file.segment.iter().any(|table| table.fluted && table.equivalent_diameter_mm.is_none()) {
+    if file
+        .segment
+        .iter()
+        .any(|table| table.fluted && table.equivalent_diameter_mm.is_none())
+    {
         all.push(format!(
             "fluted parts have an equivalent diameter of {:.0} % of their diameter: assumed",
             100.0 * FLUTED

@@ -29,7 +29,10 @@ fn values_are_converted_to_si() {
     let joint = holder.joint.unwrap();
     assert!((joint.lateral.stiffness.unwrap() / 8e7 - 1.0).abs() < 1e-12);
     assert!((joint.axial.stiffness.unwrap() / 3e8 - 1.0).abs() < 1e-12);
-    assert_eq!([joint.bending.stiffness, joint.torsion.stiffness], [Some(4e5), None]);
+    assert_eq!(
+        [joint.bending.stiffness, joint.torsion.stiffness],
+        [Some(4e5), None]
+    );
     assert!(joint.lateral.damping == 50.0 && joint.loss_factor == 0.02);
     // 80 % of 12 mm.
     assert!((cutter.section.outer - 9.6e-3).abs() < 1e-15);
@@ -37,15 +40,26 @@ fn values_are_converted_to_si() {
     let spindle = found.spindle.unwrap();
     assert!((spindle.centre.z + 0.12).abs() < 1e-15 && spindle.inertia[(2, 2)] == 0.02);
     let said = found.assumptions.join("\n");
-    assert!(said.contains("0.0015") && said.contains("80 %") && !said.contains("rigid"), "{said}");
+    assert!(
+        said.contains("0.0015") && said.contains("80 %") && !said.contains("rigid"),
+        "{said}"
+    );
 }
 
 #[test]
 fn an_equivalent_diameter_replaces_that_of_the_flutes() {
     let segment = "[[segment]]\nlength_mm = 25\ndiameter_mm = 12\nmaterial = \"carbide\"\n";
-    let found = read_segments(&format!("{segment}fluted = true\nequivalent_diameter_mm = 9\nloss_factor = 0\n")).unwrap();
+    let found = read_segments(&format!(
+        "{segment}fluted = true\nequivalent_diameter_mm = 9\nloss_factor = 0\n"
+    ))
+    .unwrap();
     assert!((found.segments[0].section.outer - 9e-3).abs() < 1e-15);
-    assert_eq!(found.assumptions.len(), 1, "rigid joints: {:?}", found.assumptions);
+    assert_eq!(
+        found.assumptions.len(),
+        1,
+        "rigid joints: {:?}",
+        found.assumptions
+    );
     let text = problems(&format!("{segment}equivalent_diameter_mm = 9\n"));
     assert!(text.contains("without flutes"), "{text}");
     let text = problems(&format!("{segment}fluted = true\nequivalent_diameter_mm = 13\n"));
@@ -75,7 +89,8 @@ fn all_problems_are_reported_together_with_their_lines() {
 
 #[test]
 fn values_out_of_range_unknown_keys_and_no_segment_are_refused() {
-    let segment = |line: &str| format!("[[segment]]\nlength_mm = 25\ndiameter_mm = 12\nmaterial = \"steel\"\n{line}\n");
+    let segment =
+        |line: &str| format!("[[segment]]\nlength_mm = 25\ndiameter_mm = 12\nmaterial = \"steel\"\n{line}\n");
     assert!(read_segments(&segment("")).is_ok());
     for line in [
         "thickness_mm = 1",

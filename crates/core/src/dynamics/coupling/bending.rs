@@ -61,7 +61,9 @@ impl Bending {
     /// Whether the power series of this piece is short, without large terms that cancel.
     pub(super) fn is_short(&self) -> bool {
         let (b, r, c) = (self.b, self.r, self.c);
-        [b, r, b * c, b * r * c].iter().all(|number| number.norm() <= SHORT)
+        [b, r, b * c, b * r * c]
+            .iter()
+            .all(|number| number.norm() <= SHORT)
     }
 
     /// Transfer of `v`, `p`, `Q`, `M`; m, rad, N, N m.

@@ -29,7 +29,8 @@ pub(super) fn stretching(segment: &Segment, length: f64, w: f64) -> Matrix2<Comp
 /// Transfer in torsion of a piece of this length: rad, N m.
 pub(super) fn torsion(segment: &Segment, length: f64, w: f64) -> Matrix2<Complex<f64>> {
     let material = &segment.material;
-    let shear = Complex::new(1.0, material.loss_factor) * (material.modulus / (2.0 * (1.0 + material.poisson)));
+    let shear =
+        Complex::new(1.0, material.loss_factor) * (material.modulus / (2.0 * (1.0 + material.poisson)));
     let z = wave_number(segment, shear, w) * length;
     transfer(z, shear * (2.0 * segment.section.second_moment() / length))
 }

@@ -39,7 +39,8 @@ fn euler(length: f64, outer: f64) -> Segment {
 /// The frequency near `guess` at which the receptance along `axis` is infinite, by bisection of its inverse.
 fn resonance(base: &Base, segments: &[Segment], axis: usize, guess: f64) -> f64 {
     // Exactly at the resonance there is no receptance.
-    let inverse = |w: f64| tip_receptance(base, segments, w).map_or(0.0, |found| 1.0 / found[(axis, axis)].re);
+    let inverse =
+        |w: f64| tip_receptance(base, segments, w).map_or(0.0, |found| 1.0 / found[(axis, axis)].re);
     let [mut low, mut high] = [0.995 * guess, 1.005 * guess];
     let side = inverse(low).signum();
     assert_ne!(side, inverse(high).signum(), "no resonance near {guess}");
@@ -296,11 +297,22 @@ fn free_free(segment: &Segment, w: f64) -> Matrix4<Complex<f64>> {
         let circular = [x.cos(), -x.sin(), -x.cos(), x.sin()];
         let hyperbolic = [x.cosh(), x.sinh()];
         let scale = (0..n).fold(Complex::new(1.0, 0.0), |product, _| product * b);
-        [circular[n % 4], circular[(n + 3) % 4], hyperbolic[n % 2], hyperbolic[(n + 1) % 2]].map(|part| part * scale)
+        [
+            circular[n % 4],
+            circular[(n + 3) % 4],
+            hyperbolic[n % 2],
+            hyperbolic[(n + 1) % 2],
+        ]
+        .map(|part| part * scale)
     };
     let rows = |all: [[Complex<f64>; 4]; 4]| Matrix4::from_fn(|i, j| all[i][j]);
     let length = segment.length;
-    let moved = rows([derivative(0, 0.0), derivative(1, 0.0), derivative(0, length), derivative(1, length)]);
+    let moved = rows([
+        derivative(0, 0.0),
+        derivative(1, 0.0),
+        derivative(0, length),
+        derivative(1, length),
+    ]);
     let signed = |sign: f64, row: [Complex<f64>; 4]| row.map(|part| part * bending * sign);
     // On the end of larger z: force -E I times the third, moment E I times the second derivative; on the other the opposite.
     let forces = rows([
@@ -315,26 +327,45 @@ fn free_free(segment: &Segment, w: f64) -> Matrix4<Complex<f64>> {
 #[test]
 fn it_is_receptance_coupling_as_it_is_usually_written() {
     let joint = damped()[1].joint;
-    let material = Material { loss_factor: 0.004, ..STEEL };
-    let holder = Segment { material, ..euler(0.06, 0.03) };
-    let cutter = Segment { material, joint, ..euler(0.08, 0.012) };
+    let material = Material {
+        loss_factor: 0.004,
+        ..STEEL
+    };
+    let holder = Segment {
+        material,
+        ..euler(0.06, 0.03)
+    };
+    let cutter = Segment {
+        material,
+        joint,
+        ..euler(0.08, 0.012)
+    };
     // Of x and the turn about y.
     let plane = |m: &Matrix6<Complex<f64>>| Matrix2::new(m[(0, 0)], m[(0, 4)], m[(4, 0)], m[(4, 4)]);
     for w in [200.0, 900.0, 6e3, 3e4, 8e4] {
         let machine = receptance(&machine(), w).map_with_location(|i, j, part| {
             let is_in_plane = |k: usize| k == 0 || k == 4;
-            if is_in_plane(i) == is_in_plane(j) { part } else { Complex::new(0.0, 0.0) }
+            if is_in_plane(i) == is_in_plane(j) {
+                part
+            } else {
+                Complex::new(0.0, 0.0)
+            }
         });
         let mut expected = plane(&machine);
         for segment in [holder, cutter] {
             let free = free_free(&segment, w);
             let block = |i: usize, j: usize| free.fixed_view::<2, 2>(i, j).into_owned();
-            let joint = segment.joint.map_or_else(Matrix6::zeros, |joint| joint.compliance(w));
+            let joint = segment
+                .joint
+                .map_or_else(Matrix6::zeros, |joint| joint.compliance(w));
             let inner = (block(0, 0) + expected + plane(&joint)).try_inverse().unwrap();
             expected = block(2, 2) - block(2, 0) * inner * block(0, 2);
         }
         let found = plane(&tip_receptance(&Base::Receptance(machine), &[holder, cutter], w).unwrap());
-        let deviation = (found - expected).map(Complex::norm).component_div(&expected.map(Complex::norm)).max();
+        let deviation = (found - expected)
+            .map(Complex::norm)
+            .component_div(&expected.map(Complex::norm))
+            .max();
         assert!(deviation < 1e-8, "{w}: {deviation:.1e}");
     }
 }
