@@ -73,8 +73,14 @@ pub(crate) fn run(arguments: &ReceptanceArguments) -> Result<Outcome, StudyError
         .writer("receptance")
         .for_new_files()
         .write_all(&bytes)?;
-    for (file, _) in &files {
-        say(&format!("written: {}", file.display()));
+    for (what, file) in [
+        ("table", &arguments.out),
+        ("modes", &arguments.modal_out),
+        ("drawing", &arguments.drawing),
+    ] {
+        if let Some(file) = file {
+            say(&format!("{what} in {}", file.display()));
+        }
     }
     print(&match arguments.json {
         true => serde_json::to_string_pretty(&answer)?,

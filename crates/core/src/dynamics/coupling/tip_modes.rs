@@ -50,6 +50,8 @@ pub fn tip_modes(swept: &[Swept], most: Option<usize>) -> Result<TipFit, FitErro
         &FitOptions {
             band: [first.w, last.w],
             modes: most,
+            // What is left over is the difference of structural from viscous damping, not noise.
+            seeks_weak: false,
         },
     )?;
     let mut modes = modes_of(&found, &frfs);
