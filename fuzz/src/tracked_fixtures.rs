@@ -19,10 +19,16 @@ pub fn frfs() -> Vec<Vec<u8>> {
              \u{20}       12    0    0    0 NONE                 m/s^2\n        13    0    0    0 NONE                 N\n         0    0    0    0 NONE                 NONE\n{data}\n    -1\n"
         )
     };
-    seeds(&[
+    let mut all = seeds(&[
         "frequency_hz,receptance_real_um_per_n,receptance_imag_um_per_n,response,reference\n100,1,0.5,1X,1X\n110,2,-1,1X,1X\n100,1,0.5,1-Y,1X\n",
         "frequency_hz;accelerance_magnitude_g_per_n;phase_deg;coherence\n100;1,5;90;0,9\n110;2;80;0,99\n",
         &universal("         5         2         1  1.00000e+02  1.00000e+01  0.00000e+00", "  1.00000e+00  2.00000e+00  3.00000e+00 -4.00000e+00"),
         &universal("         6         2         0  0.00000e+00  0.00000e+00  0.00000e+00", "  1.00000e+02   1.00000000000e+00   2.00000000000e+00\n  1.10000e+02   3.00000000000e+00  -4.00000000000e+00"),
-    ])
+    ]);
+    let binary = universal("         6         2         1  1.00000e+02  1.00000e+01  0.00000e+00", "    -1")
+        .replace("    58\n", "    58b     1     2          11          32     0     0           0           0\n");
+    let (text, end) = binary.split_at(binary.len() - "    -1\n    -1\n".len());
+    let data: Vec<u8> = [1.0_f64, 2.0, 3.0, -4.0].into_iter().flat_map(f64::to_le_bytes).collect();
+    all.push([text.as_bytes(), &data, &end.as_bytes()["    -1\n".len()..]].concat());
+    all
 }

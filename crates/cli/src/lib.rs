@@ -97,6 +97,7 @@ fn run(command: &Command) -> Result<Outcome, StudyError> {
         Command::PathAccuracy(path_accuracy) => command::path_accuracy::run(path_accuracy),
         Command::Motion(motion) => command::motion::run(motion),
         Command::Frf(frf) => command::frf::run(frf),
+        Command::Receptance(receptance) => command::receptance::run(receptance),
         Command::Stability(stability) => command::stability::run(stability),
         Command::Budget(budget) => command::budget::run(budget),
         Command::Serve(serve) => command::serve::run(serve),

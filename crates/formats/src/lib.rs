@@ -6,7 +6,7 @@
 //! - [`controller`]: how a cell writes its robot programs.
 //! - [`motion`]: how a controller moves an arm.
 //! - [`convention`]: poses as six makers write them.
-//! - [`modal`]: modes of vibration at the tip of a cutter: our file of modal data.
+//! - [`modal`]: modes of vibration at the tip of a cutter: our file of modal data; [`tool_assembly`]: holder and cutter as beams.
 //! - [`material`]: what materials take to cut: our material file.
 //! - [`sources`]: where the numbers of these files come from.
 //! - [`table`]: columns of results as CSV, Parquet and VTK.
@@ -37,6 +37,7 @@ pub mod motion;
 pub mod robot;
 pub mod sources;
 pub mod table;
+pub mod tool_assembly;
 pub mod toolpath;
 pub mod visible;
 

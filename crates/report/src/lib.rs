@@ -17,6 +17,7 @@
 //! | what is the deviation of each hole? | [`HoleMap`] |
 //! | what depth and feed meet the tolerance? | [`ProcessMap`] |
 //! | up to which depth is a cut stable? | [`StabilityPlot`] |
+//! | how far does a tool move by a harmonic force? | [`FrfPlot`] |
 //! | how may the tool be turned along the path; what is around a place? | [`CellMap`] |
 //! | what was measured, and what became of it? | [`ForcePlot`] |
 //! | which cell meets the tolerance? | [`Comparison`] |
@@ -45,6 +46,7 @@ mod region;
 
 mod ballbar_plot;
 mod force_plot;
+mod frf_plot;
 mod path_detail;
 mod path_plot;
 mod polar_plot;
@@ -74,6 +76,7 @@ mod levels;
 mod levels_drawing;
 mod line;
 mod line_label;
+mod log_axis;
 mod marker;
 mod rows;
 mod sections;
@@ -101,6 +104,7 @@ pub use ellipse::StiffnessEllipse;
 pub use error::ReportError;
 pub use error_distribution::{ErrorDistribution, ErrorSet};
 pub use force_plot::{Envelope, ForcePlot, ForceTrace};
+pub use frf_plot::{FrfCurve, FrfPlot, FrfStyle};
 pub use grid::{Grid, PointState};
 pub use hole_map::{HoleMap, HoleMark};
 pub use map::{DeviationMap, Overlay};

@@ -41,6 +41,7 @@ pub mod pendant;
 pub mod pose;
 pub mod pose_answer;
 pub mod program_out;
+pub mod receptance;
 pub mod robot_answers;
 pub mod robots;
 pub mod run;

@@ -11,7 +11,7 @@ use armill_core::dynamics::ArmMode;
 use armill_core::dynamics::modes::{ASSUMED_DAMPING, PUBLISHED_DAMPING};
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::{Matrix3, Vector3};
-use armill_core::robot::{Attachment, Damping, Robot};
+use armill_core::robot::{Attachment, Damping, JointCompliance, Robot};
 use armill_core::source::{Arm, ArmState, Contributor, StiffnessModel};
 use armill_core::units::{to_mm, to_per_um};
 use armill_formats::robot::RobotDescription;
@@ -137,18 +137,8 @@ fn answer_with(
     let q = joint_positions(robot, &question.joints_deg)?;
     let mut model = model.clone();
     model.load_dependent = false;
-    if let Some(ratio) = question.damping_ratio {
-        if !(0.0..1.0).contains(&ratio) {
-            let message = format!("a damping ratio of {ratio} is not a number from 0 to below 1");
-            return Err(StudyError::value(message, "such as 0.03"));
-        }
-        model.structure.damping = Some(Damping::Ratio(ratio));
-    }
-    let compliance = robot.compliance().ok_or_else(|| {
-        let message = format!("no joint compliance of robot `{}` is known: its modes cannot be predicted", robot.name());
-        let hint = "give --compliance-rad-per-n-m C1,C2,..., or assume them with --compliance-class light|medium|heavy";
-        StudyError::value(message, hint)
-    })?;
+    with_damping(&mut model, question.damping_ratio)?;
+    let compliance = known_compliance(robot)?;
     needs_mass(robot, &model)?;
     let arm = Arm {
         robot,
@@ -202,8 +192,28 @@ fn answer_with(
     })
 }
 
+/// Puts a damping ratio of every mode into the model, if one is given.
+pub(crate) fn with_damping(model: &mut StiffnessModel, ratio: Option<f64>) -> Result<(), StudyError> {
+    let Some(ratio) = ratio else { return Ok(()) };
+    if !(0.0..1.0).contains(&ratio) {
+        let message = format!("a damping ratio of {ratio} is not a number from 0 to below 1");
+        return Err(StudyError::value(message, "such as 0.03"));
+    }
+    model.structure.damping = Some(Damping::Ratio(ratio));
+    Ok(())
+}
+
+/// The joint compliances, without which there are no modes.
+pub(crate) fn known_compliance(robot: &Robot) -> Result<&[JointCompliance], StudyError> {
+    robot.compliance().ok_or_else(|| {
+        let message = format!("no joint compliance of robot `{}` is known: its modes cannot be predicted", robot.name());
+        let hint = "give --compliance-rad-per-n-m C1,C2,..., or assume them with --compliance-class light|medium|heavy";
+        StudyError::value(message, hint)
+    })
+}
+
 /// An arm without any mass has no modes.
-fn needs_mass(robot: &Robot, model: &StiffnessModel) -> Result<(), StudyError> {
+pub(crate) fn needs_mass(robot: &Robot, model: &StiffnessModel) -> Result<(), StudyError> {
     if model.structure.has_inertia() {
         return Ok(());
     }

@@ -35,7 +35,7 @@ pub const UNITS: &[&str] = &[
 ];
 
 /// Last words that are a unit only after `per`: alone, `min` is the smallest, `tooth` a thing.
-pub const UNITS_AFTER_PER: &[&str] = &["min", "tooth"];
+pub const UNITS_AFTER_PER: &[&str] = &["min", "tooth", "m3"];
 
 /// Names of numbers without unit, and of the SI matrices.
 const NO_UNIT: &[&str] = &[

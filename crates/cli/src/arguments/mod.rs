@@ -1,7 +1,7 @@
 //! Arguments of `armill`: one file per command, with the same name as in `command`.
 //!
 //! `run`, `check`, `compare`, `new`, `robots`, `materials`, `pose`, `posture`, `place`, `advise`, `compensate`,
-//! `identify`, `calibrate`, `forces`, `roundness`, `ballbar`, `backlash`, `budget`, `pose_accuracy`, `path_accuracy`, `motion`, `frf`, `modes`,
+//! `identify`, `calibrate`, `forces`, `roundness`, `ballbar`, `backlash`, `budget`, `pose_accuracy`, `path_accuracy`, `motion`, `frf`, `modes`, `receptance`,
 //! `stability`, `serve`, `completions`, `man`; `poses` and `program` are used by two of them each, `writing` by all that write
 //! files.
 //!
@@ -37,6 +37,7 @@ mod pose_accuracy;
 mod poses;
 mod posture;
 mod program;
+mod receptance;
 mod robots;
 mod roundness;
 mod run;
@@ -68,6 +69,7 @@ pub(crate) use pose_accuracy::PoseAccuracyArguments;
 pub(crate) use poses::{PosesOptions, TurnArgument};
 pub(crate) use posture::PostureArguments;
 pub(crate) use program::ProgramOptions;
+pub(crate) use receptance::ReceptanceArguments;
 pub(crate) use robots::{
     BodiesArguments, ImportArguments, MassesArguments, RobotsAction, RobotsArguments, RobotsCheckArguments,
 };
@@ -139,6 +141,8 @@ pub(crate) enum Command {
     Motion(MotionArguments),
     /// Determine the modes of a tool or an arm from measured frequency response functions
     Frf(FrfArguments),
+    /// Predict the receptance at the tip of a tool: arm, holder and cutter coupled
+    Receptance(Box<ReceptanceArguments>),
     /// Evaluate the stability of a cut against chatter: lobes, limits of the depth, vibration
     Stability(Box<StabilityArguments>),
     /// Compare the measured error of a circle with its predicted contributions
@@ -183,6 +187,7 @@ impl Command {
             Command::PathAccuracy(a) => a.json,
             Command::Motion(a) => a.json,
             Command::Frf(a) => a.json,
+            Command::Receptance(a) => a.json,
             Command::Stability(a) => a.json,
             Command::Budget(a) => a.json,
             Command::Serve(_) | Command::Completions(_) | Command::Man(_) => false,

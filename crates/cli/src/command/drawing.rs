@@ -14,21 +14,28 @@ const PIXELS: f64 = 2.0;
 /// # Errors
 /// Another extension; a picture that cannot be converted; a file that cannot be written.
 pub(super) fn write(writer: &Writer, file: &Path, svg: &str) -> Result<(), StudyError> {
+    writer.write(file, &bytes(file, svg)?)?;
+    crate::terminal::say(&format!("drawing in {}", file.display()));
+    Ok(())
+}
+
+/// The bytes of this file, for commands that write several.
+///
+/// # Errors
+/// Another extension; a picture that cannot be converted.
+pub(super) fn bytes(file: &Path, svg: &str) -> Result<Vec<u8>, StudyError> {
     let ends_in = |requested: &str| {
         let ending = file.extension();
         ending.is_some_and(|ending| ending.eq_ignore_ascii_case(requested))
     };
-    let bytes = if ends_in("png") {
-        armill_report::raster::png(svg, PIXELS)?
+    if ends_in("png") {
+        Ok(armill_report::raster::png(svg, PIXELS)?)
     } else if ends_in("svg") {
-        svg.as_bytes().to_vec()
+        Ok(svg.as_bytes().to_vec())
     } else {
-        return Err(StudyError::value(
+        Err(StudyError::value(
             format!("--drawing: {} does not end in .svg or .png", file.display()),
             "use one of these extensions",
-        ));
-    };
-    writer.write(file, &bytes)?;
-    crate::terminal::say(&format!("drawing in {}", file.display()));
-    Ok(())
+        ))
+    }
 }

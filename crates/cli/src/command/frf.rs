@@ -6,11 +6,13 @@
 //! ```
 
 use std::f64::consts::TAU;
+use std::path::PathBuf;
 
 use armill_measure::frf::answer::{FrfAnswer, FrfModeAnswer};
-use armill_measure::frf::{FrfModesAnswer, FrfQuestion, answer, fit_all, modal_file, read};
+use armill_measure::frf::{Axes, FrfModesAnswer, FrfQuestion, answer, fit_all, modal_file, picture, read};
 use armill_study::StudyError;
 
+use super::drawing;
 use crate::arguments::FrfArguments;
 use crate::arguments::numbers::{above_zero, within};
 use crate::outcome::Outcome;
@@ -20,19 +22,37 @@ use crate::terminal::{print, say};
 const HIGHEST_HZ: f64 = 1e6;
 const MOST_MODES: usize = 25;
 
-/// Reads, fits, writes the requested file and prints the result.
+/// Reads, fits, writes the requested files and prints the result.
 ///
 /// # Errors
 /// Invalid options; the problems of a file; no drive point; no mode; a file that cannot be written.
 pub(crate) fn run(arguments: &FrfArguments) -> Result<Outcome, StudyError> {
     let question = question(arguments)?;
     let read = read(&arguments.files)?;
-    let answer = answer(&read, &fit_all(&read, &question)?);
+    let fitted = fit_all(&read, &question)?;
+    let answer = answer(&read, &fitted);
+    let mut files: Vec<(PathBuf, Vec<u8>)> = Vec::new();
     if let Some(file) = &arguments.out {
         let text = modal_file(&file.display().to_string(), &answer)?;
-        let writer = arguments.writing.writer("frf").for_new_files();
-        writer.write(file, text.as_bytes())?;
+        files.push((file.clone(), text.into_bytes()));
+    }
+    if let Some(file) = &arguments.drawing {
+        files.push((
+            file.clone(),
+            drawing::bytes(file, &picture(&read, &fitted).to_svg())?,
+        ));
+    }
+    let bytes: Vec<(PathBuf, &[u8])> = files
+        .iter()
+        .map(|(file, bytes)| (file.clone(), &bytes[..]))
+        .collect();
+    let writer = arguments.writing.writer("frf").for_new_files();
+    writer.write_all(&bytes)?;
+    if let Some(file) = &arguments.out {
         say(&format!("modes in {}", file.display()));
+    }
+    if let Some(file) = &arguments.drawing {
+        say(&format!("drawing in {}", file.display()));
     }
     print(&match arguments.json {
         true => serde_json::to_string_pretty(&answer)?,
@@ -64,6 +84,7 @@ fn question(arguments: &FrfArguments) -> Result<FrfQuestion, StudyError> {
             None => None,
         },
         point: arguments.point,
+        axes: arguments.axes.as_deref().map(Axes::parse).transpose()?,
     })
 }
 

@@ -2,7 +2,7 @@
 //!
 //! One file per command: `run`, `check`, `compare`, `new`, `robots` (a folder, for its subcommands), `materials`,
 //! `pose` (`pose_subject`: a robot, or the cell of a study), `posture`, `place`, `advise`, `compensate`, `identify`, `calibrate`, `forces`, `roundness`, `ballbar`,
-//! `backlash`, `budget`, `pose_accuracy`, `path_accuracy`, `motion`, `frf`, `modes`, `stability`, `serve`, `completions`, `man`. `poses`: options of measured
+//! `backlash`, `budget`, `pose_accuracy`, `path_accuracy`, `motion`, `frf`, `modes`, `receptance`, `stability`, `serve`, `completions`, `man`. `poses`: options of measured
 //! poses. `program`: options of a robot program. `drawing`: writes requested pictures.
 //!
 //! Each command has one function `run(&Arguments) -> Result<Outcome, StudyError>`: it finds robot or study,
@@ -34,6 +34,7 @@ pub(crate) mod pose;
 pub(crate) mod pose_accuracy;
 mod pose_subject;
 pub(crate) mod posture;
+pub(crate) mod receptance;
 pub(crate) mod robots;
 pub(crate) mod roundness;
 pub(crate) mod run;

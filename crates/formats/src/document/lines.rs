@@ -132,6 +132,37 @@ impl<R: BufRead> RawLines<R> {
     }
 }
 
+impl<R: BufRead> RawLines<R> {
+    /// Takes the next `count` bytes as they are, fewer at the end of the file: binary data between lines. A line feed after a carriage return belongs
+    /// to the line before.
+    ///
+    /// # Errors
+    /// Those of [`RawLines::next`].
+    pub fn take_bytes(&mut self, count: usize) -> io::Result<Vec<u8>> {
+        let mut taken = Vec::new();
+        while taken.len() < count {
+            let buffer = match self.reader.fill_buf() {
+                Ok(buffer) => buffer,
+                Err(error) if error.kind() == ErrorKind::Interrupted => continue,
+                Err(error) => return Err(error),
+            };
+            if buffer.is_empty() {
+                break;
+            }
+            if std::mem::take(&mut self.after_return) && buffer.first() == Some(&b'\n') {
+                self.reader.consume(1);
+                self.start += 1;
+                continue;
+            }
+            let used = buffer.len().min(count - taken.len());
+            taken.extend_from_slice(&buffer[..used]);
+            self.reader.consume(used);
+            self.start += used;
+        }
+        Ok(taken)
+    }
+}
+
 /// The lines of a text, one by one.
 #[derive(Debug)]
 pub(crate) struct Lines<R> {
@@ -168,6 +199,17 @@ impl<R: BufRead> Lines<R> {
                 other => return Ok(other),
             }
         }
+    }
+
+    /// The next `count` bytes as they are, fewer at the end of the file: binary data between lines.
+    ///
+    /// # Errors
+    /// A reader that fails.
+    pub fn take_bytes(&mut self, count: usize) -> Result<Vec<u8>, Problems> {
+        self.raw.take_bytes(count).map_err(|error| {
+            let message = format!("cannot be read further: {error}");
+            self.nothing_to_show(self.raw.number + 1, message, "copy the file again")
+        })
     }
 
     /// The next line; `None` behind the last.

@@ -114,12 +114,7 @@ pub fn answer(read: &ReadFrfs, fitted: &Fitted) -> FrfModesAnswer {
         for (index, place) in set.places.iter().enumerate() {
             frfs.push((*place, frf(read, set, index, number + 1)));
         }
-        modes.extend(
-            set.fit
-                .modes
-                .iter()
-                .map(|own| mode(own, set, number + 1, fitted.tip)),
-        );
+        modes.extend(set.fit.modes.iter().map(|own| mode(own, set, number + 1, fitted)));
     }
     frfs.sort_by_key(|(place, _)| *place);
     modes.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));
@@ -127,7 +122,7 @@ pub fn answer(read: &ReadFrfs, fitted: &Fitted) -> FrfModesAnswer {
     FrfModesAnswer {
         files: read.files.clone(),
         tip_point: fitted.tip,
-        notes: notes(read, &frfs, &modes, fitted.sets.len()),
+        notes: notes(read, &frfs, &modes, fitted),
         frfs,
         modes,
         unused: read.unused.clone(),
@@ -155,10 +150,15 @@ fn frf(read: &ReadFrfs, set: &FittedSet, index: usize, number_of_set: usize) -> 
     }
 }
 
-fn mode(own: &FittedMode, set: &FittedSet, number_of_set: usize, tip: i64) -> FrfModeAnswer {
+fn mode(own: &FittedMode, set: &FittedSet, number_of_set: usize, fitted: &Fitted) -> FrfModeAnswer {
+    let tip = fitted.tip;
+    let turn = fitted
+        .axes
+        .as_ref()
+        .map_or_else(Matrix3::identity, |axes| axes.feed_from_measured);
     let found = shape_of(own, &set.frfs);
     let at_tip = found.as_ref().map_err(NoShape::to_string).and_then(|shape| {
-        tip_shape(shape, tip)
+        tip_shape(shape, tip, &turn)
             .ok_or_else(|| format!("point {tip} does not move in this mode, or is not measured"))
     });
     let omega = own.angular_frequency;
@@ -205,8 +205,8 @@ struct TipShape {
     u: f64,
 }
 
-/// The shape at a point; `None` where it does not move.
-fn tip_shape(shape: &MeasuredShape, point: i64) -> Option<TipShape> {
+/// The shape at a point, turned into the feed frame; `None` where it does not move.
+fn tip_shape(shape: &MeasuredShape, point: i64, turn: &Matrix3<f64>) -> Option<TipShape> {
     let (mut phi, mut covariance) = (Vector3::zeros(), Matrix3::zeros());
     let of_tip = || (0..shape.dofs.len()).filter(|k| shape.dofs[*k].point == point);
     for k in of_tip() {
@@ -215,6 +215,7 @@ fn tip_shape(shape: &MeasuredShape, point: i64) -> Option<TipShape> {
             covariance[(shape.dofs[k].axis, shape.dofs[l].axis)] = shape.covariance[(k, l)];
         }
     }
+    let (phi, covariance) = (turn * phi, turn * covariance * turn.transpose());
     let length = phi.norm();
     let direction = phi.try_normalize(f64::MIN_POSITIVE)?;
     Some(TipShape {
@@ -224,12 +225,16 @@ fn tip_shape(shape: &MeasuredShape, point: i64) -> Option<TipShape> {
     })
 }
 
-fn notes(read: &ReadFrfs, frfs: &[FrfAnswer], modes: &[FrfModeAnswer], sets: usize) -> Vec<String> {
+fn notes(read: &ReadFrfs, frfs: &[FrfAnswer], modes: &[FrfModeAnswer], fitted: &Fitted) -> Vec<String> {
+    let sets = fitted.sets.len();
     let mut notes = read.notes.clone();
-    notes.push(
-        "directions are those of the measurement: X is taken as along the feed, Y as to its left, Z as from part to spindle"
-            .to_owned(),
-    );
+    notes.push(match &fitted.axes {
+        None => "directions are those of the measurement: X is taken as along the feed, Y as to its left, Z as from part to spindle".to_owned(),
+        Some(axes) => format!(
+            "directions of the modes are in the feed frame, by --axes: {}; shapes and FRFs are named as measured",
+            axes.words
+        ),
+    });
     notes.push(
         "standard uncertainties are those of the noise; errors of calibration of hammer and sensor, and the mass of the sensor, are not included"
             .to_owned(),

@@ -3,6 +3,7 @@
 use armill_core::dynamics::modal_fit::{FitOptions, Frf, ModalFit, connected, fit};
 use armill_study::StudyError;
 
+use super::axes::Axes;
 use super::question::{FrfQuestion, ReadFrfs};
 
 /// Modes of one set: FRFs that share points.
@@ -25,6 +26,8 @@ pub struct Fitted {
     pub sets: Vec<FittedSet>,
     /// The point of the tip.
     pub tip: i64,
+    /// Directions of the measured axes in the feed frame; none: X, Y, Z are x, y, z.
+    pub axes: Option<Axes>,
 }
 
 /// Fits the modes of each set.
@@ -40,6 +43,7 @@ pub fn fit_all(read: &ReadFrfs, question: &FrfQuestion) -> Result<Fitted, StudyE
         let options = FitOptions {
             band,
             modes: question.modes,
+            seeks_weak: true,
         };
         let fit = fit(&frfs, &options).map_err(|error| {
             StudyError::value(
@@ -54,7 +58,11 @@ pub fn fit_all(read: &ReadFrfs, question: &FrfQuestion) -> Result<Fitted, StudyE
             fit,
         });
     }
-    Ok(Fitted { sets, tip })
+    Ok(Fitted {
+        sets,
+        tip,
+        axes: question.axes.clone(),
+    })
 }
 
 /// The names of FRFs: `1X/1X`.

@@ -8,8 +8,10 @@ use armill_formats::input;
 use armill_formats::measurement::frf;
 use armill_study::StudyError;
 
+use super::axes::Axes;
+
 /// What is asked of the FRFs.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct FrfQuestion {
     /// Band of angular frequencies, rad/s; none: that which all FRFs of a set have.
     pub band: Option<[f64; 2]>,
@@ -17,6 +19,8 @@ pub struct FrfQuestion {
     pub modes: Option<usize>,
     /// Point of the tip; none: the only one with a drive point.
     pub point: Option<i64>,
+    /// Directions of the measured axes in the feed frame; none: X, Y, Z are x, y, z.
+    pub axes: Option<Axes>,
 }
 
 /// FRFs of all files.
@@ -26,6 +30,8 @@ pub struct ReadFrfs {
     pub files: Vec<String>,
     /// Their FRFs.
     pub frfs: Vec<Frf>,
+    /// Coherence at each frequency of each FRF; empty if it is not known.
+    pub coherences: Vec<Vec<f64>>,
     /// File of each FRF: its place in `files`.
     pub file_of: Vec<usize>,
     /// Ignored columns and datasets, each with its file.
@@ -51,6 +57,7 @@ pub fn read(paths: &[PathBuf]) -> Result<ReadFrfs, StudyError> {
         let found = frf::read(&file, BufReader::new(opened))?;
         all.file_of.extend(found.frfs.iter().map(|_| all.files.len()));
         all.frfs.extend(found.frfs);
+        all.coherences.extend(found.coherences);
         all.unused
             .extend(found.unused.iter().map(|name| format!("{name} ({file})")));
         all.notes.extend(found.notes);

@@ -23,6 +23,7 @@ use super::denominator::{Pole, poles_by_order};
 use super::frf::Frf;
 use super::model::terms;
 use super::refine::Refined;
+use super::residual_search::with_weak_modes;
 use super::selection::select;
 use super::stable::candidates;
 
@@ -42,6 +43,8 @@ pub struct FitOptions {
     pub band: [f64; 2],
     /// Number of modes; none: as many as the FRFs determine.
     pub modes: Option<usize>,
+    /// Whether weak modes are sought in the residuals of the others: these are noise then, not an error of the model.
+    pub seeks_weak: bool,
 }
 
 /// Why there are no modes.
@@ -141,7 +144,11 @@ pub fn fit(frfs: &[Frf], options: &FitOptions) -> Result<ModalFit, FitError> {
     let count = found.len();
     let most = MOST_CANDIDATES.min(fewest / PER_ORDER);
     let poles: Vec<Pole> = found.iter().take(most).map(|candidate| candidate.pole).collect();
-    let refined = select(&frfs, options.band, &poles, options.modes).ok_or(FitError::NoMode)?;
+    let mut refined = select(&frfs, options.band, &poles, options.modes).ok_or(FitError::NoMode)?;
+    if options.seeks_weak {
+        let most = options.modes.unwrap_or(most).min(most);
+        refined = with_weak_modes(&frfs, options.band, refined, most);
+    }
     let fitted: Vec<FittedFrf> = frfs
         .iter()
         .enumerate()

@@ -2,7 +2,7 @@
 //!
 //! Read in this order: [`frf`] (a measured FRF as receptance), `denominator` (poles of one order: least squares in the frequency domain with a
 //! common denominator), `stable` (poles that remain over the orders), `model` (receptance of given poles; residues by linear least squares), `refine`
-//! (poles by nonlinear least squares), `selection` (how many modes the FRFs determine), [`fit`](mod@fit) (all together, with standard
+//! (poles by nonlinear least squares), `selection` (how many modes the FRFs determine), `residual_search` (weak modes in what is left over), [`fit`](mod@fit) (all together, with standard
 //! uncertainties), `complexity` (how far the modes are from real ones), [`shape`] (shape normalised by mass in the measured directions).
 //!
 //! Theory: `docs/theory/modal-parameters.md`.
@@ -13,6 +13,7 @@ pub mod fit;
 pub mod frf;
 mod model;
 mod refine;
+mod residual_search;
 mod selection;
 pub mod shape;
 mod stable;

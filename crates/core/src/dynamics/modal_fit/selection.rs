@@ -10,10 +10,11 @@
 //! | `N`, `K`, `p` | modes, FRFs, parameters |
 //!
 //! All candidates are fitted; then the mode whose removal increases the criterion least is removed, as long as this lowers the criterion, or
-//! until the requested number is reached. Source: Schwarz 1978 (recalled).
+//! until the requested number is reached. A mode that is left must lower it relative to no mode. Source: Schwarz 1978 (recalled).
 
 use super::denominator::Pole;
 use super::frf::Frf;
+use super::model::{Solved, columns, solve};
 use super::refine::{Refined, refine, squares};
 use super::stable::LARGEST_DAMPING;
 
@@ -61,20 +62,32 @@ pub(super) fn select(
         }
         current = fewer;
     }
-    Some(current)
+    let is_something = requested.is_some() || criterion(frfs, &current) < criterion_without_modes(frfs)?;
+    is_something.then_some(current)
 }
 
-fn is_physical(pole: &Pole, band: [f64; 2]) -> bool {
+/// The criterion of the residual terms alone; `None` if the FRFs do not determine them.
+fn criterion_without_modes(frfs: &[Frf]) -> Option<f64> {
+    let solved: Option<Vec<Solved>> = frfs.iter().map(|frf| solve(frf, &columns(frf, &[]))).collect();
+    Some(criterion_of(frfs, &solved?, 0))
+}
+
+/// Whether a pole is inside the band, and vibrates.
+pub(super) fn is_physical(pole: &Pole, band: [f64; 2]) -> bool {
     (band[0]..=band[1]).contains(&pole.angular_frequency) && pole.damping_ratio < LARGEST_DAMPING
 }
 
 fn criterion(frfs: &[Frf], refined: &Refined) -> f64 {
+    criterion_of(frfs, &refined.solved, refined.poles.len())
+}
+
+fn criterion_of(frfs: &[Frf], solved: &[Solved], modes: usize) -> f64 {
     let (mut sum, mut values) = (0.0, 0.0);
-    for (frf, solved) in frfs.iter().zip(&refined.solved) {
+    for (frf, solved) in frfs.iter().zip(solved) {
         let count = solved.residuals.len() as f64;
         sum += count * squares(frf, solved).ln();
         values += count;
     }
-    let (modes, count) = (refined.poles.len() as f64, frfs.len() as f64);
+    let (modes, count) = (modes as f64, frfs.len() as f64);
     sum + (modes * (2.0 + count) + 2.0 * count) * values.ln()
 }

@@ -80,6 +80,7 @@ fn fitted(frfs: &[Frf], lines: &Lines, modes: Option<usize>) -> ModalFit {
     let options = FitOptions {
         band: lines.band(),
         modes,
+        seeks_weak: true,
     };
     fit(frfs, &options).unwrap()
 }
@@ -302,17 +303,97 @@ fn too_few_frequencies_no_frfs_and_noise_alone_are_refused() {
     let options = FitOptions {
         band: LINES.band(),
         modes: None,
+        seeks_weak: true,
     };
     assert_eq!(fit(&[], &options), Err(FitError::NoFrfs));
     let measured = frfs(&cutter(), &LINES, &[[0, 0]], 0.0);
     let narrow = FitOptions {
         band: [TAU * 300.0, TAU * 310.0],
         modes: None,
+        seeks_weak: true,
     };
     assert_eq!(fit(&measured, &narrow), Err(FitError::TooFew(6)));
     let mut zero = measured.clone();
     zero[0].receptance.fill(Complex::new(0.0, 0.0));
     assert_eq!(fit(&zero, &options), Err(FitError::NoMode));
+}
+
+#[test]
+fn noise_alone_has_no_modes() {
+    for pairs in [&[[0, 0]][..], &[[0, 0], [1, 0], [1, 1]]] {
+        let options = FitOptions {
+            band: LINES.band(),
+            modes: None,
+            seeks_weak: true,
+        };
+        assert_eq!(
+            fit(&frfs(&[], &LINES, pairs, 3e-9), &options),
+            Err(FitError::NoMode)
+        );
+    }
+}
+
+/// A strong mode, and one whose peak is a thousandth of it: three times the noise.
+fn strong_and_weak() -> Vec<Mode> {
+    vec![
+        mode(1150.0, 0.012, [4.0, 1.0, 0.0]),
+        mode(1700.0, 0.01, [0.14, 0.1, 0.0]),
+    ]
+}
+
+#[test]
+fn a_weak_mode_is_found_in_the_residuals_of_a_strong_one() {
+    let modes = strong_and_weak();
+    let measured = frfs(&modes, &LINES, &[[0, 0], [1, 0]], 3e-9);
+    let found = fitted(&measured, &LINES, None);
+    assert_eq!(found.modes.len(), 2, "{found:?}");
+    for (own, expected) in found.modes.iter().zip(&modes) {
+        is_within(
+            own.angular_frequency,
+            expected.angular_frequency,
+            own.angular_frequency_u,
+        );
+        is_within(own.damping_ratio, expected.damping_ratio, own.damping_ratio_u);
+        is_within(
+            own.residues[0],
+            expected.shape[0].powi(2),
+            own.residues_covariance[(0, 0)].sqrt(),
+        );
+    }
+}
+
+#[test]
+fn noise_in_the_residuals_is_no_mode() {
+    // Twenty sequences of noise on a strong mode: one mode each.
+    let exact = frfs(&strong_and_weak()[..1], &LINES, &[[0, 0]], 0.0);
+    let mut sequence = Noise(11);
+    for run in 0..20 {
+        let mut noisy = exact.clone();
+        for h in &mut noisy[0].receptance {
+            *h += Complex::new(3e-9 * sequence.next(), 3e-9 * sequence.next());
+        }
+        let found = fitted(&noisy, &LINES, None);
+        assert_eq!(found.modes.len(), 1, "{run}: {:?}", found.modes);
+    }
+}
+
+#[test]
+fn correlated_noise_in_the_residuals_is_no_mode() {
+    // Averages of five neighbours: what an exponential window makes of noise.
+    let exact = frfs(&strong_and_weak()[..1], &LINES, &[[0, 0]], 0.0);
+    let mut sequence = Noise(13);
+    for run in 0..10 {
+        let count = exact[0].receptance.len();
+        let noise: Vec<Complex<f64>> = (0..count + 4)
+            .map(|_| Complex::new(3e-9 * sequence.next(), 3e-9 * sequence.next()))
+            .collect();
+        let mut noisy = exact.clone();
+        for (k, h) in noisy[0].receptance.iter_mut().enumerate() {
+            *h += noise[k..k + 5].iter().sum::<Complex<f64>>() / 5.0_f64.sqrt();
+        }
+        let found = fitted(&noisy, &LINES, None);
+        assert_eq!(found.modes.len(), 1, "{run}: {:?}", found.modes);
+    }
 }
 
 fn with_residues(residues: &[f64]) -> FittedMode {

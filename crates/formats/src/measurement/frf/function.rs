@@ -6,13 +6,14 @@
 //! | 6 | 2(I5,I10),2(1X,10A1,I10,I4) | type of function (4: FRF, 6: coherence), ..., response: name, node, direction; reference: the same |
 //! | 7 | 3I10,3E13.5 | type of data (2, 4: real; 5, 6: complex; 4, 6: double precision), count, spacing (1: even), first, step |
 //! | 8 to 11 | I10,3I5,2(1X,20A1) | abscissa, numerator, denominator, z: specific type, exponents, label, unit |
-//! | 12 | 6E13.5, 4E20.12, or with double and uneven spacing E13.5 before each value | data |
+//! | 12 | 6E13.5, 4E20.12, or with double and uneven spacing E13.5 before each value; `binary` in dataset 58b | data |
 //!
 //! Source: universal file formats of the SDRC, dataset 58, University of Cincinnati (recalled, compared with the files of pyuff 2.5.8).
 
 use std::io::BufRead;
 use std::ops::Range;
 
+use super::binary::BinaryForm;
 use crate::document::lines::{Line, Lines};
 use crate::document::{Problem, Problems};
 
@@ -34,6 +35,8 @@ pub(super) struct Function {
     pub abscissa: Vec<f64>,
     /// Ordinate: real and imaginary part.
     pub values: Vec<[f64; 2]>,
+    /// What to know of it.
+    pub note: Option<String>,
 }
 
 /// An axis.
@@ -74,11 +77,15 @@ pub(super) fn fortran(text: &str) -> Option<f64> {
     text.parse().ok().filter(|value: &f64| value.is_finite())
 }
 
-/// Reads a function, after the line with its number and up to its last value.
+/// Reads a function, after the line with its number and up to its last value; its data are text, or of a binary form.
 ///
 /// # Errors
 /// Its problems.
-pub(super) fn read(lines: &mut Lines<impl BufRead>, most: usize) -> Result<Function, Problems> {
+pub(super) fn read(
+    lines: &mut Lines<impl BufRead>,
+    most: usize,
+    binary: Option<&BinaryForm>,
+) -> Result<Function, Problems> {
     let path = lines.name().to_owned();
     for _ in 0..5 {
         next(lines)?;
@@ -128,7 +135,10 @@ pub(super) fn read(lines: &mut Lines<impl BufRead>, most: usize) -> Result<Funct
         is_uneven: spacing != 1,
         count: count as usize,
     };
-    let numbers = numbers(lines, &shape)?;
+    let (numbers, note) = match binary {
+        None => (numbers(lines, &shape)?, None),
+        Some(form) => form.numbers(lines, &shape)?,
+    };
     let per_value = shape.per_value();
     let parts = numbers.chunks_exact(per_value);
     let abscissa = parts
@@ -150,21 +160,25 @@ pub(super) fn read(lines: &mut Lines<impl BufRead>, most: usize) -> Result<Funct
                 _ => [value[per_value - 1], 0.0],
             })
             .collect(),
+        note,
     })
 }
 
 /// Layout of the data.
-struct Shape {
-    is_double: bool,
+pub(super) struct Shape {
+    /// Whether ordinates have double precision.
+    pub is_double: bool,
     /// Numbers of an ordinate.
     parts: usize,
-    is_uneven: bool,
-    count: usize,
+    /// Whether each value has its abscissa.
+    pub is_uneven: bool,
+    /// Number of values.
+    pub count: usize,
 }
 
 impl Shape {
     /// Numbers of a value with its abscissa.
-    fn per_value(&self) -> usize {
+    pub(super) fn per_value(&self) -> usize {
         self.parts + usize::from(self.is_uneven)
     }
 

@@ -10,6 +10,8 @@ pub(super) const MOST_FREQUENCIES: usize = 2_000_000;
 pub struct MeasuredFrfs {
     /// The FRFs, in the order of the file.
     pub frfs: Vec<Frf>,
+    /// Coherence at each frequency of each FRF; empty if it is not known.
+    pub coherences: Vec<Vec<f64>>,
     /// Ignored columns or datasets.
     pub unused: Vec<String>,
     /// What to know of them: assumed units, points and weights.

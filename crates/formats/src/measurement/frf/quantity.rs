@@ -61,8 +61,8 @@ pub(super) struct Samples {
 }
 
 impl Samples {
-    /// As receptance; the frequency 0 is left out.
-    pub fn receptance(&self) -> Frf {
+    /// As receptance, and the coherence at each of its frequencies, none if it is not known; the frequency 0 is left out.
+    pub fn receptance(&self) -> (Frf, Vec<f64>) {
         let derivatives = self.quantity.derivatives();
         let sign = self.response.sign * self.reference.sign;
         let mut frf = Frf {
@@ -72,6 +72,7 @@ impl Samples {
             receptance: Vec::new(),
             weights: Vec::new(),
         };
+        let mut coherences = Vec::new();
         for (index, (w, value)) in self.angular_frequencies.iter().zip(&self.values).enumerate() {
             if *w <= 0.0 {
                 continue;
@@ -89,8 +90,9 @@ impl Samples {
                 frf.angular_frequencies.push(*w);
                 frf.receptance.push(receptance);
                 frf.weights.push(weight);
+                coherences.extend(self.coherence.as_ref().map(|coherence| coherence[index]));
             }
         }
-        frf
+        (frf, coherences)
     }
 }

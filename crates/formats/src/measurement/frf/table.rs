@@ -193,8 +193,10 @@ pub(super) fn read(path: &str, reader: impl BufRead) -> Result<MeasuredFrfs, Pro
             "{path}: points are not given: response or reference is taken as 1X"
         ));
     }
+    let (frfs, coherences) = samples.iter().map(Samples::receptance).unzip();
     Ok(MeasuredFrfs {
-        frfs: samples.iter().map(Samples::receptance).collect(),
+        frfs,
+        coherences,
         unused: table.unused,
         notes,
     })

@@ -179,7 +179,7 @@ fn problems_of_a_universal_file_have_their_place() {
             "    1         0    0",
             "no frequency response function",
         ),
-        ("    58 ", "   58b ", "binary"),
+        ("    58 ", "   58b ", "is not a byte order"),
         (
             "    -1\n    58",
             "    -1\n    55",

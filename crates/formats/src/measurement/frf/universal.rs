@@ -1,4 +1,4 @@
-//! A universal file: datasets between lines `-1`. Functions are in datasets 58, units in dataset 164.
+//! A universal file: datasets between lines `-1`. Functions are in datasets 58 (58b: with binary data), units in dataset 164.
 //!
 //! The unit of an axis is that of its label; without one, that of dataset 164; without both, SI. A coherence (function 6) belongs to the FRF with the same response and
 //! reference. Other functions and datasets are left out and listed.
@@ -9,6 +9,7 @@ use std::io::BufRead;
 
 use armill_core::nalgebra::Complex;
 
+use super::binary::BinaryForm;
 use super::function::{self, Axis, Function, fortran, is_delimiter};
 use super::measured::{MOST_FREQUENCIES, MeasuredFrfs, SignedDof};
 use super::quantity::{Quantity, Samples};
@@ -31,15 +32,9 @@ pub(super) fn read(path: &str, reader: impl BufRead) -> Result<MeasuredFrfs, Pro
     while let Some(number) = dataset(&mut lines)? {
         match number.text.trim() {
             "58" => {
-                let found = function::read(&mut lines, MOST_FREQUENCIES - frequencies)?;
+                let found = function::read(&mut lines, MOST_FREQUENCIES - frequencies, None)?;
                 frequencies += found.values.len();
-                if functions.len() == MOST_FUNCTIONS || frequencies == MOST_FREQUENCIES {
-                    let message =
-                        format!("more than {MOST_FUNCTIONS} functions or {MOST_FREQUENCIES} frequencies");
-                    return Err(number
-                        .problem(path, 0..number.text.len(), message, "divide the file")
-                        .into());
-                }
+                within_limits(path, &number, [functions.len(), frequencies])?;
                 functions.push((found, units));
                 if let Some(line) = lines.next()?
                     && !is_delimiter(&line.text)
@@ -50,12 +45,20 @@ pub(super) fn read(path: &str, reader: impl BufRead) -> Result<MeasuredFrfs, Pro
                 }
                 continue;
             }
-            "164" => units = Some(factors(&mut lines)?),
             binary if binary.starts_with("58b") => {
-                let message = "the function is binary (dataset 58b)";
-                let hint = "export the file as ASCII: dataset 58";
-                return Err(number.problem(path, 0..number.text.len(), message, hint).into());
+                let form = BinaryForm::of(path, &number)?;
+                let found = function::read(&mut lines, MOST_FREQUENCIES - frequencies, Some(&form))?;
+                frequencies += found.values.len();
+                within_limits(path, &number, [functions.len(), frequencies])?;
+                functions.push((found, units));
+                if !ends_here(&mut lines) {
+                    let message = "the binary data of the function do not end where its counts say";
+                    let hint = "the seventh line of the dataset has the number of values: export the file again, or as text (dataset 58)";
+                    return Err(number.problem(path, 0..number.text.len(), message, hint).into());
+                }
+                continue;
             }
+            "164" => units = Some(factors(&mut lines)?),
             other => *left_out.entry(format!("dataset {other}")).or_default() += 1,
         }
         // What remains of the dataset.
@@ -68,6 +71,7 @@ pub(super) fn read(path: &str, reader: impl BufRead) -> Result<MeasuredFrfs, Pro
     let mut measured = MeasuredFrfs::default();
     let mut samples: Vec<Samples> = Vec::new();
     for (found, units) in functions.iter().filter(|(found, _)| found.kind == 4) {
+        measured.notes.extend(found.note.clone());
         match self::samples(path, found, *units, &mut measured.notes) {
             Ok(own) => samples.push(own),
             Err(wrong) => problems.extend(wrong),
@@ -97,7 +101,7 @@ pub(super) fn read(path: &str, reader: impl BufRead) -> Result<MeasuredFrfs, Pro
         .iter()
         .map(|(name, count)| format!("{count} x {name}"))
         .collect();
-    measured.frfs = samples.iter().map(Samples::receptance).collect();
+    (measured.frfs, measured.coherences) = samples.iter().map(Samples::receptance).unzip();
     measured.notes.dedup();
     match measured.frfs.is_empty() {
         true => Err(Problem::of_file(
@@ -108,6 +112,29 @@ pub(super) fn read(path: &str, reader: impl BufRead) -> Result<MeasuredFrfs, Pro
         .into()),
         false => Ok(measured),
     }
+}
+
+/// Whether there are not too many functions and frequencies.
+fn within_limits(path: &str, number: &Line, counts: [usize; 2]) -> Result<(), Problems> {
+    if counts[0] < MOST_FUNCTIONS && counts[1] < MOST_FREQUENCIES {
+        return Ok(());
+    }
+    let message = format!("more than {MOST_FUNCTIONS} functions or {MOST_FREQUENCIES} frequencies");
+    Err(number
+        .problem(path, 0..number.text.len(), message, "divide the file")
+        .into())
+}
+
+/// Whether the dataset ends after its binary data: here, or after an end of a line.
+fn ends_here(lines: &mut Lines<impl BufRead>) -> bool {
+    for _ in 0..2 {
+        match lines.next() {
+            Ok(Some(line)) if line.text.trim().is_empty() => {}
+            Ok(Some(line)) => return is_delimiter(&line.text),
+            Ok(None) | Err(_) => return false,
+        }
+    }
+    false
 }
 
 /// The line with the number of the next dataset.
