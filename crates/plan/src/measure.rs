@@ -7,7 +7,7 @@ use serde::Serialize;
 /// What a result recommends: in words, and as values of the study.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Measure {
-    /// `placement`, `spin`, `axial_depth`, `radial_depth`, `feed`, `compensation` or `robot`.
+    /// `placement`, `spin`, `spindle`, `axial_depth`, `radial_depth`, `feed`, `compensation` or `robot`.
     pub measure: &'static str,
     /// A sentence with its gain.
     pub sentence: String,

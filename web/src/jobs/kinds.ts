@@ -55,7 +55,7 @@ interface IdentifyResult {
 }
 
 /** Kinds of measures in the result of an advice. */
-const MEASURES: Record<string, string> = { placement: "Placement", spin: "Spin", axial_depth: "Depth", radial_depth: "Width", feed: "Feed", compensation: "Compensation" };
+const MEASURES: Record<string, string> = { placement: "Placement", spin: "Spin", spindle: "Spindle speed", axial_depth: "Depth", radial_depth: "Width", feed: "Feed", compensation: "Compensation" };
 
 /** The result of each analysis or spring, a line each. */
 export function resultLines(job: Job): { name: string; what: string }[] {

@@ -7,6 +7,7 @@ const BUTTONS: Record<string, string> = {
   placement: "Apply this placement",
   spin: "Apply this search",
   axial_depth: "Set the depth",
+  spindle: "Set the spindle speed",
   radial_depth: "Set the width",
   feed: "Set the feed",
   robot: "Apply these compliances",

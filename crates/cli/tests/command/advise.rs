@@ -165,3 +165,88 @@ fn the_advised_study_finds_its_files_and_its_program_is_written() {
     cell.armill(&refused)
         .refused(&["is not that of a robot language"]);
 }
+
+/// An arm whose first joint alone deflects, with all its mass at the tip: one mode at 28 Hz at this place; the teeth pass at three quarters of
+/// it, and the cut is deeper than its limit there.
+const CHATTERING: &str = r#"format = 1
+robot = "yaskawa/mh12"
+tolerance_um = 100000
+plane = { centre_mm = [900, 0, 500], tilt_deg = 90, half_size_mm = 50, step_mm = 50 }
+posture = { branch = "front elbow-up no-flip" }
+compliance = { rad_per_n_m = [1e-6, 0, 0, 0, 0, 0], source = "own" }
+place = { x_mm = [900, 900] }
+[tool]
+flange_from_tool_mm_deg = [0, 0, 150, 0, 0, 0]
+[[tool.mass]]
+at = "tool"
+mass_kg = 40
+centre_mm = [0, 0, 0]
+source = "own"
+[cut]
+material = "aluminium-7075-t6"
+u_percent = 1
+axial_depth_mm = 2
+side = "slot"
+spindle_rpm = 630
+feed_mm_per_min = 63
+cutter = { diameter_mm = 10, flutes = 2 }
+[vibration]
+damping_ratio = 0.03
+[[analysis]]
+kind = "path"
+name = "slot"
+line = { from_mm = [-10, 0], to_mm = [10, 0] }
+step_mm = 10
+"#;
+
+#[test]
+fn a_speed_that_is_advised_makes_the_cut_stable() {
+    let cell = Cell::new();
+    cell.file("study.toml", CHATTERING);
+    let said = cell.armill(&["advise", "study.toml", "--no-pictures"]).fine();
+    for words in [
+        "The cut is unstable",
+        "Spindle speed: ",
+        "raises the least stable depth",
+    ] {
+        assert!(said.out.contains(words), "{words}: {}", said.out);
+    }
+    let advice = advice(&cell);
+    let speed = &advice["stability"]["speed"];
+    let times = number(&speed["times"]);
+    let [after, before] = [0, 1].map(|index| number(&speed["stable_depth_mm"][index]));
+    assert!(before < 2.0 && after > 2.0, "{speed}");
+    let faster = CHATTERING
+        .replace("spindle_rpm = 630", &format!("spindle_rpm = {}", 630.0 * times))
+        .replace(
+            "feed_mm_per_min = 63",
+            &format!("feed_mm_per_min = {}", 63.0 * times),
+        );
+    cell.file("faster.toml", faster);
+    let of = |study: &str| {
+        let found = cell
+            .armill(&[
+                "run",
+                study,
+                "--no-pictures",
+                "--json",
+                "--out",
+                &format!("{study}-out"),
+            ])
+            .fine()
+            .json();
+        let cut = found["paths"][0]["vibration"]["cut"].clone();
+        (number(&cut["stable_depth_mm"]), cut["unstable_points"].clone())
+    };
+    std::fs::rename(cell.at("study.toml"), cell.at("slow.toml")).unwrap();
+    let (depth, unstable) = of("faster.toml");
+    assert!(
+        (depth / after - 1.0).abs() < 1e-6 && unstable == 0,
+        "{depth} {after}"
+    );
+    let (depth, unstable) = of("slow.toml");
+    assert!(
+        (depth / before - 1.0).abs() < 1e-6 && unstable != 0,
+        "{depth} {before}"
+    );
+}

@@ -462,3 +462,38 @@ fn joints_that_follow_late_are_a_contribution_where_no_ball_bar_measured_them() 
     );
     assert!((u / (0.25 * rms) - 1.0).abs() < 1e-6, "{u} {rms}");
 }
+
+#[test]
+fn the_vibration_under_the_teeth_is_a_contribution_of_a_cut_with_one_wall() {
+    let (folder, _) = experiment([0.0, 0.0], "", (0.0, 1.0));
+    let at = folder.path();
+    let study = std::fs::read_to_string(at.join("study.toml")).unwrap();
+    let (bare, measured) = study.split_once("[measured]").unwrap();
+    let mass = "tool = { mass = [{ at = \"tool\", mass_kg = 40, centre_mm = [0, 0, 0], source = \"own\" }], ";
+    let of = |side: &str, vibration: &str| {
+        let cut = format!(
+            "[cut]\nmaterial = \"aluminium-7075-t6\"\naxial_depth_mm = 1\n{side}\nspindle_rpm = 3000\n\
+             feed_mm_per_min = 600\ncutter = {{ diameter_mm = 10, flutes = 2 }}\n{vibration}"
+        );
+        let text = bare
+            .replace("tool = { ", mass)
+            .replace("[[analysis]]", &format!("{cut}[[analysis]]"));
+        std::fs::write(at.join("study.toml"), format!("{text}[measured]{measured}")).unwrap();
+        reported(at)
+    };
+    let named = |given: &Value| -> Vec<String> {
+        let all = given["contributions"].as_array().unwrap().iter();
+        all.map(|one| one["name"].as_str().unwrap().to_owned()).collect()
+    };
+    let name = "vibration under the teeth".to_owned();
+    let down = "side = \"down\"\nradial_depth_mm = 2";
+    let with = of(down, "[vibration]\n");
+    assert_eq!(named(&with)[1], name);
+    let rms = number(&with, "/contributions/1/rms_um");
+    let u = number(&with, "/contributions/1/bias_u_um");
+    assert!(rms > 0.0 && u > 0.0 && u.is_finite(), "{with}");
+    assert_eq!(with["contributions"][1]["origin"], "load");
+    assert!(!named(&of(down, "")).contains(&name));
+    // Of a slot it is not known which wall was measured.
+    assert!(!named(&of("side = \"slot\"", "[vibration]\n")).contains(&name));
+}

@@ -184,3 +184,50 @@ fn invalid_input_is_refused_with_its_reason() {
         cell.armill(&call).refused(parts);
     }
 }
+
+#[test]
+fn a_cut_of_options_has_the_numbers_of_that_of_a_study_and_all_its_problems_are_reported() {
+    let cell = cell();
+    let given = [
+        "stability",
+        "--modes",
+        "modes.toml",
+        "--material",
+        "aluminium-7075-t6",
+        "--cutter-diameter-mm",
+        "20",
+        "--teeth",
+        "2",
+        "--helix-deg",
+        "0",
+        "--side",
+        "slot",
+        "--depth-mm",
+        "0.1",
+        "--spindle-rpm",
+        "12000",
+        "--feed-mm-per-min",
+        "2400",
+        "--json",
+    ];
+    let alone = cell.armill(&given).fine().json();
+    let of_study = cell.armill(&[&CALL[..], &["--json"]].concat()).fine().json();
+    for key in [
+        "stable_depth_mm",
+        "mode_coupling_depth_mm",
+        "probability_stable",
+        "feed_mm_per_tooth",
+    ] {
+        assert_eq!(number(&alone[key]), number(&of_study[key]), "{key}");
+    }
+    let wrong = given.map(|word| match word {
+        "slot" => "above",
+        "20" => "-20",
+        other => other,
+    });
+    cell.armill(&wrong).refused(&["side", "diameter_mm"]);
+    cell.armill(&[&CALL[..], &["--teeth", "3"]].concat())
+        .refused(&["--teeth"]);
+    cell.armill(&["stability", "--modes", "modes.toml"])
+        .refused(&["--material", "--teeth"]);
+}

@@ -60,6 +60,8 @@ pub const OF_PATH: ExtraBytes = ExtraBytes {
 /// The motion along a path, a point of it: the path with its rounded corners and the joints that follow late. Measured with 10^6 points: 250 on a smooth
 /// path, 1640 where every point is a corner.
 const OF_MOTION: usize = 1700;
+/// The vibration at a point: its values (152), the spindle speed of a path (16) and four columns, in the table, a field and CSV (39 each).
+const OF_VIBRATION: usize = 152 + 16 + 4 * 39;
 /// Names, descriptions and buffers of the columns of one load case, independent of the points; measured 13 kB.
 const BYTES_PER_CASE: usize = 16 << 10;
 
@@ -92,6 +94,11 @@ impl PointMemory<'_> {
             + extra.case * cases
             + if self.setting.motion.is_some() {
                 OF_MOTION
+            } else {
+                0
+            }
+            + if self.setting.vibration.is_some() {
+                OF_VIBRATION
             } else {
                 0
             };

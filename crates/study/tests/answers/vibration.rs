@@ -5,9 +5,11 @@ use std::path::Path;
 use armill_core::dynamics::{Mode, release};
 use armill_core::load::drilling::Drilling;
 use armill_core::nalgebra::{Matrix3, Matrix6, Rotation3, Vector3, Vector6};
-use armill_core::stability::{CutOfAnyDepth, StabilityLobes};
+use armill_core::stability::{CutOfAnyDepth, Forced, StabilityLobes, WallSide};
 use armill_core::units::from_deg;
 use armill_core::watch::Watch;
+use armill_study::analysis::path::vibration::cuts;
+use armill_study::analysis::vibration::wall::WallErrors;
 use armill_study::analysis::{AnalysisData, Subject};
 use armill_study::answer::{StudyAnswer, answer};
 use armill_study::file::resolve::read;
@@ -330,4 +332,101 @@ fn a_cut_that_is_stable_only_within_its_uncertainty_may_chatter() {
             .iter()
             .any(|warning| warning.starts_with("s: the cut may chatter"))
     );
+}
+
+#[test]
+fn the_error_of_a_wall_changes_with_the_damping_as_that_of_the_modes_of_a_mass_at_the_tip() {
+    let up = CUT.replace("side = \"slot\"\n", "side = \"up\"\nradial_depth_mm = 3\n");
+    let study = study(&format!("{PLATE}{AT_THE_TIP}{up}[vibration]\n{RECTANGLE}"));
+    let done = found(&study);
+    let AnalysisData::Path(path, result) = &done[0].found else {
+        panic!("a path")
+    };
+    let (robot, answers) = (&study.robot.robot, &result.along.answers);
+    let cuts = cuts(path, &path.track, &result.along.load).unwrap();
+    let walls = WallErrors::of(robot, &path.setting, answers, &cuts).unwrap();
+    assert_eq!(walls.side, WallSide::Left);
+    // Three modes: frequency, damping ratio and stiffness of each.
+    assert_eq!((walls.changes.len(), walls.errors.len()), (9, path.track.len()));
+    for index in (0..path.track.len()).step_by(5) {
+        let axes = path.track.base_from_feed(index);
+        let compliance = path.setting.compliance_at(robot, answers.joints_at(index));
+        let mut modes = modes_of_a_mass_at_the_tip(&compliance, &axes.inverse());
+        modes.sort_by(|a, b| a.angular_frequency.total_cmp(&b.angular_frequency));
+        let cut = (cuts.at)(index).unwrap();
+        let error = |damping: [f64; 3]| {
+            let each = modes.iter().zip(damping);
+            let modes: Vec<Mode> = each
+                .map(|(mode, damping_ratio)| Mode {
+                    damping_ratio,
+                    ..*mode
+                })
+                .collect();
+            let forced = Forced::new(&modes, &cut.milling, cut.spindle).unwrap();
+            let (wall, mean) = (forced.surface_error(WallSide::Left), forced.mean().y);
+            0.5 * (wall.least + wall.greatest) - mean
+        };
+        // Assumed: 3 %, with half of it as its standard uncertainty.
+        let size = error([0.03; 3]).abs();
+        assert!((walls.errors[index] - error([0.03; 3])).abs() < 1e-6 * size);
+        let changed = 0.5 * (error([0.045, 0.03, 0.03]) - error([0.015, 0.03, 0.03]));
+        assert!(
+            (walls.changes[1][index] - changed).abs() < 1e-6 * size,
+            "{changed}"
+        );
+    }
+    // Both walls of a slot: which of them is measured is not known.
+    let slot = crate::study(&format!("{PLATE}{AT_THE_TIP}{CUT}[vibration]\n{RECTANGLE}"));
+    let Subject::Path(path) = &slot.analyses[0].subject else {
+        panic!("a path")
+    };
+    let done = found(&slot);
+    let AnalysisData::Path(_, result) = &done[0].found else {
+        panic!("a path")
+    };
+    let cuts = armill_study::analysis::path::vibration::cuts(path, &path.track, &result.along.load).unwrap();
+    assert!(WallErrors::of(&slot.robot.robot, &path.setting, &result.along.answers, &cuts).is_none());
+}
+
+#[test]
+fn in_a_stock_the_engagement_is_that_of_the_stock() {
+    // The rectangle is 120 x 80 mm; the stock ends before its right side, and the tool is 0.5 mm deep in it.
+    let stock = CUT.replace(
+        "cutter = {",
+        "stock = { from_mm = [-100, -100, -0.5], to_mm = [40, 100, 0] }\ncutter = {",
+    );
+    let program = "[[analysis]]\nkind = \"path\"\nname = \"s\"\nprogram = { file = \"slot.nc\" }\n";
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(
+        folder.path().join("slot.nc"),
+        "G21 G90\nG0 X-60 Y0 Z-0.5\nG1 X60 Y0 F1800\n",
+    )
+    .unwrap();
+    let text = format!("{PLATE}{AT_THE_TIP}{stock}[vibration]\n{program}");
+    let study = read("study.toml", folder.path(), text.as_bytes()).unwrap_or_else(|error| panic!("{error}"));
+    let done = found(&study);
+    let answer = answer(&study, &done);
+    let cut = answer.paths[0].vibration.as_ref().unwrap().cut.as_ref().unwrap();
+    assert_eq!(cut.engagement, "stock");
+    assert!((cut.depth_mm - 0.5).abs() < 1e-6, "{cut:?}");
+    let points = &done[0].vibration[0].points;
+    assert!(cut.points > 0 && cut.points < points.len(), "{cut:?}");
+    // What is permitted is stable: at each point at most its stable depth.
+    let AnalysisData::Path(_, result) = &done[0].found else {
+        panic!("a path")
+    };
+    let limits = result.limits.as_ref().unwrap();
+    let mut compared = 0;
+    for limit in &limits.points {
+        let (Some(permitted), Some(here)) = (limit.cut, points[limit.index].unwrap().cut) else {
+            continue;
+        };
+        let stable = here.limit.map_or(f64::INFINITY, |limit| limit.depth);
+        assert!(
+            permitted.depth.value() <= stable * (1.0 + 1e-9),
+            "{permitted:?} {here:?}"
+        );
+        compared += 1;
+    }
+    assert!(compared > 3, "{compared}");
 }

@@ -241,3 +241,18 @@ pub(in crate::analysis) fn of_modes<S: Default, T: Send>(
     let state = || (ArmState::new(setting.arm(robot)), S::default());
     points.into_par_iter().map_init(state, at).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_point_takes_no_more_memory_than_is_estimated() {
+        // Of 152 bytes in `input/memory.rs`.
+        assert!(
+            size_of::<Option<PointVibration>>() <= 152,
+            "{}",
+            size_of::<Option<PointVibration>>()
+        );
+    }
+}
