@@ -1,8 +1,10 @@
 //! Masses estimated from the mass of an arm and the bodies of its links, against published masses of links. See README.md.
 
+use nalgebra::{Matrix3, Point3};
+
 use armill_core::clearance::solid::{LINK_UNCERTAINTY, estimated_masses};
 use armill_core::frame::Isometry;
-use armill_core::robot::{Mass, Robot, Structure};
+use armill_core::robot::{Attachment, Mass, Robot, Structure};
 use armill_core::source::{Arm, ArmState, StiffnessModel};
 
 use crate::check::{Check, ErrorBound};
@@ -92,10 +94,10 @@ fn frequency_errors(robot: &Robot, estimated: Vec<Mass>, random: &mut Random) ->
     };
     // A spindle of 60 kg on the flange, the same in both.
     let spindle = Mass {
-        attachment: armill_core::robot::Attachment::Flange,
+        attachment: Attachment::Flange,
         mass: 60.0,
-        centre: armill_core::nalgebra::Point3::new(0.0, 0.0, 0.15),
-        inertia: Some(armill_core::nalgebra::Matrix3::identity()),
+        centre: Point3::new(0.0, 0.0, 0.15),
+        inertia: Some(Matrix3::identity()),
         relative_uncertainty: 0.0,
     };
     let with_spindle = |masses: &[Mass]| model(masses.iter().copied().chain([spindle]).collect());
@@ -110,11 +112,12 @@ fn frequency_errors(robot: &Robot, estimated: Vec<Mass>, random: &mut Random) ->
 }
 
 fn frequencies(robot: &Robot, model: &StiffnessModel, q: &[f64]) -> Vec<f64> {
+    let tool = Isometry::identity();
     let mut state = ArmState::new(Arm {
         robot,
         compliance: robot.compliance().expect("the library gives it"),
         model,
-        flange_from_tool: &Isometry::identity(),
+        flange_from_tool: &tool,
     });
     state.set_joints(q);
     let found = state.modes().expect("the arm has no compensator");

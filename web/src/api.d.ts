@@ -613,6 +613,55 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/lobes": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** The stability of the cut at one place */
+        post: {
+            parameters: {
+                query?: never;
+                header?: never;
+                path?: never;
+                cookie?: never;
+            };
+            requestBody: {
+                content: {
+                    "application/json": components["schemas"]["LobesRequest"];
+                };
+            };
+            responses: {
+                /** @description success */
+                200: {
+                    headers: {
+                        [name: string]: unknown;
+                    };
+                    content: {
+                        "application/json": components["schemas"]["LobesAnswer"];
+                    };
+                };
+                /** @description error */
+                default: {
+                    headers: {
+                        [name: string]: unknown;
+                    };
+                    content: {
+                        "application/json": components["schemas"]["ErrorBody"];
+                    };
+                };
+            };
+        };
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/path-columns": {
         parameters: {
             query?: never;
@@ -1677,6 +1726,17 @@ export interface components {
              * @default 1
              */
             case: number;
+        };
+        /** @description A place of an analysis, and a posture there. */
+        LobesRequest: {
+            /** @description The text of the study. */
+            text: string;
+            /** @description Name of its analysis; the first if left out. */
+            analysis?: string | null;
+            /** @description The target position of the tool. */
+            at: components["schemas"]["PoseTarget"];
+            /** @description The posture of the arm: joint positions in the convention of the robot file, mm for prismatic joints. */
+            joints_deg: number[];
         };
         /** @description Columns of a path. */
         PathColumnsRequest: {
@@ -2853,6 +2913,8 @@ export interface components {
              *     uncertainty of the deviations is not known.
              */
             certainty: components["schemas"]["CertaintyAnswer"] | null;
+            /** @description Modes of the arm and stability of the cut; none without `[vibration]`. */
+            vibration: components["schemas"]["VibrationAnswer"] | null;
             /** @description The common setting of all points. */
             setting: components["schemas"]["SettingAnswer"];
             /** @description The points. */
@@ -3041,6 +3103,110 @@ export interface components {
                 number,
                 number
             ][][];
+        };
+        /** @description The vibration at the points of an analysis. */
+        VibrationAnswer: {
+            /** @description Least and greatest frequency of the lowest mode of the arm; none without modes of the arm. */
+            lowest_mode_hz: [
+                number,
+                number
+            ] | null;
+            /** @description Where it is least, in the reference frame. */
+            lowest_mode_at_mm: [
+                number,
+                number,
+                number
+            ] | null;
+            /** @description Stability and vibration of the cut; none without a cut. */
+            cut: components["schemas"]["CutVibrationAnswer"] | null;
+        };
+        /** @description Stability of a cut along the points of an analysis, and its vibration. */
+        CutVibrationAnswer: {
+            /**
+             * @description Whether the programmed depth is stable at every point: below the limit of mean directional factors, and at the point nearest to its
+             *     limit by semi-discretisation too.
+             */
+            is_stable: boolean;
+            /** @description Whether the study demands that it is (`must_be_stable`). */
+            is_demanded: boolean;
+            /** @description The verdict as a sentence. */
+            verdict: string;
+            /** @description Source of depth and engagement: `cut` (the table of the study or the program), or `stock`. */
+            engagement: string;
+            /**
+             * Format: uint
+             * @description Points with a cut.
+             */
+            points: number;
+            /**
+             * Format: uint
+             * @description Of these, points whose depth is not below its limit.
+             */
+            unstable_points: number;
+            /** @description The point nearest to its limit: the largest programmed depth over the stable depth. In the reference frame. */
+            at_mm: [
+                number,
+                number,
+                number
+            ];
+            /**
+             * Format: uint32
+             * @description Its line, of a program.
+             */
+            line: number | null;
+            /**
+             * Format: double
+             * @description Programmed axial depth there.
+             */
+            depth_mm: number;
+            /**
+             * Format: double
+             * @description Spindle speed there.
+             */
+            spindle_rpm: number;
+            /**
+             * Format: double
+             * @description Stable depth there by mean directional factors, the least of the column `stable_depth_mm` if the depth is the same everywhere; none if
+             *     it is deeper than what was sought.
+             */
+            stable_depth_mm: number | null;
+            /**
+             * Format: double
+             * @description The same by semi-discretisation.
+             */
+            semi_discretisation_depth_mm: number | null;
+            /**
+             * Format: double
+             * @description Frequency of chatter at this limit.
+             */
+            chatter_frequency_hz: number | null;
+            /** @description The mode with the largest part in it. */
+            cause: string | null;
+            /**
+             * Format: double
+             * @description Relative standard uncertainty of the limit; none where it is not known.
+             */
+            depth_u_percent: number | null;
+            /**
+             * Format: double
+             * @description Probability that the programmed cut is stable there; none where the uncertainty is not known.
+             */
+            probability_stable: number | null;
+            /**
+             * Format: double
+             * @description Largest vibration of the tool across its axis under the teeth, from its mean position; none if it was not evaluated.
+             */
+            largest_vibration_um: number | null;
+            /**
+             * Format: double
+             * @description Largest error of a wall by it, by size; positive where the wall is deeper in the part.
+             */
+            largest_surface_error_um: number | null;
+            /**
+             * Format: double
+             * @description Largest programmed depth over the stable depth.
+             */
+            utilisation: number;
         };
         /** @description The common setting of all points of an analysis. Positions are relative to the frame `base`. */
         SettingAnswer: {
@@ -3289,6 +3455,8 @@ export interface components {
             search: components["schemas"]["SearchAnswer"] | null;
             /** @description What the controller makes of the path; none if the study does not ask for it. */
             motion: components["schemas"]["MotionAnswer"] | null;
+            /** @description Modes of the arm, stability and vibration of the cut; none without `[vibration]`. */
+            vibration: components["schemas"]["VibrationAnswer"] | null;
             /** @description Effect of backlash and geometry on the deviations; none if load and gravity alone move the tool. */
             unloaded: components["schemas"]["UnloadedAnswer"] | null;
             /** @description What was skipped or assumed. */
@@ -3761,6 +3929,11 @@ export interface components {
              *     exceeds `least_gain_um`.
              */
             applied: boolean;
+            /** @description Points whose cut is not stable, without and with this result; none unless it must be stable (`must_be_stable`). */
+            unstable_points: [
+                number,
+                number
+            ] | null;
             /**
              * Format: double
              * @description Decrease of the objective by this result.
@@ -4061,6 +4234,8 @@ export interface components {
             best: components["schemas"]["PointAnswer"] | null;
             /** @description The point with the largest in-plane deviation. */
             worst: components["schemas"]["PointAnswer"] | null;
+            /** @description Modes of the arm and stability of the cut; none without `[vibration]`. */
+            vibration: components["schemas"]["VibrationAnswer"] | null;
             /** @description The common setting of all points. */
             setting: components["schemas"]["SettingAnswer"];
         };
@@ -5249,6 +5424,197 @@ export interface components {
              */
             permissible_any_direction_n: number | null;
         };
+        /** @description Stability of the cut at a target. */
+        LobesAnswer: {
+            /** @description Limits, lobes and vibration; `null` where nothing is known. */
+            stability: components["schemas"]["StabilityAnswer"] | null;
+            /** @description Why there is none; `null` if the study does not ask for the vibration. */
+            missing: string | null;
+        };
+        /** @description The stability of a cut. */
+        StabilityAnswer: {
+            /** @description Name of the path whose cut it is. */
+            path: string;
+            /** @description What the modes are, and where they come from. */
+            modes_from: string;
+            /** @description The modes. */
+            modes: components["schemas"]["ModeAnswer"][];
+            /**
+             * Format: double
+             * @description Programmed spindle speed.
+             */
+            spindle_rpm: number;
+            /**
+             * Format: double
+             * @description Programmed axial depth.
+             */
+            depth_mm: number;
+            /**
+             * Format: double
+             * @description Feed per tooth.
+             */
+            feed_mm_per_tooth: number;
+            /** @description Whether vibrations of the programmed cut decay. */
+            is_stable: boolean;
+            /** @description The verdict as a sentence. */
+            verdict: string;
+            /**
+             * Format: double
+             * @description Limit of the depth at the programmed speed; none if it is deeper than what was sought.
+             */
+            stable_depth_mm: number | null;
+            /** @description How the cut becomes unstable there: `hopf` (chatter), `flip` (period doubling) or `fold`. */
+            instability: string | null;
+            /**
+             * Format: double
+             * @description Frequency of chatter at this limit.
+             */
+            chatter_frequency_hz: number | null;
+            /** @description The mode with the largest part in it. */
+            cause: string | null;
+            /**
+             * Format: double
+             * @description The same limit by mean directional factors, as in `lobes`.
+             */
+            zeroth_order_depth_mm: number | null;
+            /**
+             * Format: double
+             * @description Limit without regeneration: mode coupling alone.
+             */
+            mode_coupling_depth_mm: number | null;
+            /**
+             * Format: double
+             * @description Frequency of mode coupling; 0 is static divergence.
+             */
+            mode_coupling_frequency_hz: number | null;
+            /** @description The mode with the largest part in it. */
+            mode_coupling_cause: string | null;
+            /** @description Which of `stable_depth_mm`, the limit of the verdict, and `mode_coupling_depth_mm` is lower: `regeneration` or `mode coupling`. */
+            lower_limit: string | null;
+            /**
+             * Format: double
+             * @description Lowest limit at any speed, beyond the range of the lobes too.
+             */
+            critical_depth_mm: number | null;
+            /**
+             * Format: double
+             * @description Lowest limit within the range of the lobes.
+             */
+            lowest_depth_mm: number | null;
+            /**
+             * Format: double
+             * @description Relative standard uncertainty of the limit at the programmed speed.
+             */
+            depth_u_percent: number | null;
+            /**
+             * Format: double
+             * @description Probability that the programmed cut is stable, from the stated uncertainties.
+             */
+            probability_stable: number | null;
+            /** @description Speeds at which the limit is a local maximum, the deepest first. */
+            preferred_speeds: components["schemas"]["PreferredSpeed"][];
+            /**
+             * Format: double
+             * @description Spindle speed below which process damping, which is not modelled, makes limits deeper.
+             */
+            conservative_below_rpm: number | null;
+            /** @description Vibration under the teeth, at the tip. */
+            vibration: components["schemas"]["VibrationAnswer2"];
+            /** @description The limit over the spindle speed, zeroth-order solution. */
+            lobes: components["schemas"]["LobeAnswer"][];
+            /**
+             * Format: double
+             * @description Deepest limit sought.
+             */
+            deepest_mm: number;
+            /** @description Notes for the user. */
+            notes: string[];
+        };
+        /** @description A mode. */
+        ModeAnswer: {
+            /** @description Its name. */
+            name: string;
+            /**
+             * Format: double
+             * @description Undamped natural frequency.
+             */
+            frequency_hz: number;
+            /**
+             * Format: double
+             * @description Damping ratio in per cent.
+             */
+            damping_percent: number;
+        };
+        /** @description A speed at which the limit is a local maximum. */
+        PreferredSpeed: {
+            /**
+             * Format: double
+             * @description Spindle speed.
+             */
+            speed_rpm: number;
+            /**
+             * Format: double
+             * @description Limit of the depth there; none if it is deeper than what was sought.
+             */
+            depth_mm: number | null;
+        };
+        /** @description Vibration under the teeth, without chatter. */
+        VibrationAnswer2: {
+            /** @description Half the range in a period of the teeth: along the feed, to its left, along the tool. */
+            amplitude_um: [
+                number,
+                number,
+                number
+            ];
+            /** @description Mean displacement by the modes given, in the same axes. */
+            mean_um: [
+                number,
+                number,
+                number
+            ];
+            /** @description Error of each wall. */
+            walls: components["schemas"]["WallAnswer"][];
+        };
+        /** @description Surface location error: positive where the wall is deeper in the part. */
+        WallAnswer: {
+            /** @description `left` or `right` of the feed. */
+            side: string;
+            /**
+             * Format: double
+             * @description At the tip of the tool.
+             */
+            at_tip_um: number;
+            /**
+             * Format: double
+             * @description Least along the edge.
+             */
+            least_um: number;
+            /**
+             * Format: double
+             * @description Greatest along the edge.
+             */
+            greatest_um: number;
+        };
+        /** @description The limit at one speed. */
+        LobeAnswer: {
+            /**
+             * Format: double
+             * @description Spindle speed.
+             */
+            speed_rpm: number;
+            /**
+             * Format: double
+             * @description Limit of the depth; none if it is deeper than what was sought.
+             */
+            depth_mm: number | null;
+            /**
+             * Format: double
+             * @description Frequency of chatter at the limit.
+             */
+            chatter_frequency_hz: number | null;
+            /** @description The mode with the largest part in it. */
+            cause: string | null;
+        };
         /** @description The nearest placement that the robot reaches. */
         ReachableAnswer: {
             /** @description The key of the analysis that moves it: `plane.centre_mm` or `box.centre_mm`. */
@@ -5482,7 +5848,7 @@ export interface components {
         };
         /** @description What a result recommends: in words, and as values of the study. */
         Measure: {
-            /** @description `placement`, `spin`, `axial_depth`, `radial_depth`, `feed`, `compensation` or `robot`. */
+            /** @description `placement`, `spin`, `spindle`, `axial_depth`, `radial_depth`, `feed`, `compensation` or `robot`. */
             measure: string;
             /** @description A sentence with its gain. */
             sentence: string;

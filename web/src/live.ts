@@ -319,6 +319,14 @@ export class Live {
   get setting(): Setting | null {
     return this.map?.setting ?? this.answer?.paths[0]?.setting ?? this.answer?.volumes[0]?.setting ?? this.answer?.holes[0]?.setting ?? null;
   }
+  /** Whether the analysis has the vibration evaluated. */
+  get asksForVibration(): boolean {
+    const { answer } = this;
+    if (!answer) return false;
+    const subjects = [...answer.maps, ...answer.volumes, ...answer.paths];
+    return subjects.some((subject) => Boolean(subject.vibration));
+  }
+
   get worst(): Point | null {
     const a = this.answer;
     return this.map?.worst ?? a?.paths[0]?.worst ?? a?.volumes[0]?.worst ?? a?.holes[0]?.worst_holes[0]?.point ?? null;

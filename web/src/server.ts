@@ -2,7 +2,7 @@
 
 import { Events } from "./events";
 import type { Schema } from "./tables/schema";
-import type { At, Change, Changed, Checked, Job, MaterialRow, Picture, Pose, Problem, Reachable, RobotRow, Shown, SpinMap, SpinSearch, StoredFile, Study, StudyVersion, Tables, TakenIn, View, Wrong } from "./types";
+import type { At, Change, Changed, Checked, Job, Lobes, MaterialRow, Picture, Pose, Problem, Reachable, RobotRow, Shown, SpinMap, SpinSearch, StoredFile, Study, StudyVersion, Tables, TakenIn, View, Wrong } from "./types";
 
 export class Refused extends Error {
   constructor(
@@ -98,6 +98,7 @@ export const api = {
   mesh: async (text: string, file: string) => (await raw("POST", "/api/mesh", { text, file })).arrayBuffer(),
   bodyMesh: async (text: string, analysis: string | null, key: string) => (await raw("POST", "/api/body-mesh", { text, analysis, key })).arrayBuffer(),
   pose: (text: string, analysis: string | null, at: At, load_case: number, signal?: AbortSignal) => json<Pose>("POST", "/api/pose", { text, analysis, at, case: load_case }, signal),
+  lobes: (text: string, analysis: string | null, at: At, joints_deg: number[], signal?: AbortSignal) => json<Lobes>("POST", "/api/lobes", { text, analysis, at, joints_deg }, signal),
   reachable: (text: string, analysis: string | null, signal?: AbortSignal) => json<Reachable>("POST", "/api/reachable", { text, analysis }, signal),
   spinMap: (text: string, analysis: string | null, signal?: AbortSignal) => json<SpinMap>("POST", "/api/spin-map", { text, analysis }, signal),
   spinSearch: (text: string, analysis: string | null, signal?: AbortSignal) => json<SpinSearch>("POST", "/api/spin-search", { text, analysis }, signal),

@@ -73,6 +73,10 @@ export type Pose = Omit<Schemas["PosturesAnswer"], "in_plane" | "answer" | "draw
   in_plane: (CaseValues | null)[][];
 };
 
+/** The stability of the cut at a target. */
+export type Lobes = Schemas["LobesAnswer"];
+export type Stability = Schemas["StabilityAnswer"];
+
 export type ScenePoints = Omit<Schemas["PointsInScene"], "columns"> & {
   /** Columns of the table of the analysis; a path has all of these. */
   columns: {

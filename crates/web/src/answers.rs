@@ -22,9 +22,9 @@ use std::sync::{Arc, OnceLock};
 
 use armill_core::watch::Watch;
 use armill_study::live::{
-    ChangedValue, LayerRequest, PoseRequest, PoseTarget, PostureQuestion, StudyText, ViewQuestion,
-    answer_json, body_mesh, measured_csv, mesh_bytes, picture_svg, pictures, reachable, scene, spin_map,
-    spin_search, table_csv, values, view,
+    ChangedValue, LayerRequest, LobesQuestion, PoseRequest, PoseTarget, PostureQuestion, StudyText,
+    ViewQuestion, answer_json, body_mesh, measured_csv, mesh_bytes, picture_svg, pictures, reachable, scene,
+    spin_map, spin_search, table_csv, values, view,
 };
 use armill_study::materials::MaterialRow;
 use armill_study::robot_answers::library_rows;
@@ -127,6 +127,20 @@ pub(crate) struct PosturesRequest {
 
 fn first() -> usize {
     1
+}
+
+/// A place of an analysis, and a posture there.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct LobesRequest {
+    /// The text of the study.
+    pub text: String,
+    /// Name of its analysis; the first if left out.
+    pub analysis: Option<String>,
+    /// The target position of the tool.
+    pub at: PoseTarget,
+    /// The posture of the arm: joint positions in the convention of the robot file, mm for prismatic joints.
+    pub joints_deg: Vec<f64>,
 }
 
 /// The table of an analysis.
@@ -259,6 +273,24 @@ pub(crate) async fn pose(
             case: of.case,
         };
         as_json(&kept.paths.postures(text, &question, watch)?)
+    })
+    .await
+}
+
+pub(crate) async fn lobes(
+    Shared(state): Shared<Arc<State>>,
+    headers: HeaderMap,
+    JsonBody(of): JsonBody<LobesRequest>,
+) -> Answered {
+    let headers = for_itself(&headers, "lobes");
+    let kept = Arc::clone(&state);
+    answered(state, (of.text, headers, JSON), move |text, watch| {
+        let question = LobesQuestion {
+            analysis: of.analysis.as_deref(),
+            at: of.at,
+            joints_deg: of.joints_deg,
+        };
+        as_json(&kept.paths.lobes(text, &question, watch)?)
     })
     .await
 }

@@ -6,7 +6,7 @@ use std::sync::{Arc, LazyLock};
 
 use armill_study::answer::StudyAnswer;
 use armill_study::live::{
-    ChangedAnswer, OutlineAnswer, PicturesAnswer, PosturesAnswer, ReachableAnswer, SceneAnswer,
+    ChangedAnswer, LobesAnswer, OutlineAnswer, PicturesAnswer, PosturesAnswer, ReachableAnswer, SceneAnswer,
     SpinMapAnswer, SpinSearchAnswer, TablesAnswer, ValuesAnswer, ViewAnswer,
 };
 use armill_study::materials::MaterialRow;
@@ -18,8 +18,8 @@ use axum::response::Response;
 use serde_json::Value;
 
 use crate::answers::{
-    AnalysisRequest, BodyMeshRequest, MeshRequest, PathColumnsRequest, PictureRequest, PosturesRequest,
-    TableRequest, ViewRequest,
+    AnalysisRequest, BodyMeshRequest, LobesRequest, MeshRequest, PathColumnsRequest, PictureRequest,
+    PosturesRequest, TableRequest, ViewRequest,
 };
 use crate::files::{Files, TicketAnswer, TicketRequest, UploadedFile};
 use crate::job::JobAnswer;
@@ -83,6 +83,14 @@ fn operations() -> Vec<Operation> {
         Operation::new(POST, "/pose", "The arm at one place", answers::pose)
             .takes::<PosturesRequest>()
             .answers::<PosturesAnswer>(),
+        Operation::new(
+            POST,
+            "/lobes",
+            "The stability of the cut at one place",
+            answers::lobes,
+        )
+        .takes::<LobesRequest>()
+        .answers::<LobesAnswer>(),
         Operation::new(
             POST,
             "/path-columns",

@@ -8,6 +8,7 @@ import { advice } from "../panels/advice";
 import { branches } from "../panels/branches";
 import { cases } from "../panels/cases";
 import { joints } from "../panels/joints";
+import { lobes } from "../panels/lobes";
 import { matrix } from "../panels/matrix";
 import { notes } from "../panels/notes";
 import { point } from "../panels/point";
@@ -22,7 +23,7 @@ import type { Tab } from "./tab";
 
 export function liveTab(live: Live, jobs: JobStore): Tab & { view: SceneView } {
   const host = h("div", { class: "stage", tabindex: "0", role: "group", "aria-label": "The robot, the plate with its deviations, and the tool. Keys 1 to 5: views. All numbers are in the panels." });
-  const right = h("aside", { class: "right", "aria-label": "At the tool" }, point(live), target(live), shares(live), branches(live), cases(live), joints(live), matrix(live), notes(live));
+  const right = h("aside", { class: "right", "aria-label": "At the tool" }, point(live), target(live), shares(live), branches(live), cases(live), joints(live), lobes(live), matrix(live), notes(live));
   let waits: ReturnType<typeof setTimeout> | undefined;
   live.listen(["moving"], () => {
     right.setAttribute("aria-busy", String(live.moving));

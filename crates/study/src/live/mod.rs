@@ -22,6 +22,7 @@
 //! | `layer` | the values of another quantity that colours show |
 //! | `scale` | the levels of the colour scale |
 //! | `lines` | the lines of equal deviation of a map |
+//! | `lobes` | the stability of the cut at one target, with its lobes |
 //! | `spin_map` | a path over its length and the spin of the tool, and the spins that a search finds |
 //! | `meshes` | the meshes of the robot, if its file names them |
 //! | `file_kind` | the probable kind of a file |
@@ -46,6 +47,7 @@ mod body_mesh;
 mod file_kind;
 mod layer;
 mod lines;
+mod lobes;
 mod meshes;
 mod outline;
 mod path_cache;
@@ -69,6 +71,7 @@ pub use body_mesh::body_mesh;
 pub use file_kind::{FileKind, kind_of};
 pub use layer::{LayerAnswer, LayerKey, LayerLine, LayerRequest};
 pub use lines::{LevelAnswer, LinesAnswer};
+pub use lobes::{LobesAnswer, LobesQuestion};
 pub use meshes::{DrawnMesh, mesh_bytes};
 pub use outline::{ChangedAnswer, ChangedValue, OutlineAnswer, OutlinedAnalysis, changed, outline};
 pub use path_cache::PathCache;

@@ -13,6 +13,7 @@ use crate::analysis::path::run::PathResult;
 use crate::analysis::vibration::SeriesVibration;
 use crate::analysis::{AnalysisData, AnalysisResult, Subject};
 use crate::error::StudyError;
+use crate::live::lobes::{LobesAnswer, LobesQuestion, lobes, lobes_of};
 use crate::live::path_columns::column_bytes;
 use crate::live::posture::{PostureQuestion, PosturesAnswer, postures, postures_of};
 use crate::live::{EditedAnalysis, StudyText};
@@ -92,6 +93,22 @@ impl PathCache {
             postures_of(edited, &question.at, question.case, Some(done), watch)
         });
         kept.unwrap_or_else(|| postures(text, question, watch))
+    }
+
+    /// As [`lobes`], without another evaluation of a path that is kept.
+    ///
+    /// # Errors
+    /// Those of [`lobes`].
+    pub fn lobes(
+        &self,
+        text: StudyText<'_>,
+        question: &LobesQuestion<'_>,
+        watch: Watch<'_>,
+    ) -> Result<LobesAnswer, StudyError> {
+        let kept = self.with(text, question.analysis, |edited, done| {
+            lobes_of(edited, question, Some(done), watch)
+        });
+        kept.unwrap_or_else(|| lobes(text, question, watch))
     }
 
     /// The result of `work` with the path of this text, if it is the one that is kept.

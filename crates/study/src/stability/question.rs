@@ -7,7 +7,7 @@ use armill_formats::modal::ModalData;
 
 use super::arm_modes::{ArmPosture, arm_modes};
 use crate::analysis::path::Cut;
-use crate::input::vibration::deepest_sought;
+use crate::input::vibration::{CutAtPoint, deepest_sought};
 use crate::{Study, StudyError};
 
 /// Options in place of values of the study; SI.
@@ -104,6 +104,20 @@ impl Question {
                 .push(format!("{} in the given posture", study.robot.robot.name()));
         }
         Question::of_cut(path, cut, given.and(data), options)
+    }
+
+    /// The cut at a point of the analysis `name`, with these modes (feed frame), which are from `modes_from`.
+    pub fn at_point(name: &str, cut: &CutAtPoint, modes: Vec<NamedMode>, modes_from: String) -> Question {
+        Question {
+            path: name.to_owned(),
+            milling: cut.milling,
+            spindle: cut.spindle,
+            speeds: SPEEDS.map(|part| part * cut.spindle),
+            deepest: cut.deepest_sought(),
+            modes,
+            modes_from,
+            remarks: Vec::new(),
+        }
     }
 
     /// A cut called `name`, with these modes.
