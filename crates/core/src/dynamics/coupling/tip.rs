@@ -25,13 +25,13 @@ use super::segment::Segment;
 
 /// To what the first segment is attached.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Base {
+pub enum Base<'m> {
     /// A rigid machine.
     Rigid,
     /// Nothing.
     Free,
     /// A machine of this receptance where the first segment begins, axes of the segments.
-    Receptance(Matrix6<Complex<f64>>),
+    Receptance(&'m Matrix6<Complex<f64>>),
 }
 
 /// A rigid body, such as the body of a spindle.
@@ -54,11 +54,15 @@ pub struct NotFinite(pub f64);
 ///
 /// # Errors
 /// An undamped resonance at exactly this frequency; free segments at rest.
-pub fn tip_receptance(base: &Base, segments: &[Segment], w: f64) -> Result<Matrix6<Complex<f64>>, NotFinite> {
+pub fn tip_receptance(
+    base: &Base<'_>,
+    segments: &[Segment],
+    w: f64,
+) -> Result<Matrix6<Complex<f64>>, NotFinite> {
     let mut receptance = match base {
         Base::Rigid => Some(Matrix6::zeros()),
         Base::Free => None,
-        Base::Receptance(own) => Some(*own),
+        Base::Receptance(own) => Some(**own),
     };
     for segment in segments {
         let next = coupled(receptance.as_ref(), segment, w).ok_or(NotFinite(w))?;
