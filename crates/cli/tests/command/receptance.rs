@@ -116,6 +116,13 @@ fn table_and_modal_data_are_read_by_the_other_commands() {
     assert!(svg.contains("x, along the feed") && !svg.contains("NaN"));
     let frf = cell.armill(&["frf", "tip.csv", "--json"]).fine().json();
     let modes = frf["modes"].as_array().unwrap();
+    // Along the axis there is no mode below 3000 Hz.
+    assert!(
+        frf["notes"]
+            .to_string()
+            .contains("no mode of vibration is found in 1Z/1Z"),
+        "{frf}"
+    );
     assert!(
         modes
             .iter()
@@ -222,7 +229,7 @@ fn invalid_input_is_refused_and_nothing_is_written() {
         (&["--rigid", "--assembly", "none.toml"], &["none.toml"]),
         (
             &["--rigid", "--assembly", "two.toml"],
-            &["two.toml:8", "material"],
+            &["two.toml:9", "material"],
         ),
         (
             &["--rigid", "--assembly", "rod.toml", "--frequencies-hz", "5"],

@@ -2,12 +2,13 @@
 //!
 //! Read in this order: [`section`] (material and cross section), [`joint`] (elastic connection), [`segment`] (a uniform beam from end to
 //! end), `bending` and `rod` (the parts of it), [`tip`] (machine, joints and segments coupled: receptance at the tip), [`sweep`] (at many
-//! frequencies), [`tip_modes`] (modes of the coupled tip, fitted).
+//! frequencies), [`tip_modes`] (modes of the coupled tip, fitted) with `rank_one` (all shapes together).
 //!
 //! Theory: `docs/theory/receptance-coupling.md`.
 
 mod bending;
 pub mod joint;
+mod rank_one;
 mod rod;
 pub mod section;
 pub mod segment;

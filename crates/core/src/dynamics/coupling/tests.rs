@@ -542,3 +542,76 @@ fn no_frequency_has_no_mode() {
     assert!(tip_modes(&[], None).is_err());
     assert!(tip_modes(&swept(&[], &[rod(0.1, 0.02)], [10.0, 20.0])[..10], None).is_err());
 }
+
+/// Holder and cutter on a nose with a low mode in an oblique direction: two pairs of bending modes nearer to each other than their widths.
+#[test]
+fn modes_of_a_tool_on_an_arm_describe_its_receptance() {
+    let nose = [
+        (17.0, 160.0, [1.0, 1.0, 0.0]),
+        (310.0, 12.0, [1.0, 0.0, 0.0]),
+        (360.0, 11.0, [0.0, 1.0, 0.0]),
+    ]
+    .map(|(hz, mass, [x, y, z]): (f64, f64, [f64; 3])| Mode {
+        angular_frequency: hz * TAU,
+        damping_ratio: 0.03,
+        shape: Vector6::new(x, y, z, 0.0, 0.0, 0.0) / (mass * (x * x + y * y + z * z)).sqrt(),
+    });
+    let low = Joint {
+        lateral: Spring {
+            stiffness: Some(2e8),
+            damping: 0.0,
+        },
+        bending: Spring {
+            stiffness: Some(6e5),
+            damping: 0.0,
+        },
+        loss_factor: 0.04,
+        ..Joint::default()
+    };
+    let high = Joint {
+        lateral: Spring {
+            stiffness: Some(8e7),
+            damping: 0.0,
+        },
+        bending: Spring {
+            stiffness: Some(1.2e4),
+            damping: 0.0,
+        },
+        loss_factor: 0.03,
+        ..Joint::default()
+    };
+    let carbide = Material {
+        modulus: 580e9,
+        density: 14_400.0,
+        poisson: 0.22,
+        loss_factor: 0.0015,
+    };
+    let steel = Material {
+        loss_factor: 0.0015,
+        ..STEEL
+    };
+    let segments = [
+        Segment {
+            joint: Some(low),
+            material: steel,
+            ..rod(0.08, 0.036)
+        },
+        Segment {
+            joint: Some(high),
+            material: carbide,
+            ..rod(0.03, 0.01)
+        },
+        Segment {
+            material: carbide,
+            ..rod(0.025, 0.008)
+        },
+    ];
+    let found = tip_modes(&swept(&nose, &segments, [5.0, 4000.0]), None).unwrap();
+    assert_eq!(found.modes.len(), 7, "{:?}", found.modes);
+    // What remains is the difference of structural from viscous damping, and modes above the band.
+    assert!(
+        found.deviation.iter().all(|part| *part < 0.01),
+        "{:?}",
+        found.deviation
+    );
+}
