@@ -10,7 +10,7 @@
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | `R`, `C` | receptance of the machine where the segment begins; compliance of the joint | m/N, ... |
-//! | `T` | transfer over a piece of the segment ([`super::segment`]) | -, m/N, N/m, ... |
+//! | `T` | transfer over a piece of the segment ([`super::transfer`]) | -, m/N, N/m, ... |
 //! | `H` | free-free receptance of the segment: 1 is the end at the machine | m/N, ... |
 //! | `G` | receptance where the piece ends: `R` of the next one | m/N, ... |
 //! | `M` | mass matrix of a rigid body about the reference point | kg, kg m, kg m^2 |
@@ -22,6 +22,7 @@ use nalgebra::{Complex, Matrix3, Matrix6, Vector3};
 use thiserror::Error;
 
 use super::segment::Segment;
+use super::transfer::Transfer;
 
 /// To what the first segment is attached.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,7 +78,7 @@ fn coupled(
     segment: &Segment,
     w: f64,
 ) -> Option<Matrix6<Complex<f64>>> {
-    let (piece, count) = segment.pieces(w)?;
+    let (piece, count) = Transfer::of_piece(segment, w)?;
     let joint = segment
         .joint
         .map_or_else(Matrix6::zeros, |joint| joint.compliance(w));

@@ -14,7 +14,7 @@
 
 use std::io::BufRead;
 
-use super::function::Shape;
+use super::layout::Shape;
 use crate::document::lines::{Line, Lines};
 use crate::document::{Problem, Problems};
 
