@@ -209,6 +209,13 @@ pub const MODAL: &[&str] = &[
     "modal_mass_kg = ", "stiffness_n_per_um = ", "stiffness_u_percent = ", "nan", "inf", "1e308",
 ];
 
+/// Keys of a file of a tool assembly.
+#[rustfmt::skip]
+pub const TOOL_ASSEMBLY: &[&str] = &[
+    "[[segment]]\n", "[segment.joint]\n", "[spindle]\n", "beam = ", "length_mm = ", "diameter_mm = ", "bore_mm = ", "fluted = true\n", "equivalent_diameter_mm = ", "material = \"carbide\"\n",
+    "modulus_gpa = ", "density_kg_per_m3 = ", "poisson_ratio = ", "loss_factor = ", "lateral_n_per_um = ", "bending_n_m_per_rad = ", "torsion_damping_n_m_s_per_rad = ", "nan", "inf", "1e308",
+];
+
 /// Words of every format of tool paths, and words that distinguish them.
 #[rustfmt::skip]
 pub const PROGRAM: &[&str] = &[

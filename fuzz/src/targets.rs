@@ -94,4 +94,5 @@ pub const TARGETS: &[Target] = &[
     target("mesh-dae", meshes::dae, fixtures::mesh_dae, &["dae"], words::MESH_DAE),
     target("material", verdicts::material, fixtures::materials, &[], words::MATERIAL),
     target("modal", modal::modal_data, modal::seeds, &[], words::MODAL),
+    target("tool-assembly", modal::tool_assembly_data, modal::tool_assemblies, &[], words::TOOL_ASSEMBLY),
 ];

@@ -73,7 +73,12 @@ pub(crate) struct ReceptanceArguments {
     #[arg(long, value_name = "A", default_value_t = 0.0, allow_hyphen_values = true)]
     pub feed_deg: f64,
     /// Lowest and highest frequency, and how many [default: 5,5000,400]
-    #[arg(long, value_name = "LOW,HIGH[,COUNT]", value_delimiter = ',')]
+    #[arg(
+        long,
+        value_name = "LOW,HIGH[,COUNT]",
+        value_delimiter = ',',
+        allow_hyphen_values = true
+    )]
     pub frequencies_hz: Option<Vec<f64>>,
     /// Write the receptances by forces to this table (CSV), which `armill frf` reads
     #[arg(long, value_name = "FILE")]

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::cell::{Cell, SMALL, number};
+use crate::cell::{Cell, SMALL, number, numbers};
 use crate::stability::CUT;
 
 /// Frequency (Hz), damping ratio, shape along x and y (1/sqrt(kg)).
@@ -70,6 +70,43 @@ fn the_modes_of_a_table_are_found_and_written_for_stability() {
 }
 
 #[test]
+fn the_picture_has_both_frfs_and_the_modes() {
+    let cell = Cell::new();
+    cell.file("tap.csv", table());
+    cell.armill(&["frf", "tap.csv", "--drawing", "tap.svg"]).fine();
+    let svg = std::fs::read_to_string(cell.at("tap.svg")).unwrap();
+    for word in ["1X/1X measured", "1Y/1X fitted", ">mode<", "magnitude"] {
+        assert!(svg.contains(word), "{word}");
+    }
+    assert!(!svg.contains(">coherence<"), "it is not measured");
+    cell.armill(&["frf", "tap.csv", "--drawing", "tap.gif", "--out", "modes.toml"])
+        .refused(&["does not end in .svg or .png"]);
+    assert!(!cell.at("modes.toml").exists());
+}
+
+#[test]
+fn measured_axes_are_directions_of_the_feed() {
+    let cell = Cell::new();
+    cell.file("tap.csv", table());
+    let directions = |more: &[&str]| -> Vec<Vec<f64>> {
+        let answer = cell
+            .armill(&[&["frf", "tap.csv", "--json"], more].concat())
+            .fine()
+            .json();
+        answer["modes"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|mode| numbers(&mode["direction"]))
+            .collect()
+    };
+    let turned = directions(&["--axes", "X=y,Y=-z"]);
+    for (found, measured) in turned.iter().zip(directions(&[])) {
+        assert_eq!(found[..], [0.0, measured[0], -measured[1]], "{measured:?}");
+    }
+}
+
+#[test]
 fn invalid_input_is_refused() {
     let cell = Cell::new();
     cell.file("tap.csv", table());
@@ -93,6 +130,10 @@ fn invalid_input_is_refused() {
             &["0 frequencies in the band"],
         ),
         (&["tap.csv", "--modes", "0"], &["--modes"]),
+        (
+            &["tap.csv", "--axes", "X=x,Y=x"],
+            &["--axes: the direction of `Y=x` is assigned twice"],
+        ),
     ] {
         cell.armill(&[&["frf"], words].concat()).refused(parts);
     }

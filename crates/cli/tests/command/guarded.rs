@@ -474,6 +474,7 @@ fn help_of_every_writing_command_describes_force() {
         &["path-accuracy"],
         &["motion"],
         &["frf"],
+        &["receptance"],
         &["stability"],
         &["budget"],
         &["pose"],

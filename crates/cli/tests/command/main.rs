@@ -3,7 +3,7 @@
 //! `cell` is where they run. What a user meets first: `new_and_robots`, `shell`, `documents` (every page is run).
 //! Commands: `run`,
 //! `pose`, `place`, `advise`, `springs`, `assumed`, `robots_check`, `import`, `bodies`, `materials`, `identify`, `calibrate`,
-//! `forces`, `roundness`, `ballbar`, `budget`, `path_accuracy`, `motion`, `frf`, `stability`, `compare`, `clearance`, `restricted_space`, `holes`, `unloaded` (backlash). What goes
+//! `forces`, `roundness`, `ballbar`, `budget`, `path_accuracy`, `motion`, `frf`, `receptance`, `stability`, `compare`, `clearance`, `restricted_space`, `holes`, `unloaded` (backlash). What goes
 //! wrong: `refused`, `guarded` (files of the user), `hostile` (numbers and bytes),
 //! `terminal`, `killed`, `rough` (places and inputs), `slips` (mistakes that are easily made).
 
@@ -41,6 +41,7 @@ mod place;
 mod place_in_cell;
 mod pose;
 mod posture;
+mod receptance;
 mod refused;
 mod restricted_space;
 mod robots_check;

@@ -244,6 +244,11 @@ fn notes(read: &ReadFrfs, frfs: &[FrfAnswer], modes: &[FrfModeAnswer], fitted: &
             "the FRFs are {sets} sets without a common point and direction: each has its own modes; a cross FRF (force along X, response along Y) would connect them"
         ));
     }
+    for names in &fitted.without_modes {
+        notes.push(format!(
+            "no mode of vibration is found in {names} within the band: left out"
+        ));
+    }
     for own in frfs.iter().filter(|own| own.explained_percent < POOR_PERCENT) {
         notes.push(format!(
             "modes and residuals describe only {:.1} % of {}/{}: limit the band, or give the number of modes",

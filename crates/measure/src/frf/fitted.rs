@@ -1,6 +1,6 @@
 //! Modes of all sets of FRFs.
 
-use armill_core::dynamics::modal_fit::{FitOptions, Frf, ModalFit, connected, fit};
+use armill_core::dynamics::modal_fit::{FitError, FitOptions, Frf, ModalFit, connected, fit};
 use armill_study::StudyError;
 
 use super::axes::Axes;
@@ -26,6 +26,8 @@ pub struct Fitted {
     pub sets: Vec<FittedSet>,
     /// The point of the tip.
     pub tip: i64,
+    /// FRFs of sets in which no mode is found.
+    pub without_modes: Vec<String>,
     /// Directions of the measured axes in the feed frame; none: X, Y, Z are x, y, z.
     pub axes: Option<Axes>,
 }
@@ -36,7 +38,8 @@ pub struct Fitted {
 /// No drive point, or several without `--point`; too few frequencies in the band; no mode.
 pub fn fit_all(read: &ReadFrfs, question: &FrfQuestion) -> Result<Fitted, StudyError> {
     let tip = tip(&read.frfs, question)?;
-    let mut sets = Vec::new();
+    let (mut sets, mut without_modes) = (Vec::new(), Vec::new());
+    let mut refused = None;
     for places in connected(&read.frfs) {
         let frfs: Vec<Frf> = places.iter().map(|place| read.frfs[*place].clone()).collect();
         let band = question.band.unwrap_or_else(|| common_band(&frfs));
@@ -45,12 +48,22 @@ pub fn fit_all(read: &ReadFrfs, question: &FrfQuestion) -> Result<Fitted, StudyE
             modes: question.modes,
             seeks_weak: true,
         };
-        let fit = fit(&frfs, &options).map_err(|error| {
+        let problem = |error: FitError| {
             StudyError::value(
                 format!("{}: {error}", names(&frfs)),
                 "choose the band with --band-hz LOW,HIGH: it must contain the peaks of the FRFs",
             )
-        })?;
+        };
+        let fit = match fit(&frfs, &options) {
+            Ok(fit) => fit,
+            // Another set may have modes: an axis along which the tip is stiff has none.
+            Err(FitError::NoMode) => {
+                without_modes.push(names(&frfs));
+                refused = refused.or(Some(problem(FitError::NoMode)));
+                continue;
+            }
+            Err(error) => return Err(problem(error)),
+        };
         sets.push(FittedSet {
             places,
             frfs,
@@ -58,8 +71,12 @@ pub fn fit_all(read: &ReadFrfs, question: &FrfQuestion) -> Result<Fitted, StudyE
             fit,
         });
     }
+    if let Some(refused) = refused.filter(|_| sets.is_empty()) {
+        return Err(refused);
+    }
     Ok(Fitted {
         sets,
+        without_modes,
         tip,
         axes: question.axes.clone(),
     })

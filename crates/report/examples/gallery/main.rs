@@ -6,6 +6,7 @@ mod arms;
 mod budget;
 mod corner;
 mod fields;
+mod frf;
 mod paths;
 
 use std::error::Error;
@@ -22,6 +23,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let pictures: Vec<(&str, String)> = fields::pictures()
         .into_iter()
         .chain(paths::pictures())
+        .chain(frf::pictures())
         .chain(corner::pictures())
         .chain(budget::pictures())
         .chain(arms::pictures())

@@ -33,7 +33,7 @@ pub struct ReceptanceAnswer {
     pub directions: Vec<DirectionAnswer>,
     /// Modes of the tip, frequencies rising.
     pub modes: Vec<TipModeAnswer>,
-    /// Largest deviation of the modes alone from the receptance in x, y, z, of the largest receptance there; null without modes.
+    /// Largest deviation of the modes alone from the receptance in x, y, z, of the largest receptance of all directions; null without modes.
     pub fit_deviation_percent: Option<[f64; 3]>,
     /// Receptance at each frequency, rising.
     pub receptance: Vec<ReceptanceAtFrequency>,
@@ -103,7 +103,7 @@ pub fn answer(question: &Question, evaluation: &Evaluation) -> ReceptanceAnswer 
     for (axis, percent) in ["x", "y", "z"].into_iter().zip(deviation.into_iter().flatten()) {
         if percent > POOR_PERCENT {
             notes.push(format!(
-                "modes describe the receptance in {axis} to {percent:.0} % of its largest value: modes outside the frequencies take part; widen --frequencies-hz"
+                "modes describe the receptance in {axis} only to {percent:.0} % of the largest value: modes outside the frequencies take part; widen --frequencies-hz"
             ));
         }
     }

@@ -6,7 +6,7 @@ a table as a data frame, an Arrow table or arrays by column name. ``armill.comma
 """
 
 from armill._commands._call import command_help
-from armill._commands.libraries import materials, modes, pose, robots
+from armill._commands.libraries import materials, modes, pose, receptance, robots
 from armill._commands.measurements import (
     ballbar,
     calibrate,
@@ -40,6 +40,7 @@ __all__ = [
     "pose",
     "pose_accuracy",
     "posture",
+    "receptance",
     "robots",
     "roundness",
     "stability",

@@ -55,6 +55,31 @@ def modes(
 
 
 @command
+def receptance(
+    robot: RobotLike | None = None,
+    *,
+    assembly: Path,
+    joints_deg: npt.ArrayLike | None = None,
+    nose_mm: npt.ArrayLike | None = None,
+    compliance_rad_per_n_m: npt.ArrayLike | None = None,
+    compliance_class: Literal["light", "medium", "heavy"] | None = None,
+    damping_ratio: float | None = None,
+    modes: Path | None = None,
+    rigid: bool = False,
+    feed_deg: float | None = None,
+    frequencies_hz: npt.ArrayLike | None = None,
+    out: Path | None = None,
+    modal_out: Path | None = None,
+    drawing: Path | None = None,
+    force: bool = False,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> Answer:
+    """robot or modal data, tool assembly -> Answer: receptance at the tip, its modes and stiffness."""
+    return call("receptance", [] if robot is None else [robot], locals())
+
+
+@command
 def pose(
     robot: RobotLike,
     *,

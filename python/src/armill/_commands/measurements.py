@@ -192,6 +192,8 @@ def frf(
     band_hz: npt.ArrayLike | None = None,
     modes: int | None = None,
     point: int | None = None,
+    axes: Sequence[str] | str | None = None,
+    drawing: Path | None = None,
     out: Path | None = None,
     force: bool = False,
     threads: int | None = None,

@@ -53,7 +53,7 @@ pub fn sweep(
     let at = |w: &f64| {
         let machine = machine(*w);
         let base = body.map_or(Ok(machine), |body| body.added_to(&machine, *w))?;
-        let tip = tip_receptance(&Base::Receptance(base), segments, *w)?;
+        let tip = tip_receptance(&Base::Receptance(&base), segments, *w)?;
         Ok(Swept { w: *w, base, tip })
     };
     frequencies.iter().map(at).collect()

@@ -10,7 +10,7 @@
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | `R`, `C` | receptance of the machine where the segment begins; compliance of the joint | m/N, ... |
-//! | `T` | transfer over a piece of the segment ([`super::segment`]) | -, m/N, N/m, ... |
+//! | `T` | transfer over a piece of the segment ([`super::transfer`]) | -, m/N, N/m, ... |
 //! | `H` | free-free receptance of the segment: 1 is the end at the machine | m/N, ... |
 //! | `G` | receptance where the piece ends: `R` of the next one | m/N, ... |
 //! | `M` | mass matrix of a rigid body about the reference point | kg, kg m, kg m^2 |
@@ -22,16 +22,17 @@ use nalgebra::{Complex, Matrix3, Matrix6, Vector3};
 use thiserror::Error;
 
 use super::segment::Segment;
+use super::transfer::Transfer;
 
 /// To what the first segment is attached.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Base {
+pub enum Base<'m> {
     /// A rigid machine.
     Rigid,
     /// Nothing.
     Free,
     /// A machine of this receptance where the first segment begins, axes of the segments.
-    Receptance(Matrix6<Complex<f64>>),
+    Receptance(&'m Matrix6<Complex<f64>>),
 }
 
 /// A rigid body, such as the body of a spindle.
@@ -54,11 +55,15 @@ pub struct NotFinite(pub f64);
 ///
 /// # Errors
 /// An undamped resonance at exactly this frequency; free segments at rest.
-pub fn tip_receptance(base: &Base, segments: &[Segment], w: f64) -> Result<Matrix6<Complex<f64>>, NotFinite> {
+pub fn tip_receptance(
+    base: &Base<'_>,
+    segments: &[Segment],
+    w: f64,
+) -> Result<Matrix6<Complex<f64>>, NotFinite> {
     let mut receptance = match base {
         Base::Rigid => Some(Matrix6::zeros()),
         Base::Free => None,
-        Base::Receptance(own) => Some(*own),
+        Base::Receptance(own) => Some(**own),
     };
     for segment in segments {
         let next = coupled(receptance.as_ref(), segment, w).ok_or(NotFinite(w))?;
@@ -73,7 +78,7 @@ fn coupled(
     segment: &Segment,
     w: f64,
 ) -> Option<Matrix6<Complex<f64>>> {
-    let (piece, count) = segment.pieces(w)?;
+    let (piece, count) = Transfer::of_piece(segment, w)?;
     let joint = segment
         .joint
         .map_or_else(Matrix6::zeros, |joint| joint.compliance(w));

@@ -1,7 +1,7 @@
 //! Weak modes: a search in what the modes found so far leave over, until nothing but noise is left.
 //!
 //! ```text
-//! g(omega, zeta) = sum_k |P_k q|^-2 (P_k q . r_k)^2 / s_k^2 -> most      the candidate
+//! g(omega, zeta) = sum_k (q . r_k)^2 / (s_k |q|)^2 -> most      the candidate: sums over the lines near its peak
 //! sum_k n_k / v_k ln( |r_k|^2 / |r'_k|^2 )  >  2 (2 + K) ln( sum n_k )      it is a mode
 //! ```
 //!
@@ -9,18 +9,16 @@
 //! |---|---|
 //! | `q` | weighted term of a pole at `omega` with `zeta` ([`super::model`]) |
 //! | `r_k`, `r'_k` | weighted residuals of FRF k without and with the candidate, all poles refined together |
-//! | `P_k`, `s_k`, `n_k`, `K` | as in `refine` and `selection` |
+//! | `s_k`, `n_k`, `K` | as in `refine` and `selection` |
 //! | `v_k` | `(1 + rho)/(1 - rho)`, `rho` the correlation of neighbouring `r'_k`, at least 0: `n_k / v_k` values are independent |
 //!
 //! The limit is twice the penalty of `selection`: the candidate is the best of some thousand, so that noise alone would now and then exceed the simple
 //! one. Near a mode, within [`NEAR`] of its half widths, what is left over is an error of its shape (nonlinearity, damping that is not viscous) and no
 //! candidate. Weights are those of the coherence, so that lines with little coherence decide little.
 
-use nalgebra::DVector;
-
 use super::denominator::Pole;
 use super::frf::Frf;
-use super::model::{dynamic, weighted};
+use super::model::dynamic;
 use super::refine::{Refined, refine, squares};
 use super::selection::is_physical;
 
@@ -30,6 +28,9 @@ const DAMPING: [f64; 4] = [0.003, 0.01, 0.03, 0.08];
 const MOST_TRIED: usize = 400;
 /// Half widths of the peak of a mode within which there are no further candidates.
 const NEAR: f64 = 2.0;
+/// Lines near the peak of a candidate, in its half widths, and how many of them are used at most.
+const WINDOW: f64 = 10.0;
+const MOST_LINES: usize = 400;
 /// Modes that are added at most.
 const MOST_ADDED: usize = 10;
 
@@ -86,18 +87,23 @@ fn candidate(frfs: &[Frf], band: [f64; 2], current: &Refined) -> Option<Pole> {
     best.map(|(_, pole)| pole)
 }
 
-/// What a pole describes of the residuals of FRF `k`, in variances.
+/// What a pole describes of the residuals of FRF `k` near its peak, in variances.
 fn described(frf: &Frf, current: &Refined, k: usize, pole: &Pole) -> f64 {
-    let term: Vec<_> = frf
-        .angular_frequencies
-        .iter()
-        .map(|w| dynamic(pole, *w))
-        .collect();
-    let term: DVector<f64> = weighted(frf, &term);
-    let solved = &current.solved[k];
-    let across = &term - &solved.basis * solved.basis.tr_mul(&term);
-    let along = across.dot(&solved.residuals) / current.deviations[k];
-    along * along / across.norm_squared()
+    let half = WINDOW * pole.damping_ratio * pole.angular_frequency;
+    let place = |w: f64| frf.angular_frequencies.partition_point(|own| *own < w);
+    let (first, last) = (
+        place(pole.angular_frequency - half),
+        place(pole.angular_frequency + half),
+    );
+    let stride = (last - first).div_ceil(MOST_LINES).max(1);
+    let residuals = &current.solved[k].residuals;
+    let (mut along, mut square) = (0.0, 0.0);
+    for line in (first..last).step_by(stride) {
+        let term = dynamic(pole, frf.angular_frequencies[line]) * frf.weights[line];
+        along += term.re * residuals[2 * line] + term.im * residuals[2 * line + 1];
+        square += term.norm_sqr();
+    }
+    stride as f64 * (along / current.deviations[k]).powi(2) / square
 }
 
 /// Whether the other is within the peak of a mode.

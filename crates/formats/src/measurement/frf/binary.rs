@@ -14,7 +14,7 @@
 
 use std::io::BufRead;
 
-use super::function::Shape;
+use super::layout::Shape;
 use crate::document::lines::{Line, Lines};
 use crate::document::{Problem, Problems};
 
@@ -35,7 +35,7 @@ impl BinaryForm {
     ///
     /// # Errors
     /// Another form of numbers; a count that is not a number.
-    pub(super) fn of(path: &str, line: &Line) -> Result<BinaryForm, Problem> {
+    pub(super) fn of(path: &str, line: &Line) -> Result<BinaryForm, Problems> {
         let mut words = line
             .text
             .trim()
@@ -43,7 +43,9 @@ impl BinaryForm {
             .split_ascii_whitespace();
         let mut word = || words.next().unwrap_or_default();
         let [order, format, lines, bytes] = [word(), word(), word(), word()];
-        let problem = |message: String, hint: &str| line.problem(path, 0..line.text.len(), message, hint);
+        let problem = |message: String, hint: &str| {
+            Problems::from(line.problem(path, 0..line.text.len(), message, hint))
+        };
         if !matches!(order, "1" | "2") {
             let message = format!("`{order}` is not a byte order");
             return Err(problem(message, "1 is little endian, 2 big endian"));

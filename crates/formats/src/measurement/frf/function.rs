@@ -14,6 +14,7 @@ use std::io::BufRead;
 use std::ops::Range;
 
 use super::binary::BinaryForm;
+use super::layout::Shape;
 use crate::document::lines::{Line, Lines};
 use crate::document::{Problem, Problems};
 
@@ -162,31 +163,6 @@ pub(super) fn read(
             .collect(),
         note,
     })
-}
-
-/// Layout of the data.
-pub(super) struct Shape {
-    /// Whether ordinates have double precision.
-    pub is_double: bool,
-    /// Numbers of an ordinate.
-    parts: usize,
-    /// Whether each value has its abscissa.
-    pub is_uneven: bool,
-    /// Number of values.
-    pub count: usize,
-}
-
-impl Shape {
-    /// Numbers of a value with its abscissa.
-    pub(super) fn per_value(&self) -> usize {
-        self.parts + usize::from(self.is_uneven)
-    }
-
-    /// Width of the number at this place of the data.
-    fn width(&self, index: usize) -> usize {
-        let is_abscissa = self.is_uneven && index.is_multiple_of(self.per_value());
-        if self.is_double && !is_abscissa { 20 } else { 13 }
-    }
 }
 
 /// The numbers of the data.

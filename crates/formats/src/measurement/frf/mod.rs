@@ -2,13 +2,14 @@
 //!
 //! - `measured`: what is read; `quantity`: what an FRF is of, and its receptance.
 //! - `unit`: units of labels.
-//! - `function`: one function of a universal file (dataset 58); `binary`: its data in dataset 58b; `universal`: the datasets of a universal file.
+//! - `function`: one function of a universal file (dataset 58); `layout`: how its data are arranged; `binary`: its data in dataset 58b; `universal`: the datasets of a universal file.
 //! - `table`: a table with a column for each part.
 //!
 //! A file that begins with a line `-1` is a universal file, any other a table. Frequencies are returned in rad/s, receptance in m/N.
 
 mod binary;
 mod function;
+mod layout;
 mod measured;
 mod quantity;
 mod table;
