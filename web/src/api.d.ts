@@ -2853,6 +2853,8 @@ export interface components {
              *     uncertainty of the deviations is not known.
              */
             certainty: components["schemas"]["CertaintyAnswer"] | null;
+            /** @description Modes of the arm and stability of the cut; none without `[vibration]`. */
+            vibration: components["schemas"]["VibrationAnswer"] | null;
             /** @description The common setting of all points. */
             setting: components["schemas"]["SettingAnswer"];
             /** @description The points. */
@@ -3041,6 +3043,110 @@ export interface components {
                 number,
                 number
             ][][];
+        };
+        /** @description The vibration at the points of an analysis. */
+        VibrationAnswer: {
+            /** @description Least and greatest frequency of the lowest mode of the arm; none without modes of the arm. */
+            lowest_mode_hz: [
+                number,
+                number
+            ] | null;
+            /** @description Where it is least, in the reference frame. */
+            lowest_mode_at_mm: [
+                number,
+                number,
+                number
+            ] | null;
+            /** @description Stability and vibration of the cut; none without a cut. */
+            cut: components["schemas"]["CutVibrationAnswer"] | null;
+        };
+        /** @description Stability of a cut along the points of an analysis, and its vibration. */
+        CutVibrationAnswer: {
+            /**
+             * @description Whether the programmed depth is stable at every point: below the limit of mean directional factors, and at the point nearest to its
+             *     limit by semi-discretisation too.
+             */
+            is_stable: boolean;
+            /** @description Whether the study demands that it is (`must_be_stable`). */
+            is_demanded: boolean;
+            /** @description The verdict as a sentence. */
+            verdict: string;
+            /** @description Source of depth and engagement: `cut` (the table of the study or the program), or `stock`. */
+            engagement: string;
+            /**
+             * Format: uint
+             * @description Points with a cut.
+             */
+            points: number;
+            /**
+             * Format: uint
+             * @description Of these, points whose depth is not below its limit.
+             */
+            unstable_points: number;
+            /** @description The point nearest to its limit: the largest programmed depth over the stable depth. In the reference frame. */
+            at_mm: [
+                number,
+                number,
+                number
+            ];
+            /**
+             * Format: uint32
+             * @description Its line, of a program.
+             */
+            line: number | null;
+            /**
+             * Format: double
+             * @description Programmed axial depth there.
+             */
+            depth_mm: number;
+            /**
+             * Format: double
+             * @description Spindle speed there.
+             */
+            spindle_rpm: number;
+            /**
+             * Format: double
+             * @description Stable depth there by mean directional factors, the least of the column `stable_depth_mm` if the depth is the same everywhere; none if
+             *     it is deeper than what was sought.
+             */
+            stable_depth_mm: number | null;
+            /**
+             * Format: double
+             * @description The same by semi-discretisation.
+             */
+            semi_discretisation_depth_mm: number | null;
+            /**
+             * Format: double
+             * @description Frequency of chatter at this limit.
+             */
+            chatter_frequency_hz: number | null;
+            /** @description The mode with the largest part in it. */
+            cause: string | null;
+            /**
+             * Format: double
+             * @description Relative standard uncertainty of the limit; none where it is not known.
+             */
+            depth_u_percent: number | null;
+            /**
+             * Format: double
+             * @description Probability that the programmed cut is stable there; none where the uncertainty is not known.
+             */
+            probability_stable: number | null;
+            /**
+             * Format: double
+             * @description Largest vibration of the tool across its axis under the teeth, from its mean position; none if it was not evaluated.
+             */
+            largest_vibration_um: number | null;
+            /**
+             * Format: double
+             * @description Largest error of a wall by it, by size; positive where the wall is deeper in the part.
+             */
+            largest_surface_error_um: number | null;
+            /**
+             * Format: double
+             * @description Largest programmed depth over the stable depth.
+             */
+            utilisation: number;
         };
         /** @description The common setting of all points of an analysis. Positions are relative to the frame `base`. */
         SettingAnswer: {
@@ -3289,6 +3395,8 @@ export interface components {
             search: components["schemas"]["SearchAnswer"] | null;
             /** @description What the controller makes of the path; none if the study does not ask for it. */
             motion: components["schemas"]["MotionAnswer"] | null;
+            /** @description Modes of the arm, stability and vibration of the cut; none without `[vibration]`. */
+            vibration: components["schemas"]["VibrationAnswer"] | null;
             /** @description Effect of backlash and geometry on the deviations; none if load and gravity alone move the tool. */
             unloaded: components["schemas"]["UnloadedAnswer"] | null;
             /** @description What was skipped or assumed. */
@@ -3761,6 +3869,11 @@ export interface components {
              *     exceeds `least_gain_um`.
              */
             applied: boolean;
+            /** @description Points whose cut is not stable, without and with this result; none unless it must be stable (`must_be_stable`). */
+            unstable_points: [
+                number,
+                number
+            ] | null;
             /**
              * Format: double
              * @description Decrease of the objective by this result.
@@ -4061,6 +4174,8 @@ export interface components {
             best: components["schemas"]["PointAnswer"] | null;
             /** @description The point with the largest in-plane deviation. */
             worst: components["schemas"]["PointAnswer"] | null;
+            /** @description Modes of the arm and stability of the cut; none without `[vibration]`. */
+            vibration: components["schemas"]["VibrationAnswer"] | null;
             /** @description The common setting of all points. */
             setting: components["schemas"]["SettingAnswer"];
         };
@@ -5482,7 +5597,7 @@ export interface components {
         };
         /** @description What a result recommends: in words, and as values of the study. */
         Measure: {
-            /** @description `placement`, `spin`, `axial_depth`, `radial_depth`, `feed`, `compensation` or `robot`. */
+            /** @description `placement`, `spin`, `spindle`, `axial_depth`, `radial_depth`, `feed`, `compensation` or `robot`. */
             measure: string;
             /** @description A sentence with its gain. */
             sentence: string;
