@@ -222,7 +222,7 @@ fn a_cut_of_options_has_the_numbers_of_that_of_a_study_and_all_its_problems_are_
     }
     let wrong = given.map(|word| match word {
         "slot" => "above",
-        "20" => "-20",
+        "20" => "2000",
         other => other,
     });
     cell.armill(&wrong).refused(&["side", "diameter_mm"]);
