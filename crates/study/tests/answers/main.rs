@@ -1,7 +1,7 @@
 //! Small studies through the library: results compared with each other, with counting, and with invariants.
 //!
 //! `around`: floor, pedestal, what rides on a rail; `cell`: clearances; `counts`: points and the tolerance; `same_points`: one point computed in two ways; `paths`: shapes; `spin_curves`: a spin that changes along a path; `freedoms`: lean and external axes of a search; `deviations`:
-//! what changes them; `statements`: sentences, sources, warnings; `vibration`: modes and stability at points; `running`: reading, progress, files.
+//! what changes them; `statements`: sentences, sources, warnings; `vibration`: modes and stability at points; `without_masses`: an arm whose links have none; `running`: reading, progress, files.
 
 // A panic is how a test says that its claim is false; helper functions too.
 #![allow(clippy::unwrap_used, clippy::panic)]
@@ -18,6 +18,10 @@ mod same_points;
 mod spin_curves;
 mod statements;
 mod vibration;
+#[path = "../shared/without_masses.rs"]
+mod without_masses;
+#[path = "../shared/without_masses.rs"]
+mod without_masses;
 
 use std::path::Path;
 

@@ -17,15 +17,22 @@ use armill_study::joint_order::shown_positions;
 use armill_study::live::{StudyText, table_csv};
 use armill_study::stability::{self, ArmPosture, Options, Question, evaluate};
 
-use crate::{PLATE, answered, found, study};
+use crate::without_masses::without_masses;
+use crate::{PLATE, answered, found};
 
 /// All mass of the arm in one point, at the tip.
 const MASS_KG: f64 = 40.0;
 const AT_THE_TIP: &str = "[tool]\nflange_from_tool_mm_deg = [0, 0, 150, 0, 0, 0]\n[[tool.mass]]\nat = \"tool\"\nmass_kg = 40\ncentre_mm = [0, 0, 0]\nsource = \"own\"\n";
 const CUT: &str = "[cut]\nmaterial = \"aluminium-7075-t6\"\naxial_depth_mm = 1\nside = \"slot\"\nspindle_rpm = 9000\nfeed_mm_per_min = 1800\ncutter = { diameter_mm = 10, flutes = 2 }\n";
 
+/// The study in this text with an arm whose only mass is that of its tool.
+fn study(text: &str) -> Study {
+    crate::study(&without_masses(text))
+}
+
 /// The rows of the table of the only analysis of a study: heads, then values.
 fn rows(text: &str) -> (Vec<String>, Vec<Vec<String>>) {
+    let text = without_masses(text);
     let given = StudyText {
         shown: "study.toml",
         folder: Path::new("."),
@@ -181,7 +188,7 @@ fn a_drill_springs_forward_by_the_release_of_its_thrust() {
 #[test]
 fn what_cannot_vibrate_or_be_read_is_reported_at_its_key() {
     let refused = |tables: &str| {
-        let text = format!("{PLATE}{tables}");
+        let text = without_masses(&format!("{PLATE}{tables}"));
         let found = read("study.toml", Path::new("."), text.as_bytes());
         found.err().map(|error| error.to_string()).unwrap_or_default()
     };
@@ -376,7 +383,7 @@ fn the_error_of_a_wall_changes_with_the_damping_as_that_of_the_modes_of_a_mass_a
         );
     }
     // Both walls of a slot: which of them is measured is not known.
-    let slot = crate::study(&format!("{PLATE}{AT_THE_TIP}{CUT}[vibration]\n{RECTANGLE}"));
+    let slot = study(&format!("{PLATE}{AT_THE_TIP}{CUT}[vibration]\n{RECTANGLE}"));
     let Subject::Path(path) = &slot.analyses[0].subject else {
         panic!("a path")
     };
