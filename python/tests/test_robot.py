@@ -222,7 +222,7 @@ def test_other_compliances_scale_the_deviation(mh12, joints):
 def without_masses() -> str:
     """The MH12 of the library without its masses."""
     text = (ROOT / "robots/yaskawa/mh12.toml").read_text()
-    return re.sub(r"\[\[mass\]\]\n(?:.+\n)+", "", text)
+    return re.sub(r"(?:\[\[mass\]\]|\[sources\.masses\])\n(?:.+\n)+", "", text)
 
 
 def test_gravity_is_the_work_of_the_weight():

@@ -16,6 +16,10 @@ use armill_study::analysis::Subject;
 use armill_study::file::placement::PlaceTable;
 use armill_study::file::resolve::{Study, read};
 
+#[path = "../../study/tests/shared/without_masses.rs"]
+mod without_masses;
+use without_masses::without_masses;
+
 /// Range of the part in x, mm: the distance from the first axis, the only one that deflects.
 const RANGE_MM: [f64; 2] = [850.0, 1100.0];
 /// Compliance of the first joint (rad/(N m)), mass at the tip (kg), damping ratio.
@@ -64,6 +68,7 @@ line = {{ from_mm = [-10, 0], to_mm = [10, 0] }}
 step_mm = 10
 "#
     );
+    let text = without_masses(&text);
     read("study.toml", Path::new("."), text.as_bytes()).unwrap_or_else(|error| panic!("{error}"))
 }
 

@@ -17,6 +17,8 @@ use crate::error::StudyError;
 use crate::robots;
 use crate::structure_answers::{MassDetails, StructureDetails};
 
+/// Parts of an inertia below this part of the largest are written as zero.
+const NEGLIGIBLE: f64 = 1e-3;
 /// Key of the source of the masses.
 const SOURCE: &str = "estimated masses";
 
@@ -95,7 +97,7 @@ fn rounded(mass: &Mass, relative_uncertainty: f64) -> Mass {
         mass: three_digits(mass.mass),
         centre,
         inertia: mass.inertia.map(|inertia| {
-            let least = inertia.amax() * 1e-3;
+            let least = inertia.amax() * NEGLIGIBLE;
             inertia.map(|part| {
                 if part.abs() < least {
                     0.0
@@ -117,7 +119,7 @@ fn three_digits(value: f64) -> f64 {
 /// The words for a refusal, with what to do.
 fn refused(error: EstimateError) -> StudyError {
     let hint = match &error {
-        EstimateError::NoBody => {
+        EstimateError::WithoutBodies => {
             "masses are estimated from the [[body]] tables of a robot file: make them with `armill robots bodies`"
         }
         EstimateError::NothingLeft { .. } => "--total-kg is the mass of the whole arm, without its tool",

@@ -102,6 +102,9 @@ pub struct EnergyShare {
 /// A TCP that moves less than this part of its greatest modal motion does not move.
 const STILL: f64 = 1e-9;
 
+/// A tool whose TCP is nearer than this to the axis about which a mode turns it, m, turns only.
+const LEVER: f64 = 1e-3;
+
 /// The modes of one robot.
 ///
 /// # Errors
@@ -222,7 +225,7 @@ pub(crate) fn needs_mass(robot: &Robot, model: &StiffnessModel) -> Result<(), St
         robot.name()
     );
     let hint = "add to its file, for each link, [[mass]] with at, mass_kg, centre_mm, inertia_kg_m2 and source, and for each joint \
-        [[motor]] with joint, rotor_inertia_kg_m2, ratio and source; a URDF gives them in <inertial>";
+        [[motor]] with joint, rotor_inertia_kg_m2, ratio and source; a URDF gives them in <inertial>, `armill robots masses` estimates them";
     Err(StudyError::value(message, hint))
 }
 
@@ -244,7 +247,7 @@ impl Words<'_> {
         let frequency_hz = mode.at_tool.frequency_hz();
         // Half of the modes point the other way: the largest component is positive.
         let side = translation[translation.iamax()].signum();
-        let moves = most > 0.0;
+        let moves = most > LEVER * rotation.norm();
         ModeAnswer {
             frequency_hz,
             frequency_u_hz: relative_uncertainty.map(|u| u * frequency_hz),

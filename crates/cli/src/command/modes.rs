@@ -91,7 +91,7 @@ fn row(number: usize, mode: &ModeAnswer) -> String {
         None => format!("{} Hz", significant(mode.frequency_hz, 4)),
     };
     let direction = mode.direction.map_or_else(
-        || "not at all".to_owned(),
+        || "turns only".to_owned(),
         |[x, y, z]| format!("({x:.2}, {y:.2}, {z:.2})"),
     );
     let of = |value: Option<f64>, unit: &str| {
@@ -113,7 +113,7 @@ fn sentence(mode: &ModeAnswer) -> String {
         format!("{:.0} % {}", 100.0 * largest.share, largest.contributor)
     });
     let moves = match mode.direction {
-        None => "does not move the tool".to_owned(),
+        None => "turns the tool about its tip".to_owned(),
         Some(direction) => {
             let along = ["x", "y", "z"]
                 .into_iter()

@@ -15,7 +15,7 @@
 //! the published masses of 25 links of five arms the natural logarithm of the ratio has a root mean square of 0.45
 //! (`validation/estimated-masses`): this is [`LINK_UNCERTAINTY`].
 //!
-//! The integrals are sums over a lattice of [`CELLS`] cells along the longest edge of the box around the bodies, and as many as needed for nearly cubic cells
+//! The integrals are sums over a lattice of 64 cells along the longest edge of the box around the bodies, and as many as needed for nearly cubic cells
 //! along the others: an error of one or two per cent.
 
 use nalgebra::{IsometryMatrix3, Matrix3, Point3, Vector3};
@@ -46,7 +46,7 @@ pub struct Solid {
 pub enum EstimateError {
     /// No link without a mass has a body with a volume.
     #[error("no link without a given mass has a body")]
-    NoBody,
+    WithoutBodies,
     /// The given masses, kg, are all of the arm, or more.
     #[error("the links with a given mass already have {given} kg")]
     NothingLeft {
@@ -83,7 +83,7 @@ pub fn estimated_masses(bodies: &[ArmBody], total: f64, given: &[Mass]) -> Resul
     }
     let volume: f64 = solids.iter().map(|(_, solid)| solid.volume).sum();
     if solids.is_empty() {
-        return Err(EstimateError::NoBody);
+        return Err(EstimateError::WithoutBodies);
     }
     if total <= sum {
         return Err(EstimateError::NothingLeft { given: sum });

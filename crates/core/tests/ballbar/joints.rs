@@ -431,6 +431,7 @@ fn a_torque_that_determines_the_side_of_the_backlash_leaves_no_step() {
         mass: 8.0,
         centre: Point3::origin(),
         inertia: None,
+        relative_uncertainty: 0.0,
     }];
     model.gravity = Some(armill_core::source::Gravity {
         acceleration: Vector3::new(0.0, 0.0, -9.8),

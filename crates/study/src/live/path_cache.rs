@@ -95,10 +95,10 @@ impl PathCache {
         kept.unwrap_or_else(|| postures(text, question, watch))
     }
 
-    /// As [`lobes`], without another evaluation of a path that is kept.
+    /// As `lobes`, without another evaluation of a path that is kept.
     ///
     /// # Errors
-    /// Those of [`lobes`].
+    /// Those of `lobes`.
     pub fn lobes(
         &self,
         text: StudyText<'_>,

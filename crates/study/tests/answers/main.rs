@@ -20,8 +20,6 @@ mod statements;
 mod vibration;
 #[path = "../shared/without_masses.rs"]
 mod without_masses;
-#[path = "../shared/without_masses.rs"]
-mod without_masses;
 
 use std::path::Path;
 

@@ -12,7 +12,7 @@ use armill_study::analysis::path::vibration::cuts;
 use armill_study::analysis::vibration::wall::WallErrors;
 use armill_study::analysis::{AnalysisData, Subject};
 use armill_study::answer::{StudyAnswer, answer};
-use armill_study::file::resolve::read;
+use armill_study::file::resolve::{Study, read};
 use armill_study::joint_order::shown_positions;
 use armill_study::live::{StudyText, table_csv};
 use armill_study::stability::{self, ArmPosture, Options, Question, evaluate};
@@ -383,7 +383,7 @@ fn the_error_of_a_wall_changes_with_the_damping_as_that_of_the_modes_of_a_mass_a
         );
     }
     // Both walls of a slot: which of them is measured is not known.
-    let slot = study(&format!("{PLATE}{AT_THE_TIP}{CUT}[vibration]\n{RECTANGLE}"));
+    let slot = self::study(&format!("{PLATE}{AT_THE_TIP}{CUT}[vibration]\n{RECTANGLE}"));
     let Subject::Path(path) = &slot.analyses[0].subject else {
         panic!("a path")
     };

@@ -110,6 +110,6 @@ fn the_total_is_distributed_by_volume_over_the_links_without_a_mass() {
     );
     assert_eq!(
         estimated_masses(&bodies[3..], 100.0, &[]),
-        Err(EstimateError::NoBody)
+        Err(EstimateError::WithoutBodies)
     );
 }

@@ -1,8 +1,8 @@
 //! Receptance coupling: a holder and a cutter, as beams, at the end of a machine of known receptance.
 //!
 //! Read in this order: [`section`] (material and cross section), [`joint`] (elastic connection), [`segment`] (a uniform beam), `bending` and
-//! `rod` (from end to end), [`transfer`] (in all directions), [`tip`] (machine, joints and segments coupled: receptance at the tip), [`sweep`] (at many
-//! frequencies), [`tip_modes`] (modes of the coupled tip, fitted) with `rank_one` (all shapes together).
+//! `rod` (from end to end), [`transfer`] (in all directions), [`tip`] (machine, joints and segments coupled: receptance at the tip), [`sweep`](mod@sweep) (at many
+//! frequencies), [`tip_modes`](mod@tip_modes) (modes of the coupled tip, fitted) with `rank_one` (all shapes together).
 //!
 //! Theory: `docs/theory/receptance-coupling.md`.
 

@@ -371,7 +371,7 @@ fn the_uncertainty_by_a_mass_is_its_slope_by_difference() {
         structure
             .masses
             .iter_mut()
-            .for_each(|mass| mass.relative_uncertainty = u)
+            .for_each(|mass| mass.relative_uncertainty = u);
     };
     let of_all = of_planar(&LINKS, &q, all, |state| {
         state.frequency_uncertainties_by_masses(&found.modes)
