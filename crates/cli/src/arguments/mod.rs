@@ -77,6 +77,7 @@ pub(crate) use roundness::RoundnessArguments;
 pub(crate) use run::{RunArguments, RunOptions};
 pub(crate) use serve::ServeArguments;
 pub(crate) use stability::StabilityArguments;
+pub(crate) use writing::WritingOptions;
 
 use clap::{Parser, Subcommand};
 

@@ -2,6 +2,7 @@
 //! study.
 
 use crate::cell::{Cell, number};
+use crate::without_masses::without_masses;
 
 const CELL: &str = r#"format = 1
 robot = "yaskawa/mh12"
@@ -169,7 +170,7 @@ fn the_advised_study_finds_its_files_and_its_program_is_written() {
 /// An arm whose first joint alone deflects, with all its mass at the tip: one mode at 28 Hz at this place; the teeth pass at three quarters of
 /// it, and the cut is deeper than its limit there.
 const CHATTERING: &str = r#"format = 1
-robot = "light.toml"
+robot = "yaskawa/mh12"
 tolerance_um = 100000
 plane = { centre_mm = [900, 0, 500], tilt_deg = 90, half_size_mm = 50, step_mm = 50 }
 posture = { branch = "front elbow-up no-flip" }
@@ -203,11 +204,8 @@ step_mm = 10
 fn a_speed_that_is_advised_makes_the_cut_stable() {
     let cell = Cell::new();
     // The only mass is that of the tool.
-    let library = include_str!("../../../../robots/yaskawa/mh12.toml");
-    let is_other = |table: &&str| !table.contains("[[mass]]") && !table.contains("[sources.masses]");
-    let tables: Vec<&str> = library.split("\n\n").filter(is_other).collect();
-    cell.file("light.toml", tables.join("\n\n"));
-    cell.file("study.toml", CHATTERING);
+    let chattering = without_masses(CHATTERING);
+    cell.file("study.toml", &chattering);
     let said = cell.armill(&["advise", "study.toml", "--no-pictures"]).fine();
     for words in [
         "The cut is unstable",
@@ -221,7 +219,7 @@ fn a_speed_that_is_advised_makes_the_cut_stable() {
     let times = number(&speed["times"]);
     let [after, before] = [0, 1].map(|index| number(&speed["stable_depth_mm"][index]));
     assert!(before < 2.0 && after > 2.0, "{speed}");
-    let faster = CHATTERING
+    let faster = chattering
         .replace("spindle_rpm = 630", &format!("spindle_rpm = {}", 630.0 * times))
         .replace(
             "feed_mm_per_min = 63",

@@ -2,10 +2,10 @@
 //!
 //! `cell` is where they run. What a user meets first: `new_and_robots`, `shell`, `documents` (every page is run).
 //! Commands: `run`,
-//! `pose`, `place`, `advise`, `springs`, `assumed`, `robots_check`, `import`, `bodies`, `materials`, `identify`, `calibrate`,
+//! `pose`, `place`, `advise`, `springs`, `assumed`, `robots_check`, `import`, `bodies`, `masses`, `materials`, `identify`, `calibrate`,
 //! `forces`, `roundness`, `ballbar`, `budget`, `path_accuracy`, `motion`, `frf`, `receptance`, `stability`, `compare`, `clearance`, `restricted_space`, `holes`, `unloaded` (backlash). What goes
 //! wrong: `refused`, `guarded` (files of the user), `hostile` (numbers and bytes),
-//! `terminal`, `killed`, `rough` (places and inputs), `slips` (mistakes that are easily made).
+//! `terminal`, `killed`, `rough` (places and inputs), `slips` (mistakes that are easily made). `without_masses`: an arm whose links have none.
 
 // A panic is how a test says that its claim is false; helper functions too.
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
@@ -32,6 +32,7 @@ mod identify;
 mod import;
 #[cfg(unix)]
 mod killed;
+mod masses;
 mod materials;
 mod modes;
 mod motion;
@@ -55,3 +56,5 @@ mod springs;
 mod stability;
 mod terminal;
 mod unloaded;
+#[path = "../../../study/tests/shared/without_masses.rs"]
+mod without_masses;

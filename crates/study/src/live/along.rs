@@ -23,6 +23,7 @@ use armill_core::watch::Watch;
 
 use crate::analysis::holes::HolesAnalysis;
 use crate::analysis::path::PathAnalysis;
+use crate::analysis::path::run::PathResult;
 use crate::analysis::runner::Runner;
 use crate::analysis::{AnalysisData, AnalysisResult};
 use crate::error::StudyError;
@@ -134,6 +135,28 @@ pub(super) fn on_path(
     done: Option<&AnalysisResult<'_>>,
     watch: Watch<'_>,
 ) -> Result<ToolTarget, StudyError> {
+    followed(study, path, done, watch, |found, track| {
+        let along = &found.along;
+        let answers = &along.answers;
+        let unloaded = along.backlash_geometry.as_ref();
+        let pose = AnsweredPose {
+            joints: joints_at(answers, index),
+            link_offsets: unloaded
+                .map(|unloaded| unloaded.link_offsets_at(index, answers.joint_count).to_vec()),
+            motion: path.setting.motion_displacement(found.motion.as_ref(), index),
+        };
+        turned(track, &along.load, index, 0.0, pose)
+    })
+}
+
+/// What `work` gives of this path, which may have been evaluated, and of the track on which it is followed.
+pub(super) fn followed<T>(
+    study: &Study,
+    path: &PathAnalysis,
+    done: Option<&AnalysisResult<'_>>,
+    watch: Watch<'_>,
+    work: impl FnOnce(&PathResult, &Track) -> T,
+) -> Result<T, StudyError> {
     let of_now;
     let found = match done.map(|done| &done.found) {
         Some(AnalysisData::Path(_, found)) => found,
@@ -142,18 +165,9 @@ pub(super) fn on_path(
             &of_now
         }
     };
-    let (along, searched) = (&found.along, found.searched.as_ref());
-    let answers = &along.answers;
-    let unloaded = along.backlash_geometry.as_ref();
-    let pose = AnsweredPose {
-        joints: joints_at(answers, index),
-        link_offsets: unloaded.map(|unloaded| unloaded.link_offsets_at(index, answers.joint_count).to_vec()),
-        motion: path.setting.motion_displacement(found.motion.as_ref(), index),
-    };
-    let followed = searched.filter(|searched| searched.applied);
-    let track = followed.map(|searched| searched.posture.turned(&path.track));
-    let track = track.as_ref().unwrap_or(&path.track);
-    Ok(turned(track, &along.load, index, 0.0, pose))
+    let searched = found.searched.as_ref().filter(|searched| searched.applied);
+    let track = searched.map(|searched| searched.posture.turned(&path.track));
+    Ok(work(found, track.as_ref().unwrap_or(&path.track)))
 }
 
 /// Hole `index` of this study, whose holes may have been evaluated; the hole must exist.

@@ -11,14 +11,14 @@ use serde::Serialize;
 
 use crate::analysis::path::PathAnalysis;
 use crate::analysis::path::vibration::cuts;
-use crate::analysis::runner::Runner;
 use crate::analysis::vibration::arm_modes::named_at_tip;
-use crate::analysis::{AnalysisData, AnalysisResult, Subject};
+use crate::analysis::{AnalysisResult, Subject};
 use crate::error::StudyError;
 use crate::file::resolve::Study;
 use crate::input::vibration::CutAtPoint;
 use crate::joint_order::joint_positions;
-use crate::live::posture::PoseTarget;
+use crate::live::along::followed;
+use crate::live::posture::{PoseTarget, existing_point};
 use crate::live::{EditedAnalysis, StudyText};
 use crate::stability::answer::{StabilityAnswer, answer};
 use crate::stability::evaluate::evaluate;
@@ -106,22 +106,8 @@ fn on_path(
     done: Option<&AnalysisResult<'_>>,
     watch: Watch<'_>,
 ) -> Result<Option<CutAtPoint>, StudyError> {
-    if index >= path.track.len() {
-        return Err(StudyError::value(
-            format!("point {index} does not exist"),
-            format!("points are 0 to {}", path.track.len().saturating_sub(1)),
-        ));
-    }
-    let of_now;
-    let found = match done.map(|done| &done.found) {
-        Some(AnalysisData::Path(_, found)) => found,
-        _ => {
-            of_now = Runner::new(&study.robot.robot, watch)?.path(path)?;
-            &of_now
-        }
-    };
-    let followed = found.searched.as_ref().filter(|searched| searched.applied);
-    let track = followed.map(|searched| searched.posture.turned(&path.track));
-    let track = track.as_ref().unwrap_or(&path.track);
-    Ok(cuts(path, track, &found.along.load).and_then(|cuts| (cuts.at)(index)))
+    existing_point(index, path.track.len())?;
+    followed(study, path, done, watch, |found, track| {
+        cuts(path, track, &found.along.load).and_then(|cuts| (cuts.at)(index))
+    })
 }

@@ -307,6 +307,17 @@ fn pose_on_plane(setting: &Setting, tcp: Point3<f64>) -> Isometry {
     )
 }
 
+/// Refuses a point that does not exist; points count from 0.
+pub(super) fn existing_point(index: usize, count: usize) -> Result<(), StudyError> {
+    match index < count {
+        true => Ok(()),
+        false => Err(StudyError::value(
+            format!("point {index} does not exist"),
+            format!("points are 0 to {}", count.saturating_sub(1)),
+        )),
+    }
+}
+
 /// A point of a path, of holes or of a box.
 fn point(
     study: &Study,
@@ -315,24 +326,17 @@ fn point(
     done: Option<&AnalysisResult<'_>>,
     watch: Watch<'_>,
 ) -> Result<ToolTarget, StudyError> {
-    let within = |count: usize| match index < count {
-        true => Ok(()),
-        false => Err(StudyError::value(
-            format!("point {index} does not exist"),
-            format!("points are 0 to {}", count.saturating_sub(1)),
-        )),
-    };
     match study.analyses.first().map(|analysis| &analysis.subject) {
         Some(Subject::Path(path)) => {
-            within(path.track.len())?;
+            existing_point(index, path.track.len())?;
             on_path(study, path, index, done, watch)
         }
         Some(Subject::Holes(holes)) => {
-            within(holes.path.track.len())?;
+            existing_point(index, holes.path.track.len())?;
             at_hole(study, holes, index, done, watch)
         }
         Some(Subject::Volume(_, grid)) => {
-            within(grid.len())?;
+            existing_point(index, grid.len())?;
             Ok(ToolTarget {
                 at: At::Pose(pose_on_plane(setting, grid.point(index))),
                 normal: setting.plane.normal(),

@@ -7,9 +7,9 @@ use armill_formats::robot::armill;
 use armill_study::StudyError;
 use armill_study::enclosed_links::EnclosedLinks;
 
+use super::tables::TablesOutput;
 use crate::arguments::BodiesArguments;
 use crate::outcome::Outcome;
-use crate::terminal::{print, say};
 
 /// Encloses the links, and writes the tables.
 ///
@@ -18,32 +18,26 @@ use crate::terminal::{print, say};
 pub(super) fn run(arguments: &BodiesArguments) -> Result<Outcome, StudyError> {
     let found = EnclosedLinks::of(&arguments.file, arguments.capsules)?;
     let text = armill::body_tables(&found.robot);
-    let shown = arguments.out.as_ref().map(|path| path.display().to_string());
-    if let Some(path) = &arguments.out {
-        arguments
-            .writing
-            .writer("robots bodies")
-            .for_new_files()
-            .write(path, text.as_bytes())?;
-    }
-    if arguments.json {
-        print(&serde_json::to_string(&found.answer(shown.clone(), &text))?)?;
-    } else if shown.is_none() {
-        print(text.trim_end())?;
-    }
     let notes = found.robot.body_notes.iter();
     let largest = notes.filter_map(|note| note.accuracy_mm).fold(0.0, f64::max);
     let ratio = match found.volume_ratio {
         Some(ratio) => format!("{ratio:.2} times the volume of the meshes"),
         None => "an open mesh has no volume".to_owned(),
     };
-    say(&format!(
-        "{}: {} capsules, no farther than {largest} mm from the links; {ratio}",
-        found.robot.title,
-        found.robot.bodies.len()
-    ));
-    if let Some(file) = shown {
-        say(&format!("created {file}: append it to the robot file"));
+    TablesOutput {
+        command: "robots bodies",
+        file: arguments.out.as_ref(),
+        writing: &arguments.writing,
+        json: arguments.json,
     }
+    .write(
+        &text,
+        |file| found.answer(file, &text),
+        &format!(
+            "{}: {} capsules, no farther than {largest} mm from the links; {ratio}",
+            found.robot.title,
+            found.robot.bodies.len()
+        ),
+    )?;
     Ok(Outcome::Fine)
 }

@@ -6,9 +6,9 @@ use armill_formats::robot::armill;
 use armill_study::StudyError;
 use armill_study::estimated_links::{ArmMass, EstimatedLinks};
 
+use super::tables::TablesOutput;
 use crate::arguments::MassesArguments;
 use crate::outcome::Outcome;
-use crate::terminal::{print, say};
 
 /// Estimates the masses, and writes the tables.
 ///
@@ -23,23 +23,17 @@ pub(super) fn run(arguments: &MassesArguments) -> Result<Outcome, StudyError> {
         },
     )?;
     let text = armill::mass_tables(&found.robot);
-    let shown = arguments.out.as_ref().map(|path| path.display().to_string());
-    if let Some(path) = &arguments.out {
-        arguments
-            .writing
-            .writer("robots masses")
-            .for_new_files()
-            .write(path, text.as_bytes())?;
-    }
-    if arguments.json {
-        print(&serde_json::to_string(&found.answer(shown.clone(), &text))?)?;
-    } else if shown.is_none() {
-        print(text.trim_end())?;
-    }
     let links = found.robot.robot.structure().masses.len();
-    say(&format!("{}: masses of {links} links", found.robot.title));
-    if let Some(file) = shown {
-        say(&format!("created {file}: append it to the robot file"));
+    TablesOutput {
+        command: "robots masses",
+        file: arguments.out.as_ref(),
+        writing: &arguments.writing,
+        json: arguments.json,
     }
+    .write(
+        &text,
+        |file| found.answer(file, &text),
+        &format!("{}: masses of {links} links", found.robot.title),
+    )?;
     Ok(Outcome::Fine)
 }

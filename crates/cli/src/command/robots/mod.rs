@@ -1,7 +1,7 @@
 //! `armill robots`: information on robots.
 //!
 //! Without a name `list` prints the library, one line per robot; with a name `show` prints everything, with `structure`
-//! for springs and masses apart from the drives. `import` converts other formats, `bodies` encloses links by capsules, `masses` estimates their masses, `check` compares a robot with its
+//! for springs and masses apart from the drives; `tables` writes what `bodies` and `masses` make. `import` converts other formats, `bodies` encloses links by capsules, `masses` estimates their masses, `check` compares a robot with its
 //! pendant.
 
 mod bodies;
@@ -11,6 +11,7 @@ mod list;
 mod masses;
 mod show;
 mod structure;
+mod tables;
 
 use armill_study::StudyError;
 
