@@ -14,7 +14,7 @@ use armill_study::analysis::{AnalysisData, Subject};
 use armill_study::answer::{StudyAnswer, answer};
 use armill_study::file::resolve::{Study, read};
 use armill_study::joint_order::shown_positions;
-use armill_study::live::{StudyText, table_csv};
+use armill_study::live::{LobesQuestion, PathCache, PoseTarget, StudyText, table_csv};
 use armill_study::stability::{self, ArmPosture, Options, Question, evaluate};
 
 use crate::without_masses::without_masses;
@@ -268,6 +268,35 @@ fn the_summary_of_a_path_is_that_of_the_stability_command_in_the_same_posture() 
     assert!(same(cut.semi_discretisation_depth_mm, command.stable_depth_mm));
     assert!(same(cut.probability_stable, command.probability_stable));
     assert_eq!(cut.is_stable, command.is_stable);
+    // The page, with and without a path that is kept.
+    let light = without_masses(&text);
+    let given = StudyText {
+        shown: "study.toml",
+        folder: Path::new("."),
+        bytes: light.as_bytes(),
+    };
+    let place = |index: usize| LobesQuestion {
+        analysis: None,
+        at: PoseTarget {
+            point: Some(index),
+            ..PoseTarget::default()
+        },
+        joints_deg: posture.joints_deg.clone(),
+    };
+    let page = PathCache::default()
+        .lobes(given, &place(index), Watch::NONE)
+        .unwrap();
+    let page = page.stability.unwrap();
+    assert!(same(page.zeroth_order_depth_mm, command.zeroth_order_depth_mm));
+    assert!(same(page.stable_depth_mm, command.stable_depth_mm));
+    assert!(same(page.probability_stable, command.probability_stable));
+    let beyond = PathCache::default().lobes(given, &place(9999), Watch::NONE);
+    assert!(
+        beyond
+            .unwrap_err()
+            .to_string()
+            .contains("point 9999 does not exist")
+    );
     // Vibration at this point: the larger of both axes at least, both together at most.
     let point = done[0].vibration[0].points[index].unwrap();
     let forced = point.cut.unwrap().forced.unwrap();
