@@ -11,7 +11,6 @@ motions = [{ about = "z", joint = "A" }, { along = "x", length_mm = 500 }]
 [[joint]]
 name = "A"
 sign = 1
-compliance_rad_per_n_m = 1e-6
 source = "own"
 [[body]]
 at = "base"
