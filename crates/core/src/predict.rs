@@ -5,7 +5,7 @@
 //!
 //! ```text
 //! pose -> posture -> screws s_i        load -> wrench w
-//! deviation = elastic(s_i, c_i, w) + gravity(s_i, c_i, masses) + geometric + thermal + backlash(s_i, b_i, links, w)
+//! deviation = elastic(s_i, c_i, w) + gravity(s_i, c_i, masses) + geometric + thermal + learnt + backlash(s_i, b_i, links, w)
 //! ```
 //!
 //! `c_i` is the compliance of joint i (rad/(N m)), `b_i` its backlash from one side to the other (rad). The posture is
@@ -14,7 +14,7 @@
 //! Repeatability adds uncertainty only.
 //!
 //! Maps, holes and single poses use the whole sum. Searches for placements and for the posture of a path use load and
-//! gravity only. Along a path geometry, thermal growth and backlash are added in a second step
+//! gravity only. Along a path geometry, thermal growth, learnt residual and backlash are added in a second step
 //! (`map/backlash_geometry.rs`), because friction decides from point to point at which side of its backlash each link
 //! rests. `kernel/lanes/load/deviation.rs` repeats the drives-only part for many points per instruction, and
 //! `kernel/lanes/whole/` all but a load-dependent equilibrium and a torque curve on the joint of a compensator; both are
@@ -62,8 +62,8 @@ pub(crate) fn deviation_of(
     })
 }
 
-/// Deviation by geometry, thermal growth and backlash; the `links` are at these positions within their backlash,
+/// Deviation by geometry, thermal growth, learnt residual and backlash; the `links` are at these positions within their backlash,
 /// rad (m).
 pub(crate) fn unloaded(arm_state: &ArmState<'_>, links: &[f64], wrench: &Wrench) -> Twist {
-    arm_state.geometric() + arm_state.thermal() + arm_state.backlash(links, wrench)
+    arm_state.geometric() + arm_state.thermal() + arm_state.learnt() + arm_state.backlash(links, wrench)
 }

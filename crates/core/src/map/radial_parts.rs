@@ -79,8 +79,8 @@ pub fn radial_without_load(
     }))
 }
 
-/// Outward displacement (m) of the unloaded circle by one standard uncertainty of each backlash: in proportion to the
-/// backlash.
+/// Outward displacement (m) of the unloaded circle by one standard uncertainty of each backlash, in proportion to the
+/// backlash, of the thermal growth, and of the learnt residual.
 fn backlash_uncertainties(
     arm: &Arm<'_>,
     track: &Track,
@@ -98,6 +98,8 @@ fn backlash_uncertainties(
     let mut arm_state = ArmState::new(*arm);
     let mut curves = vec![Vec::with_capacity(track.len()); unsure.len()];
     let mut thermal = Vec::with_capacity(track.len());
+    let learnt = arm.model.structure.learnt.as_ref();
+    let mut by_learnt = vec![Vec::with_capacity(track.len()); 3];
     for index in 0..track.len() {
         arm_state.set_joints(found.answers.joints_at(index));
         let outward = outwards(track, index, centre);
@@ -107,6 +109,10 @@ fn backlash_uncertainties(
             curve.push(moved.dot(&outward) * relative);
         }
         thermal.push(arm_state.thermal_uncertainty().dot(&outward));
+        let here = learnt.map(|learnt| learnt.at(found.answers.joints_at(index)).uncertainty);
+        for (curve, u) in by_learnt.iter_mut().zip(here.into_iter().flatten()) {
+            curve.push(u.dot(&outward));
+        }
     }
     if arm
         .model
@@ -114,6 +120,9 @@ fn backlash_uncertainties(
         .is_some_and(|thermal| thermal.standard_uncertainty > 0.0)
     {
         curves.push(thermal);
+    }
+    if learnt.is_some() {
+        curves.extend(by_learnt);
     }
     curves
 }

@@ -31,6 +31,8 @@ pub enum InputKind {
     Mass(usize),
     /// Growth of the links.
     Thermal,
+    /// The learnt residual along one of its axes.
+    Learnt(usize),
     /// Position of the TCP along the tool axis.
     ToolLength,
     /// Size of the load.
@@ -95,6 +97,7 @@ pub fn sensitivity(
             UncertainInput::Backlash(joint, _) => InputKind::Backlash(*joint),
             UncertainInput::Mass(mass, _) => InputKind::Mass(*mass),
             UncertainInput::Thermal(_) => InputKind::Thermal,
+            UncertainInput::Learnt(component) => InputKind::Learnt(*component),
             UncertainInput::ToolLength(_) => InputKind::ToolLength,
             UncertainInput::LoadSize(_) => InputKind::LoadSize,
             UncertainInput::Force(_) => {
@@ -121,9 +124,11 @@ impl Sensitivity {
     pub fn gain_over(&self, other: &Sensitivity, shared: SharedInputs) -> Gain {
         let is_shared = |kind: InputKind| match kind {
             InputKind::ToolLength | InputKind::LoadSize | InputKind::Force(_) => true,
-            InputKind::Compliance(_) | InputKind::Backlash(_) | InputKind::Mass(_) | InputKind::Thermal => {
-                shared == SharedInputs::OneRobot
-            }
+            InputKind::Compliance(_)
+            | InputKind::Backlash(_)
+            | InputKind::Mass(_)
+            | InputKind::Thermal
+            | InputKind::Learnt(_) => shared == SharedInputs::OneRobot,
         };
         let in_other = |kind: InputKind| {
             let found = other.changes.iter().find(|(there, _)| *there == kind);

@@ -163,6 +163,7 @@ fn structure_read_back(arm: &Positioner<'_>) -> Structure {
         },
         repeatability: own.repeatability,
         model_error: own.model_error,
+        learnt: own.learnt.clone(),
     }
 }
 

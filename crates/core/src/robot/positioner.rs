@@ -208,6 +208,7 @@ impl Robot {
             },
             repeatability: own.repeatability,
             model_error: own.model_error,
+            learnt: own.learnt.clone(),
         }
     }
 }

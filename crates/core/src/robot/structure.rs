@@ -1,7 +1,9 @@
 //! The structure of an arm in addition to its drives: springs, masses, motors, damping, compensator, torque curves,
-//! backlash, repeatability, and model error.
+//! backlash, repeatability, model error, and learnt residual.
 //!
 //! Empty for the simple model, in which only joints deflect, each about its own axis.
+
+use std::sync::Arc;
 
 use nalgebra::{DMatrix, Matrix3};
 
@@ -10,6 +12,7 @@ use super::chain::Chain;
 use super::compensator::{Compensator, Mass};
 use super::damping::{CRITICAL, Damping, STRONGEST_DAMPER};
 use super::joint::SOFTEST;
+use super::learnt::{Learnt, LearntError};
 use super::motor::{HEAVIEST_ROTOR, Motor};
 use super::spring::{Attachment, Spring};
 use super::structure_error::{StructureError, WIDEST, WIDEST_SCATTER, WORST_MODEL};
@@ -40,6 +43,8 @@ pub struct Structure {
     /// Model error: standard uncertainty of the prediction under a load, as a fraction of it, in addition to that of
     /// the compliances. It covers effects of springs and joints that have no parameter. Zero where it is not known.
     pub model_error: f64,
+    /// What the model of the chain leaves of the measured positions, if it was learnt.
+    pub learnt: Option<Arc<Learnt>>,
 }
 
 /// Radii of a compensator that differ by less let its spring shrink to length zero, m.
@@ -58,6 +63,7 @@ impl Structure {
         backlash: Vec::new(),
         repeatability: 0.0,
         model_error: 0.0,
+        learnt: None,
     };
 
     /// The torque curve of joint `index`, if it has one.
@@ -163,6 +169,9 @@ impl Structure {
         if !(0.0..=WORST_MODEL).contains(&self.model_error) {
             return Err(StructureError::ModelError(self.model_error));
         }
+        if let Some(learnt) = &self.learnt {
+            check_learnt(learnt, chain)?;
+        }
         if let Some(c) = &self.compensator {
             turns("the compensator", c.joint)?;
             check_compensator(c)?;
@@ -176,6 +185,15 @@ impl Structure {
 impl Default for Structure {
     fn default() -> Structure {
         Structure::EMPTY
+    }
+}
+
+fn check_learnt(learnt: &Learnt, chain: &Chain) -> Result<(), StructureError> {
+    let (lengths, joints) = (learnt.joints(), chain.links().len());
+    match chain.ground().is_base() {
+        false => Err(LearntError::Ground.into()),
+        true if lengths != joints => Err(LearntError::Lengths { lengths, joints }.into()),
+        true => Ok(()),
     }
 }
 

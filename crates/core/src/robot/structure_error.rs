@@ -1,6 +1,7 @@
 //! Why a structure is not valid, and the greatest values of a valid one.
 
 use super::joint::SOFTEST;
+use super::learnt::LearntError;
 
 /// Greatest backlash, rad (m).
 pub const WIDEST: f64 = 0.1;
@@ -91,6 +92,9 @@ pub enum StructureError {
     /// A repeatability out of range.
     #[error("a standard deviation of {0} m is not a number from 0 to {WIDEST_SCATTER}")]
     Repeatability(f64),
+    /// A learnt residual of another arm.
+    #[error(transparent)]
+    Learnt(#[from] LearntError),
     /// A model error out of range.
     #[error("a model error of {0} is not a fraction from 0 to {WORST_MODEL}")]
     ModelError(f64),

@@ -11,6 +11,8 @@ pub enum Contributor {
     Geometry,
     /// Thermal growth of the links since the calibration.
     Thermal,
+    /// What the model leaves of measured positions.
+    Learnt,
     /// Corners that the controller rounds.
     Blending,
     /// Joints that follow their command late.
@@ -18,7 +20,7 @@ pub enum Contributor {
 }
 
 impl Contributor {
-    /// Its name: of a joint as its maker calls it, else `base`, `flange`, `tool`, `geometry`, `thermal`, `blending`, `servo`.
+    /// Its name: of a joint as its maker calls it, else `base`, `flange`, `tool`, `geometry`, `thermal`, `learnt`, `blending`, `servo`.
     pub fn name(self, joints: &[Joint]) -> String {
         match self {
             Contributor::At(Attachment::Joint(index)) => joints[index].name.clone(),
@@ -27,6 +29,7 @@ impl Contributor {
             Contributor::At(Attachment::Tool) => "tool".to_owned(),
             Contributor::Geometry => "geometry".to_owned(),
             Contributor::Thermal => "thermal".to_owned(),
+            Contributor::Learnt => "learnt".to_owned(),
             Contributor::Blending => "blending".to_owned(),
             Contributor::Servo => "servo".to_owned(),
         }

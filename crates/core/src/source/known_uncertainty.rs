@@ -92,6 +92,7 @@ impl Arm<'_> {
                 .filter(|mass| mass.relative_uncertainty > 0.0);
             inputs.others_with += uncertain.count();
         }
+        inputs.others_with += usize::from(structure.learnt.is_some());
         match self.model.thermal {
             Some(growth) if growth.standard_uncertainty > 0.0 => inputs.others_with += 1,
             Some(growth) if growth.growth != 0.0 => inputs.without.push(InputWithoutUncertainty::Thermal),

@@ -64,15 +64,16 @@ impl StiffnessModel {
         !self.load_dependent && self.structure.curves.iter().all(Option::is_none)
     }
 
-    /// Whether the tool has deviations that do not depend on the load: backlash, geometry, thermal growth.
+    /// Whether the tool has deviations that do not depend on the load: backlash, geometry, thermal growth, learnt residual.
     pub fn has_unloaded_deviation(&self) -> bool {
         self.structure.joints_with_backlash().next().is_some()
             || self.actual.is_some()
             || self.thermal.is_some()
+            || self.structure.learnt.is_some()
     }
 
     /// The contributors to the deviation: every joint, then base, flange and tool where they have springs, then the
-    /// geometry and thermal growth where they are included.
+    /// geometry, thermal growth and the learnt residual where they are included.
     pub fn contributors(&self, joints: usize) -> Vec<Contributor> {
         let others = [Attachment::Base, Attachment::Flange, Attachment::Tool];
         let has_spring = |attachment: &Attachment| {
@@ -87,6 +88,7 @@ impl StiffnessModel {
             .map(Contributor::At)
             .chain(self.actual.as_ref().map(|_| Contributor::Geometry))
             .chain(self.thermal.map(|_| Contributor::Thermal))
+            .chain(self.structure.learnt.as_ref().map(|_| Contributor::Learnt))
             .collect()
     }
 

@@ -14,6 +14,8 @@
 //! This is the numerical form of the law of propagation (JCGM 100:2008, 5.1.3, note 2). Predictions that share the inputs
 //! are correlated: the uncertainty of their difference follows from evaluating both with the same changes.
 
+use std::sync::Arc;
+
 use nalgebra::{DMatrix, SymmetricEigen, Translation3, Vector3};
 
 use super::stiffness_model::{Arm, StiffnessModel};
@@ -32,6 +34,8 @@ pub enum UncertainInput {
     Mass(usize, f64),
     /// Change of the relative growth of the links.
     Thermal(f64),
+    /// Shift of the learnt residual along one of its axes by its standard uncertainty, in every posture.
+    Learnt(usize),
     /// Change of the position of the TCP along the tool axis, m.
     ToolLength(f64),
     /// Relative change of the load.
@@ -74,6 +78,7 @@ impl UncertainInput {
             .iter()
             .flat_map(|_| arm.model.structure.masses.iter().enumerate());
         let masses = weights.map(|(index, mass)| UncertainInput::Mass(index, mass.relative_uncertainty));
+        let learnt = arm.model.structure.learnt.iter().flat_map(|_| 0..3);
         let compliances = compliance_changes(arm).into_iter();
         compliances
             .filter(|changes| changes.iter().any(|by| *by != 0.0))
@@ -83,6 +88,7 @@ impl UncertainInput {
                     .map(|(joint, backlash)| UncertainInput::Backlash(joint, backlash.standard_uncertainty)),
             )
             .chain(masses)
+            .chain(learnt.map(UncertainInput::Learnt))
             .chain([
                 UncertainInput::Thermal(thermal),
                 UncertainInput::ToolLength(load.tool_length),
@@ -102,6 +108,7 @@ impl UncertainInput {
             | UncertainInput::ToolLength(by)
             | UncertainInput::LoadSize(by) => *by == 0.0,
             UncertainInput::Force(by) => *by == Vector3::zeros(),
+            UncertainInput::Learnt(_) => false,
         }
     }
 
@@ -128,6 +135,10 @@ impl UncertainInput {
                 if let Some(thermal) = &mut changed.model.thermal {
                     thermal.growth += by;
                 }
+            }
+            UncertainInput::Learnt(component) => {
+                let learnt = &mut changed.model.structure.learnt;
+                *learnt = learnt.as_ref().map(|learnt| Arc::new(learnt.shifted(*component)));
             }
             UncertainInput::ToolLength(by) => {
                 changed.flange_from_tool *= Translation3::new(0.0, 0.0, *by);

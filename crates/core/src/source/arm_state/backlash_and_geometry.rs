@@ -63,6 +63,15 @@ impl ArmState<'_> {
         })
     }
 
+    /// Displacement of the tool by what the model leaves of measured positions.
+    pub fn learnt(&self) -> Twist {
+        let learnt = self.arm.model.structure.learnt.as_ref();
+        learnt.map_or(Twist::ZERO, |learnt| Twist {
+            linear: learnt.mean(&self.joints),
+            ..Twist::ZERO
+        })
+    }
+
     /// From the ground to the flange of the arm without the travel of prismatic joints, m, base. Of an arm that holds the part,
     /// the opposite: the tool moves relative to the part as the ground does.
     fn constant_lengths(&self) -> Vector3<f64> {
@@ -86,7 +95,7 @@ impl ArmState<'_> {
     pub(crate) fn settle(&self, links: &mut Links<'_>, by_load: &Vector3<f64>, wrench: &Wrench) {
         if let Links::Farthest(along, positions) = links {
             positions.fill(0.0);
-            let known = self.geometric() + self.thermal() + self.backlash(positions, wrench);
+            let known = self.geometric() + self.thermal() + self.learnt() + self.backlash(positions, wrench);
             self.place_farthest(&(by_load + known.linear), along, wrench, positions);
         }
     }
@@ -154,6 +163,17 @@ impl ArmState<'_> {
         }
         if self.arm.model.thermal.is_some() {
             take(Contributor::Thermal, self.thermal(), self.thermal_uncertainty());
+        }
+        if let Some(learnt) = &self.arm.model.structure.learnt {
+            let here = learnt.at(&self.joints);
+            let [along, across, up] = here.uncertainty;
+            let mean = Twist {
+                linear: here.mean,
+                ..Twist::ZERO
+            };
+            take(Contributor::Learnt, mean, along);
+            take(Contributor::Learnt, Twist::ZERO, across);
+            take(Contributor::Learnt, Twist::ZERO, up);
         }
     }
 

@@ -79,6 +79,7 @@ fn everything() -> StiffnessModel {
             backlash: Vec::new(),
             repeatability: 0.0,
             model_error: 0.0,
+            learnt: None,
         },
         gravity: Some(Gravity {
             acceleration: -Vector3::z() * FREE_FALL,

@@ -210,6 +210,9 @@ impl ModelConstants {
             return None;
         }
         let covariance = structure.covariance.as_ref();
+        if unloaded && structure.learnt.is_some() {
+            return None;
+        }
         let actual = model.actual.as_deref().filter(|_| unloaded);
         Some(ModelConstants {
             flange_from_tool: Displacement::of(arm.flange_from_tool),
