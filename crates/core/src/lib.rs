@@ -21,6 +21,7 @@ pub mod dynamics;
 pub mod frame;
 pub mod identify;
 pub mod kernel;
+pub mod learn;
 pub mod load;
 pub mod map;
 pub mod marching_squares;

@@ -43,6 +43,25 @@ pub enum LearntAxes {
     FirstJoint,
 }
 
+impl LearntAxes {
+    /// These axes at `q`, in the base.
+    fn at(self, first: Option<FirstJoint>, q: &[f64]) -> Rotation3<f64> {
+        match (self, first, q.first()) {
+            (LearntAxes::FirstJoint, Some(first), Some(q)) => {
+                Rotation3::from_axis_angle(&first.axis, first.sign * q)
+            }
+            _ => Rotation3::identity(),
+        }
+    }
+}
+
+/// Components of the residuals of `robot` along these axes, m.
+pub(crate) fn components(robot: &Robot, poses: &[ResidualAt], axes: LearntAxes) -> Vec<Vector3<f64>> {
+    let first = first_joint(robot);
+    let along = |pose: &ResidualAt| axes.at(first, &pose.joints).inverse() * pose.residual;
+    poses.iter().map(along).collect()
+}
+
 /// The settings of a Gaussian process.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LearntSettings {
@@ -160,10 +179,7 @@ impl Learnt {
         }
         learnt.width = features.len() / poses.len();
         learnt.features = Arc::new(features);
-        let y: Vec<Vector3<f64>> = poses
-            .iter()
-            .map(|pose| learnt.axes_at(&pose.joints).inverse() * pose.residual)
-            .collect();
+        let y = components(robot, poses, learnt.settings.axes);
         learnt.factor = Arc::new(learnt.factor_of(poses.len()));
         let mut weights = y.clone();
         learnt.solve_lower(&mut weights);
@@ -265,12 +281,7 @@ impl Learnt {
 
     /// The axes of the components at `q`.
     fn axes_at(&self, q: &[f64]) -> Rotation3<f64> {
-        match (self.settings.axes, self.first, q.first()) {
-            (LearntAxes::FirstJoint, Some(first), Some(q)) => {
-                Rotation3::from_axis_angle(&first.axis, first.sign * q)
-            }
-            _ => Rotation3::identity(),
-        }
+        self.settings.axes.at(self.first, q)
     }
 
     /// Cholesky factor of `C`, row by row.

@@ -76,7 +76,7 @@ fn arm() -> Robot {
         backlash: vec![gap(BacklashSide::Motion), gap(BacklashSide::Torque)],
         repeatability: 3e-5,
         model_error: 0.05,
-            learnt: None,
+        learnt: None,
     };
     arms::r2000ic().with_structure(structure).unwrap()
 }

@@ -57,7 +57,7 @@ fn sound() -> Structure {
         backlash: vec![None, backlash(2e-4)],
         repeatability: 2e-5,
         model_error: 0.1,
-            learnt: None,
+        learnt: None,
     }
 }
 

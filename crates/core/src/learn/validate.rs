@@ -1,0 +1,209 @@
+//! Errors of poses that were not used: with the nominal, the calibrated and the learnt model, each found again without them.
+//!
+//! The poses are divided into stretches of equal length in the order of their file; neighbours of a path are therefore held out
+//! together. For each stretch base and tool (nominal), the geometry (calibrated) and the residual with all its settings (learnt)
+//! are found from the others alone: no number that is chosen has seen the pose it is tried on.
+
+use nalgebra::Vector3;
+use rayon::prelude::*;
+
+use super::learn::{learn, residuals};
+use crate::calibrate::{MeasuredPose, ParameterSet, Question, Refusal, fit};
+use crate::robot::Robot;
+use crate::robot::learnt::{LearntError, LearntResidual};
+use crate::watch::Watch;
+
+/// Half width of an interval that holds 95 % of a normal distribution, in standard deviations.
+const NORMAL_95: f64 = 1.959_964;
+
+/// Errors of poses that were held out, in the order of the poses.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeldOut {
+    /// Measured minus predicted position, m, axes of the tracker; base and tool found, the chain nominal.
+    pub nominal: Vec<Vector3<f64>>,
+    /// With the calibrated chain.
+    pub calibrated: Vec<Vector3<f64>>,
+    /// With the learnt residual in addition.
+    pub learnt: Vec<Vector3<f64>>,
+    /// Fraction of all components within the 95 % interval of the learnt model.
+    pub coverage: f64,
+}
+
+/// Why no poses could be held out.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum FewPoses {
+    /// The calibration without one stretch.
+    #[error("without poses {} to {}: {error}", .first + 1, .last + 1)]
+    Calibration {
+        /// First pose of the stretch, from 0.
+        first: usize,
+        /// Last one.
+        last: usize,
+        /// What is wrong.
+        error: Refusal,
+    },
+    /// The residual without one stretch.
+    #[error(transparent)]
+    Learnt(#[from] LearntError),
+    /// Fewer poses than stretches.
+    #[error("{0} poses cannot be divided into {1} stretches")]
+    Stretches(usize, usize),
+    /// Cancelled.
+    #[error("cancelled")]
+    Cancelled,
+}
+
+/// Errors of `poses` of `robot`, held out in `stretches` stretches.
+///
+/// # Errors
+/// See [`FewPoses`].
+pub fn held_out(
+    robot: &Robot,
+    poses: &[MeasuredPose],
+    question: &Question,
+    stretches: usize,
+    watch: Watch<'_>,
+) -> Result<HeldOut, FewPoses> {
+    if stretches < 2 || poses.len() < 2 * stretches {
+        return Err(FewPoses::Stretches(poses.len(), stretches));
+    }
+    let end = |k: usize| k * poses.len() / stretches;
+    let each = (0..stretches).into_par_iter().map(|k| {
+        if watch.is_cancelled() {
+            return Err(FewPoses::Cancelled);
+        }
+        let found = without(robot, poses, question, [end(k), end(k + 1)])?;
+        (watch.finished)(end(k + 1) - end(k));
+        Ok(found)
+    });
+    let parts = each.collect::<Result<Vec<HeldOut>, FewPoses>>()?;
+    let join = |of: fn(&HeldOut) -> &Vec<Vector3<f64>>| parts.iter().flat_map(of).copied().collect();
+    let weighted = |part: &HeldOut| part.coverage * part.learnt.len() as f64;
+    Ok(HeldOut {
+        nominal: join(|part| &part.nominal),
+        calibrated: join(|part| &part.calibrated),
+        learnt: join(|part| &part.learnt),
+        coverage: parts.iter().map(weighted).sum::<f64>() / poses.len() as f64,
+    })
+}
+
+/// Errors of the poses of one stretch, by models that were found without it.
+fn without(
+    robot: &Robot,
+    poses: &[MeasuredPose],
+    question: &Question,
+    [from, to]: [usize; 2],
+) -> Result<HeldOut, FewPoses> {
+    let refused = |error| FewPoses::Calibration {
+        first: from,
+        last: to - 1,
+        error,
+    };
+    let training = [&poses[..from], &poses[to..]].concat();
+    let held = &poses[from..to];
+    let frames = Question {
+        requested: ParameterSet::BaseAndTool,
+        ..question.clone()
+    };
+    let nominal = fit(robot, &training, &frames).map_err(refused)?;
+    let calibrated = fit(robot, &training, question).map_err(refused)?;
+    let learnt = learn(robot, &residuals(robot, &calibrated, &training).map_err(refused)?)?;
+    let left = residuals(robot, &calibrated, held).map_err(refused)?;
+    let tracker_from_base = calibrated.tracker_from_base.rotation;
+    let mut inside = 0;
+    let mut after = Vec::with_capacity(held.len());
+    for pose in &left {
+        let here = learnt.at(&pose.joints);
+        let error = pose.residual - here.mean;
+        inside += components_inside(&here, &error);
+        after.push(tracker_from_base * error);
+    }
+    let errors = |of: &crate::calibrate::Calibrated| {
+        let errors = of.errors_of(robot, held).map_err(refused);
+        errors.map(|errors| errors.position)
+    };
+    Ok(HeldOut {
+        nominal: errors(&nominal)?,
+        calibrated: errors(&calibrated)?,
+        learnt: after,
+        coverage: inside as f64 / (3 * held.len()) as f64,
+    })
+}
+
+/// How many components of `error` (m, base) are within the 95 % interval of this residual.
+pub fn components_inside(here: &LearntResidual, error: &Vector3<f64>) -> usize {
+    let inside = |u: &&Vector3<f64>| error.dot(u).abs() <= NORMAL_95 * u.norm_squared();
+    here.uncertainty.iter().filter(inside).count()
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Point3;
+
+    use super::*;
+    use crate::arms;
+    use crate::frame::Isometry;
+    use crate::robot::forward::forward;
+
+    /// Poses of an arm whose first joint has an error of its gear, 0.3 mrad once a turn.
+    fn poses(robot: &Robot, count: usize) -> Vec<MeasuredPose> {
+        let mut stream = arms::Stream(17);
+        (0..count)
+            .map(|_| {
+                let joints = stream.joints(robot);
+                let mut actual = joints.clone();
+                actual[0] += 3e-4 * (joints[0] + 0.5).cos();
+                let flange = forward(robot, &actual).base_from_flange;
+                MeasuredPose {
+                    position: (flange * Point3::new(0.05, 0.02, 0.15)).coords + stream.vector(5e-6),
+                    joints,
+                    rotation: None,
+                }
+            })
+            .collect()
+    }
+
+    fn rms(errors: &[Vector3<f64>]) -> f64 {
+        (errors.iter().map(Vector3::norm_squared).sum::<f64>() / errors.len() as f64).sqrt()
+    }
+
+    #[test]
+    fn a_gear_error_that_no_geometry_has_is_learnt_and_confirmed_by_poses_held_out() {
+        let robot = arms::mh12();
+        let question = Question {
+            requested: ParameterSet::Zeros,
+            flange_from_point: Isometry::identity(),
+            turn_length: 1.0,
+            prior: None,
+        };
+        let found = held_out(&robot, &poses(&robot, 120), &question, 4, Watch::NONE).unwrap();
+        let [calibrated, learnt] = [&found.calibrated, &found.learnt].map(|errors| rms(errors));
+        // Ninety postures over the whole range of six joints.
+        assert!(
+            calibrated > 1e-4 && learnt < 0.5 * calibrated,
+            "{calibrated} {learnt}"
+        );
+        assert!(found.coverage > 0.88, "{}", found.coverage);
+        assert_eq!(found.nominal.len(), 120);
+    }
+
+    #[test]
+    fn too_few_poses_and_cancellation_are_refused() {
+        let robot = arms::mh12();
+        let question = Question {
+            requested: ParameterSet::BaseAndTool,
+            flange_from_point: Isometry::identity(),
+            turn_length: 1.0,
+            prior: None,
+        };
+        let poses = poses(&robot, 12);
+        let of = |stretches, watch| held_out(&robot, &poses, &question, stretches, watch).unwrap_err();
+        assert_eq!(of(7, Watch::NONE), FewPoses::Stretches(12, 7));
+        let cancel = std::sync::atomic::AtomicBool::new(true);
+        let watch = Watch {
+            cancel: &cancel,
+            ..Watch::NONE
+        };
+        assert_eq!(of(4, watch), FewPoses::Cancelled);
+    }
+}
