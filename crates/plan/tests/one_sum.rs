@@ -6,8 +6,11 @@
 
 use std::path::Path;
 
+use armill_core::nalgebra::Vector3;
 use armill_core::optimize::Compensation;
+use armill_core::robot::{LearntAxes, LearntSettings, ResidualAt};
 use armill_core::watch::Watch;
+use armill_formats::robot::armill::{self, LearntTable, residuals_file, with_residual};
 use armill_plan::compensate::compensate;
 use armill_study::live::{PoseTarget, PostureQuestion, StudyText, answer_json, postures};
 use serde_json::Value;
@@ -125,8 +128,30 @@ fn cell() -> tempfile::TempDir {
         .replacen("compliance_u_source = \"assumed\"\n", "", 1);
     std::fs::write(folder.path().join("worn.toml"), worn + PARTS).unwrap();
     let calibrated = mh12.replace("length_mm = 614", "length_mm = 614.4");
+    let (calibrated, residuals) = with_learnt_residual(&calibrated);
     std::fs::write(folder.path().join("calibrated.toml"), calibrated).unwrap();
+    std::fs::write(folder.path().join("residuals.csv"), residuals).unwrap();
     folder
+}
+
+/// The robot file with a residual that twelve poses have shown, and the file of these residuals.
+fn with_learnt_residual(text: &str) -> (String, String) {
+    let robot = armill::read("calibrated.toml", "", text).unwrap().robot;
+    let pose = |k: u32| ResidualAt {
+        joints: (0..6)
+            .map(|j| 0.4 * (f64::from(k) + 2.0 * f64::from(j)).sin())
+            .collect(),
+        residual: Vector3::new(3e-5 + 1e-5 * f64::from(k % 3), -2e-5, 5e-5),
+    };
+    let residuals = residuals_file(&robot, &(0..12).map(pose).collect::<Vec<_>>());
+    let settings = LearntSettings {
+        lengths: vec![2.0; 6],
+        noise: 0.3,
+        axes: LearntAxes::FirstJoint,
+    };
+    let table = LearntTable::of(&robot, &settings, "residuals.csv", &residuals);
+    let text = with_residual("calibrated.toml", text, &table, ["made up", "this test"]).unwrap();
+    (text, residuals)
 }
 
 /// In-plane deviation, its uncertainty and its shares, um.
@@ -178,7 +203,7 @@ fn the_same_point_has_the_same_total_and_parts_on_every_surface() {
     let map = Point::of(&plate, "/maps/0/worst");
     let contributors = &plate["maps"][0]["setting"]["contributors"];
     let named = [
-        "S", "L", "U", "R", "B", "T", "base", "tool", "geometry", "thermal",
+        "S", "L", "U", "R", "B", "T", "base", "tool", "geometry", "thermal", "learnt",
     ];
     assert_eq!(contributors, &serde_json::json!(named));
     // Every source moves the tool here, and together they are the deviation.

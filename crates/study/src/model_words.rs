@@ -59,6 +59,9 @@ pub fn parts(robot: &Robot, model: &StiffnessModel) -> Vec<String> {
         let growth = without_rounding(to_um(thermal.growth));
         parts.push(format!("thermal growth of the links by {growth} um/m"));
     }
+    if let Some(learnt) = &structure.learnt {
+        parts.push(format!("residual learnt from {} poses", learnt.poses()));
+    }
     if structure.repeatability > 0.0 {
         parts.push("repeatability in the uncertainty".to_owned());
     }

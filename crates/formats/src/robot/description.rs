@@ -8,6 +8,7 @@ use armill_core::robot::Robot;
 
 use crate::controller::ControllerTable;
 use crate::motion::MotionTable;
+use crate::robot::armill::LearntTable;
 use crate::sources::Source;
 
 /// A robot and the origin of its numbers.
@@ -27,6 +28,8 @@ pub struct RobotDescription {
     pub controller: Option<ControllerTable>,
     /// How its controller moves it.
     pub motion: Option<MotionTable>,
+    /// What its chain leaves of measured positions; the residual itself is in the structure of the robot.
+    pub learnt: Option<LearntTable>,
     /// Symbol of each elementary motion in its source, by index in the chain; empty where it has none.
     pub symbols: Vec<Symbol>,
     /// What else is known of each joint, in the order of the robot's.
@@ -93,6 +96,7 @@ impl RobotDescription {
             payload_kg: None,
             controller: None,
             motion: None,
+            learnt: None,
             symbols: vec![None; robot.chain().motions().len()],
             joint_notes: vec![note; robot.joints().len()],
             bodies: Vec::new(),

@@ -151,7 +151,8 @@ pub struct RobotReadOptions {
 
 /// The robot of a file that was read from `path`; `id` is the robot's name in results.
 ///
-/// A given format takes precedence over ending and content. Only xacro reads other files: those that it includes.
+/// A given format takes precedence over ending and content. Other files are read by xacro, which includes some, and by ours, for a learnt
+/// residual.
 ///
 /// # Errors
 /// Bytes that are not text, an empty file, an unknown format, and the problems of the format.
@@ -186,7 +187,11 @@ pub fn read(
     }
     match format {
         // Ours is UTF-8, whatever else others may be.
-        Format::Armill => armill::read(&shown, id, Document::text_of(&shown, bytes)?),
+        Format::Armill => {
+            let text = Document::text_of(&shown, bytes)?;
+            let found = armill::read(&shown, id, text)?;
+            armill::with_residuals_of_its_file(found, path, text)
+        }
         Format::Urdf => urdf::read_to_tip(&shown, id, &text, requested.tip.as_deref()),
         #[cfg(feature = "xacro")]
         Format::Xacro => super::xacro::read_to_tip(path, id, &text, requested.tip.as_deref()),

@@ -2,14 +2,14 @@
 //!
 //! | key | meaning |
 //! |---|---|
-//! | robot file | springs, masses, compensator, torque curves, covariance, backlash, repeatability |
+//! | robot file | springs, masses, compensator, torque curves, covariance, backlash, repeatability, learnt residual |
 //! | `[[tool.spring]]`, `[[tool.mass]]` | compliances and masses of holder, spindle and tool |
 //! | `tool.stick_out_mm` and related keys | a cutter that bends like a clamped bar, two springs |
 //! | `[gravity]` | joint positions when the tool was set, and the direction of gravity |
 //! | `repeatability_mm` | how the arm scatters, in place of the robot file's |
 //! | `load_dependent` | whether the load acts on the deflected arm |
 //! | `[thermal]` | thermal growth of the links since the calibration |
-//! | `calibrated_robot` | the calibrated arm, if its controller uses a nominal model |
+//! | `calibrated_robot` | the calibrated arm, if its controller uses a nominal model; its learnt residual, if it has one |
 
 use std::sync::Arc;
 
@@ -50,6 +50,9 @@ pub fn model(
     // All problems are reported, so whether there are new ones is evaluated at the end.
     let before = log.problems.len();
     let mut structure = robot.structure().clone();
+    if let Some(learnt) = actual.and_then(|actual| actual.structure().learnt.clone()) {
+        structure.learnt = Some(learnt);
+    }
     if let Some(pose_mm) = given.repeatability_mm {
         structure.repeatability = repeatability::deviation_of(from_mm(pose_mm));
     }

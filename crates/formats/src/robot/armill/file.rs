@@ -6,6 +6,7 @@ use serde::Deserialize;
 
 use crate::controller::ControllerTable;
 use crate::motion::MotionTable;
+use crate::robot::armill::learnt::LearntTable;
 use crate::robot::shape_tables::{BoxTable, RoundTable};
 use crate::robot::spring_tables::{AxisName, MassTable, SpringTable};
 use crate::sources::SourceTable;
@@ -61,6 +62,8 @@ pub(super) struct RobotFile {
     pub repeatability: Option<RepeatabilityTable>,
     /// Standard uncertainty of the model itself.
     pub model_error: Option<ModelErrorTable>,
+    /// What the chain leaves of measured positions.
+    pub learnt: Option<LearntTable>,
     /// Greatest load at the flange.
     pub payload: Option<PayloadTable>,
     /// How robot programs are written for this cell.

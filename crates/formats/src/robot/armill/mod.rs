@@ -6,7 +6,8 @@
 //!
 //! In reading order: `file` (the tables as written), `checks` (what no schema can say, and SI), `structure`, `vibration`, `bodies`; `spelling`,
 //! `write_bodies`, `write_masses`, `write` (a robot of another format as such a file), `identified` (such a file with compliances that were identified),
-//! `calibrated` (with small motions that were), `learned` (with values of `[motion]` from joint logs).
+//! `calibrated` (with small motions that were), `learned` (with values of `[motion]` from joint logs),
+//! `learnt` (with the residual that was learnt, and its file of residuals).
 //!
 //! ```text
 //! format = 1
@@ -14,7 +15,7 @@
 //! [chain]       source, motions = [{ about = "z", joint = "S" }, { along = "z", length_mm = 450 }, ...]
 //! [[joint]]     name, sign, zero_offset_deg, limits_deg, max_speed_deg_per_s, compliance_rad_per_n_m, ...
 //! [[body]]      at, name, capsule_mm, accuracy_mm, source: the outline of a link; [clearance] apart
-//! [[frame]] [[spring]] [[mass]] [[motor]] [damping] [compensator] [covariance] [repeatability] [model_error] [payload] [controller] [motion]    each may be left out
+//! [[frame]] [[spring]] [[mass]] [[motor]] [damping] [compensator] [covariance] [repeatability] [model_error] [learnt] [payload] [controller] [motion]    each may be left out
 //! [sources.KEY] what, where, licence: every KEY that a `source` names, and no other
 //! ```
 //!
@@ -26,6 +27,7 @@ mod checks;
 mod file;
 mod identified;
 mod learned;
+mod learnt;
 mod spelling;
 mod structure;
 mod vibration;
@@ -51,6 +53,8 @@ use crate::sources;
 pub use self::calibrated::{Geometry, with_geometry};
 pub use self::identified::{Identified, IdentifiedSpring, with_given_springs, with_springs};
 pub use self::learned::{LearnedMotion, with_motion};
+pub(super) use self::learnt::with_residuals_of_its_file;
+pub use self::learnt::{LearntTable, residuals_file, with_residual};
 
 /// The robot of this file; `path` is what errors show, `id` the robot's name in results.
 ///
@@ -75,6 +79,7 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
     let of_controller = file.controller.iter();
     let of_controller = of_controller.flat_map(|table| table.problems(&document, file.joint.len(), 0));
     checks.problems.extend(of_controller);
+    checks.learnt(&file);
     let of_motion = file.motion.iter();
     checks
         .problems
@@ -112,6 +117,7 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
         payload_kg: file.payload.map(|payload| payload.mass_kg),
         controller: file.controller,
         motion: file.motion,
+        learnt: file.learnt,
         symbols: file
             .chain
             .motions
