@@ -89,6 +89,7 @@ fn run(command: &Command) -> Result<Outcome, StudyError> {
         Command::Compensate(compensate) => command::compensate::run(compensate),
         Command::Identify(identify) => command::identify::run(identify),
         Command::Calibrate(calibrate) => command::calibrate::run(calibrate),
+        Command::Learn(learn) => command::learn::run(learn),
         Command::Forces(forces) => command::forces::run(forces),
         Command::Roundness(roundness) => command::roundness::run(roundness),
         Command::Ballbar(ballbar) => command::ballbar::run(ballbar),

@@ -1,4 +1,4 @@
-//! How many of the poses are met within how much? One step line a set, before and after.
+//! How many of the poses are met within how much? One step line a model, for each set of poses.
 //!
 //! ```text
 //!  share of   │        ┌──────────   after: half of them within 0.2 mm
@@ -8,7 +8,7 @@
 //!               distance (mm)
 //! ```
 //!
-//! A set has one colour; before is dashed, after is solid. The mean of each line is in the legend.
+//! A set has one colour; its last model is solid, those before it are dashed. The mean of each line is in the legend.
 
 use crate::chart::Chart;
 use crate::colour::category;
@@ -25,10 +25,17 @@ const AREA_PX: [f64; 2] = [540.0, 300.0];
 pub struct ErrorSet {
     /// Name for the legend.
     pub name: String,
-    /// Distance of each pose before; a value that is not finite is left out.
-    pub before_mm: Vec<f64>,
-    /// And after.
-    pub after_mm: Vec<f64>,
+    /// Models, the best last.
+    pub models: Vec<ModelErrors>,
+}
+
+/// Errors of the poses of a set by one model.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ModelErrors {
+    /// Name for the legend, such as `before`.
+    pub name: String,
+    /// Distance of each pose; a value that is not finite is left out.
+    pub errors_mm: Vec<f64>,
 }
 
 /// The input of the picture.
@@ -43,6 +50,9 @@ pub struct ErrorDistribution {
     /// The sets.
     pub sets: Vec<ErrorSet>,
 }
+
+/// Dashes of the models before the last.
+const DASHES: [&str; 2] = ["5 4", "1.5 3"];
 
 /// One step line.
 struct Steps {
@@ -97,14 +107,16 @@ impl ErrorDistribution {
                     style,
                 }
             };
-            [
-                line(
-                    "before",
-                    &set.before_mm,
-                    Style::line(colour, 1.6).dashed("5 4").opacity(0.8),
-                ),
-                line("after", &set.after_mm, Style::line(colour, 2.2)),
-            ]
+            let last = set.models.len().saturating_sub(1);
+            let style = |place: usize| match DASHES.get(place) {
+                _ if place == last => Style::line(colour, 2.2),
+                Some(dashes) => Style::line(colour, 1.6).dashed(dashes).opacity(0.8),
+                None => Style::line(colour, 1.2),
+            };
+            let models = set.models.iter().enumerate();
+            models
+                .map(|(place, model)| line(&model.name, &model.errors_mm, style(place)))
+                .collect::<Vec<_>>()
         };
         let all = self.sets.iter().enumerate().flat_map(of);
         all.filter(|steps| !steps.sizes.is_empty()).collect()
@@ -132,8 +144,16 @@ mod tests {
         let picture = ErrorDistribution {
             sets: vec![ErrorSet {
                 name: "validation".to_owned(),
-                before_mm: vec![0.5, f64::NAN, 1.0],
-                after_mm: vec![0.1, 0.2, 0.3],
+                models: vec![
+                    ModelErrors {
+                        name: "before".to_owned(),
+                        errors_mm: vec![0.5, f64::NAN, 1.0],
+                    },
+                    ModelErrors {
+                        name: "after".to_owned(),
+                        errors_mm: vec![0.1, 0.2, 0.3],
+                    },
+                ],
             }],
             ..ErrorDistribution::default()
         };

@@ -102,7 +102,7 @@ pub use colour::ColourScale;
 pub use comparison::{ComparedCell, Comparison};
 pub use ellipse::StiffnessEllipse;
 pub use error::ReportError;
-pub use error_distribution::{ErrorDistribution, ErrorSet};
+pub use error_distribution::{ErrorDistribution, ErrorSet, ModelErrors};
 pub use force_plot::{Envelope, ForcePlot, ForceTrace};
 pub use frf_plot::{FrfCurve, FrfPlot, FrfStyle};
 pub use grid::{Grid, PointState};

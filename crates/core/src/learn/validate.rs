@@ -8,9 +8,9 @@ use nalgebra::Vector3;
 use rayon::prelude::*;
 
 use super::learn::{learn, residuals};
-use crate::calibrate::{MeasuredPose, ParameterSet, Question, Refusal, fit};
+use crate::calibrate::{Calibrated, MeasuredPose, ParameterSet, Question, Refusal, fit};
 use crate::robot::Robot;
-use crate::robot::learnt::{LearntError, LearntResidual};
+use crate::robot::learnt::{Learnt, LearntError, LearntResidual};
 use crate::watch::Watch;
 
 /// Half width of an interval that holds 95 % of a normal distribution, in standard deviations.
@@ -27,6 +27,42 @@ pub struct HeldOut {
     pub learnt: Vec<Vector3<f64>>,
     /// Fraction of all components within the 95 % interval of the learnt model.
     pub coverage: f64,
+}
+
+/// Mean reduction of the squared error by the learnt residual, and its standard error, m^2.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reduction {
+    /// Mean over the stretches.
+    pub mean: f64,
+    /// Its standard error, from the differences between the stretches.
+    pub standard_error: f64,
+}
+
+impl Reduction {
+    /// Whether it is beyond its uncertainty: the mean exceeds twice the standard error.
+    pub fn is_significant(&self) -> bool {
+        self.mean > 2.0 * self.standard_error && self.mean > 0.0
+    }
+}
+
+impl HeldOut {
+    /// How much the learnt residual reduces the squared error of the calibrated model; the poses in `stretches` stretches.
+    pub fn reduction(&self, stretches: usize) -> Reduction {
+        let count = self.learnt.len();
+        let difference = |k: usize| self.calibrated[k].norm_squared() - self.learnt[k].norm_squared();
+        let of = |k: usize| {
+            let stretch = k * count / stretches..(k + 1) * count / stretches;
+            let size = stretch.len().max(1) as f64;
+            stretch.map(difference).sum::<f64>() / size
+        };
+        let each: Vec<f64> = (0..stretches).map(of).collect();
+        let mean = each.iter().sum::<f64>() / stretches as f64;
+        let scatter: f64 = each.iter().map(|one| (one - mean).powi(2)).sum();
+        Reduction {
+            mean,
+            standard_error: (scatter / (stretches * (stretches - 1)) as f64).sqrt(),
+        }
+    }
 }
 
 /// Why no poses could be held out.
@@ -118,7 +154,7 @@ fn without(
         inside += components_inside(&here, &error);
         after.push(tracker_from_base * error);
     }
-    let errors = |of: &crate::calibrate::Calibrated| {
+    let errors = |of: &Calibrated| {
         let errors = of.errors_of(robot, held).map_err(refused);
         errors.map(|errors| errors.position)
     };
@@ -129,6 +165,53 @@ fn without(
         coverage: inside as f64 / (3 * held.len()) as f64,
     })
 }
+
+/// Errors of poses of another set-up of the tracker: base and tool are found from them, for each model; chain and residual are
+/// those of the training.
+///
+/// # Errors
+/// Poses of another robot, or too few.
+pub fn on_other_poses(
+    robot: &Robot,
+    model: (&Calibrated, &Learnt),
+    poses: &[MeasuredPose],
+    question: &Question,
+) -> Result<HeldOut, Refusal> {
+    let (calibrated, learnt) = model;
+    let frames = Question {
+        requested: ParameterSet::BaseAndTool,
+        ..question.clone()
+    };
+    let with_chain = calibrated.bare_robot(robot).map_err(|_| Refusal::NotFound)?;
+    let nominal = fit(robot, poses, &frames)?;
+    let mut found = fit(&with_chain, poses, &frames)?;
+    let before = found.errors.position.clone();
+    // The residual is added along the axes of the base, which are found with it.
+    for _ in 0..ROUNDS {
+        let without: Vec<MeasuredPose> = poses
+            .iter()
+            .map(|pose| MeasuredPose {
+                position: pose.position - found.tracker_from_base.rotation * learnt.mean(&pose.joints),
+                ..pose.clone()
+            })
+            .collect();
+        found = fit(&with_chain, &without, &frames)?;
+    }
+    let base_from_tracker = found.tracker_from_base.rotation.inverse();
+    let each = poses.iter().zip(&found.errors.position);
+    let inside: usize = each
+        .map(|(pose, error)| components_inside(&learnt.at(&pose.joints), &(base_from_tracker * error)))
+        .sum();
+    Ok(HeldOut {
+        nominal: nominal.errors.position,
+        calibrated: before,
+        coverage: inside as f64 / (3 * poses.len()) as f64,
+        learnt: found.errors.position,
+    })
+}
+
+/// Rounds of base, tool and residual: the axes of the base change by microradians.
+const ROUNDS: usize = 2;
 
 /// How many components of `error` (m, base) are within the 95 % interval of this residual.
 pub fn components_inside(here: &LearntResidual, error: &Vector3<f64>) -> usize {
@@ -185,6 +268,50 @@ mod tests {
         );
         assert!(found.coverage > 0.88, "{}", found.coverage);
         assert_eq!(found.nominal.len(), 120);
+        assert!(found.reduction(4).is_significant());
+    }
+
+    #[test]
+    fn a_reduction_within_the_differences_of_the_stretches_is_not_significant() {
+        let along = |sizes: [f64; 6]| sizes.map(|size| Vector3::new(size, 0.0, 0.0)).to_vec();
+        let held = |learnt: [f64; 6]| HeldOut {
+            nominal: Vec::new(),
+            calibrated: along([2.0; 6]),
+            learnt: along(learnt),
+            coverage: 1.0,
+        };
+        let steady = held([1.0, 1.0, 1.0, 1.0, 1.0, 1.0]).reduction(3);
+        assert_eq!((steady.mean, steady.standard_error), (3.0, 0.0));
+        // 4 - 0, 4 - 9, 4 - 1 in the three stretches: mean 2/3, standard error sqrt(((10/3)^2 + (17/3)^2 + (7/3)^2) / 6).
+        let mixed = held([0.0, 0.0, 3.0, 3.0, 1.0, 1.0]).reduction(3);
+        assert!((mixed.mean - 2.0 / 3.0).abs() < 1e-12);
+        assert!((mixed.standard_error - (438.0_f64 / 54.0).sqrt()).abs() < 1e-12);
+        assert!(steady.is_significant() && !mixed.is_significant());
+    }
+
+    #[test]
+    fn poses_of_another_set_up_are_predicted_with_their_own_base() {
+        let robot = arms::mh12();
+        let all = poses(&robot, 160);
+        let question = Question {
+            requested: ParameterSet::Zeros,
+            flange_from_point: Isometry::identity(),
+            turn_length: 1.0,
+            prior: None,
+        };
+        let calibrated = fit(&robot, &all[..110], &question).unwrap();
+        let learnt = learn(&robot, &residuals(&robot, &calibrated, &all[..110]).unwrap()).unwrap();
+        let tracker = Isometry::new(Vector3::new(3.0, -1.0, 0.4), Vector3::new(0.1, 0.2, 2.5));
+        let moved: Vec<MeasuredPose> = all[110..]
+            .iter()
+            .map(|pose| MeasuredPose {
+                position: (tracker * Point3::from(pose.position)).coords,
+                ..pose.clone()
+            })
+            .collect();
+        let found = on_other_poses(&robot, (&calibrated, &learnt), &moved, &question).unwrap();
+        assert!(rms(&found.learnt) < 0.6 * rms(&found.calibrated));
+        assert!(found.coverage > 0.85, "{}", found.coverage);
     }
 
     #[test]

@@ -10,7 +10,7 @@ use armill_core::calibrate::PoseErrors;
 use armill_core::robot::Robot;
 use armill_core::units::to_mm;
 use armill_formats::robot::armill::{Geometry, with_geometry};
-use armill_report::{ErrorDistribution, ErrorSet};
+use armill_report::{ErrorDistribution, ErrorSet, ModelErrors};
 use armill_study::StudyError;
 
 use super::answer::CalibrateAnswer;
@@ -50,8 +50,12 @@ pub fn drawing(given: &CalibrateAnswer, calibration: &Calibration) -> String {
     let lengths = |errors: &PoseErrors| errors.position.iter().map(|e| to_mm(e.norm())).collect();
     let of = |name: &str, set: &PoseSet| ErrorSet {
         name: name.to_owned(),
-        before_mm: lengths(&set.before),
-        after_mm: lengths(&set.after),
+        models: [("before", &set.before), ("after", &set.after)]
+            .map(|(name, errors)| ModelErrors {
+                name: name.to_owned(),
+                errors_mm: lengths(errors),
+            })
+            .to_vec(),
     };
     let mut sets = vec![of("training", &calibration.training)];
     sets.extend(calibration.validation.as_ref().map(|set| of("validation", set)));

@@ -1,6 +1,8 @@
 //! A made-up budget of a circle.
 
-use armill_report::{BudgetBar, BudgetBars, BudgetGroup, ErrorDistribution, ErrorSet, WaveBar, WaveBars};
+use armill_report::{
+    BudgetBar, BudgetBars, BudgetGroup, ErrorDistribution, ErrorSet, ModelErrors, WaveBar, WaveBars,
+};
 
 /// Name and SVG of each picture.
 pub fn pictures() -> Vec<(&'static str, String)> {
@@ -49,8 +51,12 @@ fn errors() -> ErrorDistribution {
     };
     let set = |name: &str, count: u32, [before, after]: [f64; 2]| ErrorSet {
         name: name.to_owned(),
-        before_mm: poses(count, before),
-        after_mm: poses(count, after),
+        models: [("before", before), ("after", after)]
+            .map(|(name, size)| ModelErrors {
+                name: name.to_owned(),
+                errors_mm: poses(count, size),
+            })
+            .to_vec(),
     };
     ErrorDistribution {
         title: "Arm: errors of position".to_owned(),
