@@ -20,7 +20,7 @@ pub struct PoseAnswer {
     /// Parts of the stiffness model that were on.
     pub model: Vec<String>,
     /// The contributors of `share_um`: the joints; base, flange and tool if springs are attached there;
-    /// geometry with a calibrated robot; thermal growth.
+    /// geometry with a calibrated robot; thermal growth; learnt residual.
     pub contributors: Vec<String>,
     /// Every posture; empty if the pose is unreachable.
     pub postures: Vec<PostureAnswer>,

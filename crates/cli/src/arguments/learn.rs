@@ -42,6 +42,9 @@ pub(crate) struct LearnArguments {
     /// Predict other poses too: another file, measured from any position of the tracker
     #[arg(long, value_name = "FILE")]
     pub other: Option<PathBuf>,
+    /// The measured point was not mounted again for the other file
+    #[arg(long, requires = "other")]
+    pub same_point: bool,
     #[command(flatten)]
     pub poses: PosesOptions,
     /// Write the calibrated robot with the learnt residual to this file, and the residuals beside it

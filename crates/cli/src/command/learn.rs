@@ -9,6 +9,7 @@
 use std::path::Path;
 
 use armill_core::calibrate::{ParameterSet, Prior};
+use armill_core::learn::OtherSetUp;
 use armill_core::units::{from_deg, from_mm};
 use armill_measure::calibrate::read;
 use armill_measure::learn::answer::{LengthsAnswer, ModelsAnswer};
@@ -45,6 +46,10 @@ pub(crate) fn run(arguments: &LearnArguments) -> Result<Outcome, StudyError> {
         other: arguments.other.as_ref().map(|path| OtherPoses {
             path: path.clone(),
             given: given.clone(),
+            set_up: match arguments.same_point {
+                true => OtherSetUp::Base,
+                false => OtherSetUp::BaseAndPoint,
+            },
         }),
     };
     let shown = arguments.poses_file.display().to_string();

@@ -32,6 +32,7 @@ mod identify;
 mod import;
 #[cfg(unix)]
 mod killed;
+mod learn;
 mod masses;
 mod materials;
 mod modes;

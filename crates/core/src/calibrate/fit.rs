@@ -48,7 +48,7 @@ const FARTHEST: f64 = 1e4;
 pub struct Question {
     /// The unknowns of the chain.
     pub requested: ParameterSet,
-    /// Approximate position of the measured point on the flange.
+    /// Approximate position of the measured point on the flange; its position if the base alone is unknown.
     pub flange_from_point: Isometry,
     /// Weight of rotations: metres per radian.
     pub turn_length: f64,
@@ -209,11 +209,15 @@ pub fn fit(robot: &Robot, poses: &[MeasuredPose], question: &Question) -> Result
             unknowns,
         }),
     };
-    let frames = unknowns(robot, ParameterSet::BaseAndTool, with > 0);
+    let frames = match question.requested {
+        ParameterSet::Base => ParameterSet::Base,
+        _ => ParameterSet::BaseAndTool,
+    };
+    let frames = unknowns(robot, frames, with > 0);
     if poses.len() < FEWEST_POSES {
         enough(frames.len())?;
     }
-    let start = start(robot, poses, &question.flange_from_point);
+    let start = start(robot, poses, question);
     let (in_frames, _) = identifiable(&start, &frames, &free);
     let mut arm = settle(start, &in_frames, &free)?;
     enough(in_frames.len())?;
@@ -284,7 +288,8 @@ fn check(robot: &Robot, poses: &[MeasuredPose]) -> Result<(), Refusal> {
 }
 
 /// The nominal arm, placed by the rotation and shift that bring its points nearest to the measured ones (Kabsch 1976).
-fn start<'a>(robot: &'a Robot, poses: &[MeasuredPose], flange_from_point: &Isometry) -> Arm<'a> {
+fn start<'a>(robot: &'a Robot, poses: &[MeasuredPose], question: &Question) -> Arm<'a> {
+    let flange_from_point = &question.flange_from_point;
     let base_from_point: Vec<Isometry> = poses
         .iter()
         .map(|pose| {
@@ -316,7 +321,9 @@ fn start<'a>(robot: &'a Robot, poses: &[MeasuredPose], flange_from_point: &Isome
     let tracker_from_base = Isometry::from_parts((there - turn * here).into(), turn);
     let mut flange_from_point = *flange_from_point;
     // The rotation of the body on the flange is not known beforehand: it is taken from the first pose.
-    if let (Some(rotation), Some(frame)) = (poses[0].rotation, base_from_point.first()) {
+    if question.requested != ParameterSet::Base
+        && let (Some(rotation), Some(frame)) = (poses[0].rotation, base_from_point.first())
+    {
         flange_from_point.rotation *= (turn * frame.rotation).inverse() * rotation;
     }
     Arm::nominal(robot, tracker_from_base, flange_from_point)

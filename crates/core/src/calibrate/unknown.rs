@@ -31,6 +31,8 @@ pub struct Unknown {
 /// Unknowns of the chain, in addition to base and tool.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ParameterSet {
+    /// None, and the measured point is known too: the base alone.
+    Base,
     /// None: the chain is nominal.
     BaseAndTool,
     /// The zeros of the joints.
@@ -76,6 +78,9 @@ impl Unknown {
 pub(super) fn unknowns(robot: &Robot, requested: ParameterSet, turns_measured: bool) -> Vec<Unknown> {
     let six = |place| (0..6).map(move |component| Unknown { place, component });
     let mut all: Vec<Unknown> = six(ParameterLocation::Base).collect();
+    if requested == ParameterSet::Base {
+        return all;
+    }
     all.extend(six(ParameterLocation::Tool).filter(|unknown| turns_measured || !unknown.turns()));
     let attachments: Vec<Unknown> = (0..robot.joints().len().saturating_sub(1))
         .flat_map(|joint| six(ParameterLocation::After(joint)))
@@ -83,7 +88,7 @@ pub(super) fn unknowns(robot: &Robot, requested: ParameterSet, turns_measured: b
     let (zeros, others): (Vec<Unknown>, Vec<Unknown>) = attachments
         .into_iter()
         .partition(|unknown| unknown.is_zero_of(robot));
-    if requested != ParameterSet::BaseAndTool {
+    if matches!(requested, ParameterSet::Zeros | ParameterSet::Geometry) {
         all.extend(zeros);
     }
     if requested == ParameterSet::Geometry {
@@ -101,6 +106,7 @@ mod tests {
     #[test]
     fn a_six_axis_arm_has_six_small_motions_after_five_joints_and_five_zeros_among_them() {
         let robot = arms::mh12();
+        assert_eq!(unknowns(&robot, ParameterSet::Base, true).len(), 6);
         assert_eq!(unknowns(&robot, ParameterSet::BaseAndTool, false).len(), 9);
         assert_eq!(unknowns(&robot, ParameterSet::BaseAndTool, true).len(), 12);
         assert_eq!(unknowns(&robot, ParameterSet::Zeros, true).len(), 17);

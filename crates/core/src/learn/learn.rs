@@ -19,7 +19,7 @@ pub const MOST_FOR_SETTINGS: usize = 300;
 const SHORTER: f64 = 0.4;
 /// Range of length scales and scatter; the likelihood is flat beyond.
 const LEAST: f64 = 1e-2;
-const GREATEST: f64 = 1e3;
+const GREATEST: f64 = 20.0;
 
 /// What `calibrated` leaves of `poses`: measured minus modelled position, in the base of the robot.
 ///

@@ -12,4 +12,4 @@ mod search;
 pub mod validate;
 
 pub use learn::{learn, residuals};
-pub use validate::{FewPoses, HeldOut, Reduction, held_out, on_other_poses};
+pub use validate::{FewPoses, HeldOut, Models, OtherSetUp, Reduction, held_out, on_other_poses};

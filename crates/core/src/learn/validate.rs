@@ -166,24 +166,54 @@ fn without(
     })
 }
 
-/// Errors of poses of another set-up of the tracker: base and tool are found from them, for each model; chain and residual are
-/// those of the training.
+/// Models that were found from the same poses.
+#[derive(Clone, Copy, Debug)]
+pub struct Models<'a> {
+    /// Base and tool found, the chain nominal.
+    pub nominal: &'a Calibrated,
+    /// Base, tool and chain found.
+    pub calibrated: &'a Calibrated,
+    /// What the calibrated chain leaves.
+    pub learnt: &'a Learnt,
+}
+
+/// What is found from the poses of another set-up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OtherSetUp {
+    /// Base and measured point: the point was mounted again.
+    BaseAndPoint,
+    /// The base alone: the point has not been touched since the training.
+    Base,
+}
+
+/// Errors of poses that were measured from another position of the tracker: base and, if it was mounted again, the measured point are found
+/// from them, for each model; chain and residual are those of the training.
 ///
 /// # Errors
 /// Poses of another robot, or too few.
 pub fn on_other_poses(
     robot: &Robot,
-    model: (&Calibrated, &Learnt),
+    models: Models<'_>,
+    set_up: OtherSetUp,
     poses: &[MeasuredPose],
     question: &Question,
 ) -> Result<HeldOut, Refusal> {
-    let (calibrated, learnt) = model;
-    let frames = Question {
-        requested: ParameterSet::BaseAndTool,
+    let Models {
+        nominal,
+        calibrated,
+        learnt,
+    } = models;
+    let frames = |of: &Calibrated| Question {
+        requested: match set_up {
+            OtherSetUp::BaseAndPoint => ParameterSet::BaseAndTool,
+            OtherSetUp::Base => ParameterSet::Base,
+        },
+        flange_from_point: of.flange_from_point,
         ..question.clone()
     };
     let with_chain = calibrated.bare_robot(robot).map_err(|_| Refusal::NotFound)?;
-    let nominal = fit(robot, poses, &frames)?;
+    let nominal = fit(robot, poses, &frames(nominal))?;
+    let frames = frames(calibrated);
     let mut found = fit(&with_chain, poses, &frames)?;
     let before = found.errors.position.clone();
     // The residual is added along the axes of the base, which are found with it.
@@ -210,7 +240,7 @@ pub fn on_other_poses(
     })
 }
 
-/// Rounds of base, tool and residual: the axes of the base change by microradians.
+/// Rounds of frames and residual: the axes of the base change by microradians.
 const ROUNDS: usize = 2;
 
 /// How many components of `error` (m, base) are within the 95 % interval of this residual.
@@ -309,9 +339,20 @@ mod tests {
                 ..pose.clone()
             })
             .collect();
-        let found = on_other_poses(&robot, (&calibrated, &learnt), &moved, &question).unwrap();
-        assert!(rms(&found.learnt) < 0.6 * rms(&found.calibrated));
-        assert!(found.coverage > 0.85, "{}", found.coverage);
+        let frames = Question {
+            requested: ParameterSet::BaseAndTool,
+            ..question.clone()
+        };
+        let models = Models {
+            nominal: &fit(&robot, &all[..110], &frames).unwrap(),
+            calibrated: &calibrated,
+            learnt: &learnt,
+        };
+        for set_up in [OtherSetUp::BaseAndPoint, OtherSetUp::Base] {
+            let found = on_other_poses(&robot, models, set_up, &moved, &question).unwrap();
+            assert!(rms(&found.learnt) < 0.6 * rms(&found.calibrated));
+            assert!(found.coverage > 0.85, "{}", found.coverage);
+        }
     }
 
     #[test]

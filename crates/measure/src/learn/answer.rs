@@ -25,7 +25,7 @@ pub struct LearnAnswer {
     pub stretches: usize,
     /// Errors of poses held out.
     pub held_out: ModelsAnswer,
-    /// Errors of the poses of another file, base and tool found from them.
+    /// Errors of the poses of another file, base and point found from them.
     pub other: Option<OtherAnswer>,
     /// Whether the learnt residual reduces the error of poses held out by more than its uncertainty.
     pub is_significant: bool,

@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use armill_core::calibrate::{Calibrated, MeasuredPose, Refusal, fit};
-use armill_core::learn::{self, FewPoses, HeldOut, held_out, on_other_poses};
+use armill_core::calibrate::{Calibrated, ParameterSet, Refusal, fit};
+use armill_core::learn::{self, FewPoses, HeldOut, Models, OtherSetUp, held_out, on_other_poses};
 use armill_core::robot::learnt::{Learnt, ResidualAt};
 use armill_core::robot::{LearntError, Robot};
 use armill_core::watch::{Cancelled, Watch};
@@ -19,17 +19,19 @@ pub struct Question {
     pub calibration: calibrate::Question,
     /// Number of stretches of the file of poses, each held out once.
     pub stretches: usize,
-    /// Poses of another set-up of the tracker.
+    /// Poses measured from another position of the tracker.
     pub other: Option<OtherPoses>,
 }
 
-/// Poses of another set-up of the tracker.
+/// Poses measured from another position of the tracker.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OtherPoses {
     /// Their file.
     pub path: PathBuf,
     /// Values that it does not give.
     pub given: PoseReadOptions,
+    /// What is found from them.
+    pub set_up: OtherSetUp,
 }
 
 /// What was learnt, and how it was tried.
@@ -75,9 +77,14 @@ pub fn learn(
         Some(other) => {
             let file = other.path.display().to_string();
             let read = calibrate::read(&file, &other.path, robot, &other.given, &question.calibration)?;
-            let found: Result<HeldOut, Refusal> =
-                errors_there(robot, (&calibrated, &learnt), &read.poses, question);
-            let found = found.map_err(|error| calibrate::calibration::refused(&file, &error))?;
+            let frames = question.calibration.for_core(ParameterSet::BaseAndTool);
+            let models = Models {
+                nominal: &fit(robot, poses, &frames).map_err(|error| refused(&error))?,
+                calibrated: &calibrated,
+                learnt: &learnt,
+            };
+            let found = on_other_poses(robot, models, other.set_up, &read.poses, &for_core);
+            let found = found.map_err(|error| not_predicted(&file, &error))?;
             Some((file, found))
         }
     };
@@ -92,14 +99,14 @@ pub fn learn(
     })
 }
 
-fn errors_there(
-    robot: &Robot,
-    model: (&Calibrated, &Learnt),
-    poses: &[MeasuredPose],
-    question: &Question,
-) -> Result<HeldOut, Refusal> {
-    let for_core = question.calibration.for_core(question.calibration.requested);
-    on_other_poses(robot, model, poses, &for_core)
+fn not_predicted(file: &str, error: &Refusal) -> StudyError {
+    match error {
+        Refusal::NotFound => StudyError::value(
+            format!("--other: the poses of {file} hardly determine the measured point"),
+            "--same-point if it was not mounted again; or measured orientations (--turns)",
+        ),
+        _ => calibrate::calibration::refused(file, error),
+    }
 }
 
 fn not_held_out(shown: &str, error: &FewPoses) -> StudyError {

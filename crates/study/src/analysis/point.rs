@@ -62,7 +62,7 @@ pub struct SettingAnswer {
     /// Active parts of the stiffness model.
     pub model: Vec<String>,
     /// The contributors of `share_um`: the joints; base, flange and tool if springs are attached there;
-    /// geometry with a calibrated robot; thermal growth; blending and servo of a motion.
+    /// geometry with a calibrated robot; thermal growth; learnt residual; blending and servo of a motion.
     pub contributors: Vec<String>,
 }
 

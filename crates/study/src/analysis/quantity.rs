@@ -194,7 +194,7 @@ pub const JOINT_MM: Quantity = Quantity {
 /// Shares of the contributors.
 pub const SHARE: Quantity = deviation(
     "share_NAME_um",
-    "share of the joint (base, flange, tool, geometry, thermal growth) in the in-plane deviation; the sum of the shares is the deviation",
+    "share of the joint (base, flange, tool, geometry, thermal growth, learnt residual) in the in-plane deviation; the sum of the shares is the deviation",
     Origin {
         validation: None,
         ..SUM
@@ -273,19 +273,19 @@ pub const AXIAL: Quantity = deviation(
 /// The part without load, along the track.
 pub const UNLOADED_ALONG: Quantity = deviation(
     "unloaded_along_um",
-    "part of along_um due to backlash, geometry and thermal growth",
+    "part of along_um due to backlash, geometry, thermal growth and learnt residual",
     WITHOUT_LOAD,
 );
 /// The part without load, across the track.
 pub const UNLOADED_CROSS: Quantity = deviation(
     "unloaded_cross_um",
-    "part of cross_um due to backlash, geometry and thermal growth",
+    "part of cross_um due to backlash, geometry, thermal growth and learnt residual",
     WITHOUT_LOAD,
 );
 /// The part without load, along the tool.
 pub const UNLOADED_AXIAL: Quantity = deviation(
     "unloaded_axial_um",
-    "part of axial_um due to backlash, geometry and thermal growth",
+    "part of axial_um due to backlash, geometry, thermal growth and learnt residual",
     WITHOUT_LOAD,
 );
 
