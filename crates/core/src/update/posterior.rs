@@ -102,7 +102,7 @@ pub fn update(robot: &Robot, prior: &[Knowledge], campaigns: &[Campaign]) -> Res
         sound(robot, campaign).map_err(|what| Refusal::Unsound { index, what })?;
     }
     let model = Model::new(robot, prior, campaigns);
-    let start = start(robot, prior, campaigns)?;
+    let start = model.with_means(placed(robot, campaigns)?);
     let mut scales = vec![1.0; campaigns.len()];
     let frames_only = Fit {
         model: &model,
@@ -229,7 +229,8 @@ fn sound(robot: &Robot, campaign: &Campaign) -> Result<(), &'static str> {
     }
 }
 
-fn start<'a>(robot: &'a Robot, prior: &[Knowledge], campaigns: &[Campaign]) -> Result<State<'a>, Refusal> {
+/// The nominal arm between the frames of each campaign of positions.
+fn placed<'a>(robot: &'a Robot, campaigns: &[Campaign]) -> Result<Vec<Arm<'a>>, Refusal> {
     let mut arms = Vec::new();
     for (index, campaign) in campaigns.iter().enumerate() {
         if let Campaign::Positions(positions) = campaign {
@@ -238,10 +239,7 @@ fn start<'a>(robot: &'a Robot, prior: &[Knowledge], campaigns: &[Campaign]) -> R
             arms.push(Arm::nominal(robot, base, point));
         }
     }
-    Ok(State {
-        values: prior.iter().map(|known| known.mean).collect(),
-        arms,
-    })
+    Ok(arms)
 }
 
 /// All campaigns and the prior as a problem of least squares.

@@ -121,9 +121,14 @@ impl<'a> Model<'a> {
     /// The arm with the means of the prior; each campaign of positions in the axes of the base, its point at `flange_from_point`.
     pub fn at(&self, flange_from_point: Isometry) -> State<'a> {
         let nominal = Arm::nominal(self.robot, Isometry::identity(), flange_from_point);
+        self.with_means(vec![nominal; self.frames.len()])
+    }
+
+    /// The arm with the means of the prior, between the frames of these nominal arms, one for each campaign of positions.
+    pub fn with_means(&self, nominal: Vec<Arm<'a>>) -> State<'a> {
         let nominal = State {
             values: vec![0.0; self.prior.len()],
-            arms: vec![nominal; self.frames.len()],
+            arms: nominal,
         };
         let mut by: Vec<f64> = self.prior.iter().map(|known| known.mean).collect();
         by.resize(self.unknowns(), 0.0);

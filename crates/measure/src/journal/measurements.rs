@@ -47,11 +47,13 @@ pub fn read(path: &Path) -> Result<Measurements, StudyError> {
         )
     })?;
     let journal = journal::read(&shown, &bytes)?;
-    let folder = match path.parent() {
-        Some(folder) if folder != Path::new("") => folder,
-        _ => Path::new("."),
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let here = if folder == Path::new("") {
+        Path::new(".")
+    } else {
+        folder
     };
-    let robot = robots::find(&journal.robot, folder)?;
+    let robot = robots::find(&journal.robot, here)?;
     let robot_name = match folder.join(&journal.robot) {
         file if file.is_file() => file.display().to_string(),
         _ => journal.robot.clone(),

@@ -174,7 +174,8 @@ pub(in crate::measurement) fn named(name: &str, robot: &Robot) -> Result<Option<
             format!("end the name with its unit: {}", units(quantity)),
         ));
     }
-    let Some((plain, unit)) = lower.rsplit_once('_') else {
+    // The direction of the last motion of a joint is a condition, read by `conditions`.
+    let Some((plain, unit)) = lower.rsplit_once('_').filter(|(_, unit)| *unit != "direction") else {
         return Ok(None);
     };
     let Some(quantity) = Quantity::of_name(plain, robot) else {
