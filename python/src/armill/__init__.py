@@ -53,6 +53,7 @@ from armill._commands import (
     receptance,
     robots,
     roundness,
+    tracker,
     stability,
 )
 
@@ -95,5 +96,6 @@ __all__ = [
     "receptance",
     "robots",
     "roundness",
+    "tracker",
     "stability",
 ]

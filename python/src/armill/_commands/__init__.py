@@ -19,6 +19,7 @@ from armill._commands.measurements import (
     path_accuracy,
     pose_accuracy,
     roundness,
+    tracker,
 )
 from armill._commands.studies import advise, backlash, budget, compare, compensate, place, posture, stability
 
@@ -47,5 +48,6 @@ __all__ = [
     "receptance",
     "robots",
     "roundness",
+    "tracker",
     "stability",
 ]
