@@ -9,7 +9,7 @@
 //! points at once), [`map`] (planes, sections, volumes, the region within a tolerance),
 //! [`optimize`] (the posture along a path), [`identify`] (joint compliances from load tests), [`calibrate`] (geometry
 //! from measured poses), [`measure`] (circular tests and repeated poses), [`budget`] (the error budget of
-//! a milled circle).
+//! a milled circle), [`torsion`] (of a driven joint, from both encoders and the torque).
 //!
 //! Symbols and conventions: `docs/notation.md`.
 
@@ -36,6 +36,7 @@ pub mod roundness;
 pub mod source;
 pub mod spatial;
 pub mod stability;
+pub mod torsion;
 pub mod units;
 pub mod watch;
 pub mod workpiece;

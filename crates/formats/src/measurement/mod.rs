@@ -11,6 +11,7 @@
 //! - [`trace`]: points of the tip along a path, for one or several runs.
 //! - [`joint_log`]: joint positions over time.
 //! - [`frf`]: frequency response functions of a modal test.
+//! - [`matlab`]: numeric arrays of MATLAB files.
 //!
 //! Force records are [`Record`](armill_core::load::Record)s in the axes of the sensor. Whether the force acts on the
 //! tool or on the part, and how the sensor is oriented, is not in any file: the caller gives it.
@@ -26,6 +27,7 @@ pub mod format;
 pub mod frf;
 pub mod joint_log;
 pub mod load_tests;
+pub mod matlab;
 pub mod poses;
 pub mod profile;
 pub mod trace;
