@@ -16,22 +16,22 @@ const REFERENCE: &str = "independent computation";
 const HELD: &str = "postures of one hole";
 
 /// One hole.
-struct Hole {
+pub(crate) struct Hole {
     /// Joint positions of the controller, deg.
     joints_deg: [f64; 6],
     /// Feed and greatest speed at breakthrough, mm/s.
-    feed: f64,
-    surge: f64,
+    pub feed: f64,
+    pub surge: f64,
     /// Diameter, mm; nominal 10 mm.
-    diameter: f64,
+    pub diameter: f64,
 }
 
 /// Postures of each place, in order.
-const POSTURES: usize = 5;
+pub(crate) const POSTURES: usize = 5;
 
 /// Places A, B, C, D.
 #[rustfmt::skip]
-const HOLES: [Hole; 20] = [
+pub(crate) const HOLES: [Hole; 20] = [
     Hole {
         joints_deg: [-122.981, -18.087, -26.965, 180.002, 63.046, -57.027],
         feed: 8.39,
@@ -158,7 +158,7 @@ const HOLES: [Hole; 20] = [
 const EXPECTED: [f64; 5] = [0.908, -0.07, -0.51, 0.50, 0.53];
 
 /// Tip (m) and compliance along the drill (m/N) of a hole.
-fn at(hole: &Hole) -> (Vector3<f64>, f64) {
+pub(crate) fn at(hole: &Hole) -> (Vector3<f64>, f64) {
     let robot = arms::r2000ic();
     let joints = robot.compliance().expect("the arm was made with springs");
     let flange_from_tool = Isometry::translation(TOOL_POINT.x, TOOL_POINT.y, TOOL_POINT.z);

@@ -8,6 +8,7 @@ use nalgebra::Vector3;
 
 use crate::check::{Check, ErrorBound};
 
+pub(crate) mod logs;
 #[cfg(test)]
 mod tests;
 

@@ -14,6 +14,7 @@
 //! Cases are seeded: each run compares the same numbers, on any machine and any number of threads.
 
 pub mod check;
+pub mod measured;
 pub mod table;
 
 mod arms;

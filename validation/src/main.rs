@@ -6,8 +6,8 @@
 //! validation: 13 cases, 0 checks fail
 //! ```
 //!
-//! The table is written even where a check fails, so that it shows what was reached. Exit code 1 then, or where
-//! the table cannot be written.
+//! The table is written even where a check fails, so that it shows what was reached; `docs/measured.md` where `ARMILL_SAMPLES` names
+//! the folder of the measurements. Exit code 1 where a check fails or a file cannot be written.
 #![expect(
     clippy::print_stdout,
     clippy::print_stderr,
@@ -16,6 +16,7 @@
 
 use std::process::ExitCode;
 
+use armill_validation::measured::{Samples, page};
 use armill_validation::{results, table};
 
 fn main() -> ExitCode {
@@ -32,6 +33,15 @@ fn main() -> ExitCode {
     if let Err(problem) = std::fs::write(table::PATH, table::table(&results)) {
         eprintln!("cannot write {}: {problem}", table::PATH);
         return ExitCode::FAILURE;
+    }
+    match Samples::from_environment() {
+        None => println!("docs/measured.md is not written: ARMILL_SAMPLES is not set"),
+        Some(samples) => {
+            if let Err(problem) = std::fs::write(page::PATH, page::page(&samples)) {
+                eprintln!("cannot write {}: {problem}", page::PATH);
+                return ExitCode::FAILURE;
+            }
+        }
     }
     let wrong = results
         .iter()

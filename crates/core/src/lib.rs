@@ -8,7 +8,7 @@
 //! [`dynamics`] (vibration), [`load`], [`stability`] (of a cut against chatter), [`source`] (sources of the deviation), [`workpiece`] and [`path`] (points), [`motion`] (speed, time, rounded corners), [`kernel`] (many
 //! points at once), [`map`] (planes, sections, volumes, the region within a tolerance),
 //! [`optimize`] (the posture along a path), [`identify`] (joint compliances from load tests), [`calibrate`] (geometry
-//! from measured poses), [`measure`] (circular tests and repeated poses), [`budget`] (the error budget of
+//! from measured poses), [`learn`] (what calibration leaves), [`update`] (all measurements of an arm at once), [`measure`] (circular tests and repeated poses), [`budget`] (the error budget of
 //! a milled circle), [`torsion`] (of a driven joint, from both encoders and the torque).
 //!
 //! Symbols and conventions: `docs/notation.md`.
@@ -22,6 +22,7 @@ pub mod frame;
 pub mod identify;
 pub mod kernel;
 pub mod learn;
+pub(crate) mod least_squares;
 pub mod load;
 pub mod map;
 pub mod marching_squares;
@@ -38,6 +39,7 @@ pub mod spatial;
 pub mod stability;
 pub mod torsion;
 pub mod units;
+pub mod update;
 pub mod watch;
 pub mod workpiece;
 

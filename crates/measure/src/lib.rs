@@ -1,7 +1,7 @@
 //! What a measurement says of a robot.
 //!
 //! [`identify`] determines joint compliances from load tests, [`calibrate`] the geometry from measured poses,
-//! [`learn`] what the calibrated geometry leaves of them,
+//! [`learn`] what the calibrated geometry leaves of them, [`journal`] all of this from all measurements of an arm,
 //! [`backlash`] the backlash of the joints from circular tests. [`ballbar`] evaluates circular tests, [`roundness`]
 //! round profiles, [`forces`] records of a dynamometer, [`pose_accuracy`] and [`path_accuracy`] measured poses and
 //! paths ([`path_repeatability`]: paths of which nothing is commanded), [`motion`] joint logs, [`drives`] the torsion of joints with two encoders, [`frf`] frequency response functions. [`data_check`] searches slips in the data of each: signs, order of columns, zeros, units.
@@ -14,6 +14,7 @@ pub mod drives;
 pub mod forces;
 pub mod frf;
 pub mod identify;
+pub mod journal;
 pub mod learn;
 pub mod motion;
 pub mod path_accuracy;

@@ -1,7 +1,7 @@
 //! Arguments of `armill`: one file per command, with the same name as in `command`.
 //!
 //! `run`, `check`, `compare`, `new`, `robots`, `materials`, `pose`, `posture`, `place`, `advise`, `compensate`,
-//! `identify`, `calibrate`, `learn`, `forces`, `roundness`, `ballbar`, `backlash`, `budget`, `pose_accuracy`, `path_accuracy`, `motion`, `drives`, `frf`, `modes`, `receptance`,
+//! `identify`, `calibrate`, `learn`, `journal`, `forces`, `roundness`, `ballbar`, `backlash`, `budget`, `pose_accuracy`, `path_accuracy`, `motion`, `drives`, `frf`, `modes`, `receptance`,
 //! `stability`, `serve`, `completions`, `man`; `poses` and `program` are used by two of them each, `writing` by all that write
 //! files.
 //!
@@ -25,6 +25,7 @@ mod drives;
 mod forces;
 mod frf;
 mod identify;
+mod journal;
 mod learn;
 mod man;
 mod materials;
@@ -60,6 +61,7 @@ pub(crate) use drives::DrivesArguments;
 pub(crate) use forces::ForcesArguments;
 pub(crate) use frf::FrfArguments;
 pub(crate) use identify::{IdentifyArguments, PointsArgument, PriorArgument};
+pub(crate) use journal::JournalArguments;
 pub(crate) use learn::{LearnArguments, LearnUnknownsArgument};
 pub(crate) use man::ManArguments;
 pub(crate) use materials::MaterialsArguments;
@@ -132,6 +134,8 @@ pub(crate) enum Command {
     Calibrate(Box<CalibrateArguments>),
     /// Learn from measured poses what the calibrated kinematics leaves, and try it on poses held out
     Learn(Box<LearnArguments>),
+    /// Learn geometry, compliances and backlash from all measurements of an arm, and plan further ones
+    Journal(Box<JournalArguments>),
     /// Analyse a dynamometer record: remove drift, average over spindle revolutions
     Forces(ForcesArguments),
     /// Evaluate the roundness of a measured profile: four reference circles, filter, harmonics
@@ -189,6 +193,7 @@ impl Command {
             Command::Identify(a) => a.json,
             Command::Calibrate(a) => a.json,
             Command::Learn(a) => a.json,
+            Command::Journal(a) => a.json,
             Command::Forces(a) => a.json,
             Command::Roundness(a) => a.json,
             Command::Ballbar(a) => a.json,

@@ -18,7 +18,7 @@ use crate::robot::chain::{Amount, Motion};
 
 /// The state of the fit.
 #[derive(Clone, Debug)]
-pub(super) struct Arm<'a> {
+pub(crate) struct Arm<'a> {
     robot: &'a Robot,
     /// The unknowns after joints, m or rad: six per joint.
     pub small: Vec<[f64; 6]>,

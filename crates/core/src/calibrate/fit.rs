@@ -22,19 +22,13 @@ use super::errors::PoseErrors;
 use super::pose::MeasuredPose;
 use super::prior::{Prior, PriorWeights};
 use super::select::{Redundant, select};
-use super::triangle::{Triangle, solve};
 use super::unknown::{ParameterLocation, ParameterSet, Unknown, unknowns};
 use crate::frame::Isometry;
+use crate::least_squares::{Problem, Triangle, descend, solve};
 use crate::robot::chain::{Amount, Motion};
 use crate::robot::forward::forward;
 use crate::robot::{Robot, RobotError};
 
-/// Maximum number of steps of a round; the second ends after some five.
-const MOST_STEPS: usize = 60;
-/// A step that lowers the sum of squares by less than this part of it is the last.
-const SETTLED: f64 = 1e-13;
-/// Initial damping, and the damping at which the search is given up.
-const DAMPING: [f64; 2] = [1e-3, 1e9];
 /// Rounds of scatter and geometry with a prior, and the change of the variance that ends them.
 const MOST_ROUNDS: usize = 40;
 const SAME_SCATTER: f64 = 1e-6;
@@ -364,32 +358,31 @@ fn identifiable(arm: &Arm<'_>, unknowns: &[Unknown], free: &Data<'_>) -> (Vec<Un
 }
 
 /// The arm with the least sum of squares over the unknowns `kept`; an error if it does not converge.
-fn settle<'a>(mut arm: Arm<'a>, kept: &[Unknown], data: &Data<'_>) -> Result<Arm<'a>, Refusal> {
-    let mut least = cost(&arm, kept, data);
-    let mut damping = DAMPING[0];
-    let mut settled = false;
-    for _ in 0..MOST_STEPS {
-        let (r, z) = triangle(&arm, kept, data).whole();
-        settled = true;
-        while damping < DAMPING[1] {
-            let (step, _) = solve(&r, &z, damping).ok_or(Refusal::NotFound)?;
-            let next = arm.changed(kept, step.as_slice());
-            let there = cost(&next, kept, data);
-            if there <= least {
-                settled = least - there <= SETTLED * least;
-                (arm, least) = (next, there);
-                damping *= 0.1;
-                break;
-            }
-            damping *= 10.0;
-        }
-        if settled {
-            break;
-        }
+fn settle<'a>(arm: Arm<'a>, kept: &[Unknown], data: &Data<'_>) -> Result<Arm<'a>, Refusal> {
+    let robot = std::marker::PhantomData;
+    descend(&Geometry { kept, data, robot }, arm).ok_or(Refusal::NotFound)
+}
+
+/// The geometry of an arm as a problem of least squares.
+struct Geometry<'p, 'a> {
+    kept: &'p [Unknown],
+    data: &'p Data<'p>,
+    robot: std::marker::PhantomData<&'a Robot>,
+}
+
+impl<'a> Problem for Geometry<'_, 'a> {
+    type State = Arm<'a>;
+
+    fn triangle(&self, arm: &Arm<'a>) -> Triangle {
+        triangle(arm, self.kept, self.data)
     }
-    match settled && least.is_finite() {
-        true => Ok(arm),
-        false => Err(Refusal::NotFound),
+
+    fn cost(&self, arm: &Arm<'a>) -> f64 {
+        cost(arm, self.kept, self.data)
+    }
+
+    fn changed(&self, arm: &Arm<'a>, by: &[f64]) -> Arm<'a> {
+        arm.changed(self.kept, by)
     }
 }
 

@@ -1,9 +1,8 @@
 //! Calibration: the geometry of one individual arm, from poses measured by a tracker.
 //!
 //! In reading order: [`pose`] (a measured pose), [`unknown`] (small displacements to be estimated), `arm` (the chain
-//! with all of them, its forward kinematics and Jacobian), `triangle` (least squares of any number of rows in little
-//! memory), `select` (identifiable unknowns), [`prior`] (prior knowledge), [`errors`] (prediction errors),
-//! [`fit`](mod@fit) (the most likely geometry, its uncertainty, the calibrated chain).
+//! with all of them, its forward kinematics and Jacobian), `select` (identifiable unknowns), [`prior`] (prior knowledge),
+//! [`errors`] (prediction errors), [`fit`](mod@fit) (the most likely geometry, its uncertainty, the calibrated chain).
 //!
 //! Theory, sources and limits of the method: `docs/theory/calibration.md`.
 
@@ -13,12 +12,13 @@ pub mod fit;
 pub mod pose;
 pub mod prior;
 mod select;
-mod triangle;
 pub mod unknown;
 
+pub(crate) use arm::Arm;
 pub use errors::{PoseErrors, Spread};
 pub use fit::{Calibrated, Estimate, Question, Refusal, fit};
 pub use pose::MeasuredPose;
 pub use prior::Prior;
 pub use select::Redundant;
+pub(crate) use unknown::unknowns;
 pub use unknown::{ParameterLocation, ParameterSet, Unknown};

@@ -67,7 +67,7 @@ pub(super) fn select(j: &DMatrix<f64>, unknowns: &[Unknown]) -> (Vec<usize>, Vec
 /// The combination of `kept` with the effect of `unknown`.
 fn same_as(j: &DMatrix<f64>, kept: &[usize], unknown: usize) -> Vec<usize> {
     let right = j.column(unknown).into_owned();
-    let Some((shares, _)) = super::triangle::solve(&j.select_columns(kept), &right, 0.0) else {
+    let Some((shares, _)) = crate::least_squares::solve(&j.select_columns(kept), &right, 0.0) else {
         return Vec::new();
     };
     let strength = |k: usize| shares[k].abs() * j.column(kept[k]).norm();

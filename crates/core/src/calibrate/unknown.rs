@@ -75,7 +75,7 @@ impl Unknown {
 /// All unknowns, those first that are kept where two have the same effect: base, tool, zeros, lengths, angles.
 ///
 /// A body without measured rotation has no unknown rotation.
-pub(super) fn unknowns(robot: &Robot, requested: ParameterSet, turns_measured: bool) -> Vec<Unknown> {
+pub(crate) fn unknowns(robot: &Robot, requested: ParameterSet, turns_measured: bool) -> Vec<Unknown> {
     let six = |place| (0..6).map(move |component| Unknown { place, component });
     let mut all: Vec<Unknown> = six(ParameterLocation::Base).collect();
     if requested == ParameterSet::Base {

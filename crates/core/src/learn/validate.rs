@@ -7,7 +7,7 @@
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
-use super::learn::{learn, residuals};
+use super::residual::{learn, residuals};
 use crate::calibrate::{Calibrated, MeasuredPose, ParameterSet, Question, Refusal, fit};
 use crate::robot::Robot;
 use crate::robot::learnt::{Learnt, LearntError, LearntResidual};

@@ -99,7 +99,7 @@ fn backlash_uncertainties(
     let mut curves = vec![Vec::with_capacity(track.len()); unsure.len()];
     let mut thermal = Vec::with_capacity(track.len());
     let learnt = arm.model.structure.learnt.as_ref();
-    let mut by_learnt = vec![Vec::with_capacity(track.len()); 3];
+    let mut by_learnt: [Vec<f64>; 3] = Default::default();
     for index in 0..track.len() {
         arm_state.set_joints(found.answers.joints_at(index));
         let outward = outwards(track, index, centre);

@@ -129,7 +129,7 @@ fn fits_a_line(name: &str) -> bool {
 }
 
 /// SHA-256 of bytes, hexadecimal.
-pub(crate) fn sum_of(bytes: &[u8]) -> String {
+pub fn sum_of(bytes: &[u8]) -> String {
     hexadecimal(&Sha256::digest(bytes))
 }
 

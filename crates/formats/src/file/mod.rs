@@ -22,6 +22,6 @@ mod part;
 mod writer;
 
 pub use error::FileError;
-pub(crate) use ledger::sum_of;
+pub use ledger::sum_of;
 pub use part::{PartFile, create_folder, new_part, remove_abandoned, sync_folder, write_atomically};
 pub use writer::{ResultFolder, Writer};

@@ -1,5 +1,5 @@
 //! Measurements: records of force over time, load tests, measured poses, round profiles, circular tests, tip traces, joint logs,
-//! frequency response functions.
+//! frequency response functions; the journal of all measurements of an arm.
 //!
 //! - [`format`](mod@format): a force record in either format.
 //! - [`dynoware`]: text exports of Kistler's DynoWare.
@@ -10,6 +10,8 @@
 //! - [`poses`]: joint positions, and the poses that a laser tracker measured.
 //! - [`trace`]: points of the tip along a path, for one or several runs.
 //! - [`joint_log`]: joint positions over time.
+//! - [`conditions`]: loads and directions of motion at points of a path.
+//! - [`journal`]: all measurements of one arm, with their days and temperatures.
 //! - [`frf`]: frequency response functions of a modal test.
 //! - [`matlab`]: numeric arrays of MATLAB files.
 //!
@@ -20,12 +22,14 @@
 
 pub mod ballbar;
 mod columns;
+pub mod conditions;
 pub mod csv;
 pub mod dynoware;
 mod force_records;
 pub mod format;
 pub mod frf;
 pub mod joint_log;
+pub mod journal;
 pub mod load_tests;
 pub mod matlab;
 pub mod poses;

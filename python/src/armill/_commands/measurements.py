@@ -63,6 +63,50 @@ def calibrate(
 
 
 @command
+def learn(
+    poses_file: TableLike,
+    *,
+    robot: RobotLike,
+    unknowns: Literal["geometry", "zeros", "none"] | None = None,
+    prior_mm: float | None = None,
+    prior_deg: float | None = None,
+    stretches: int | None = None,
+    other: TableLike | None = None,
+    same_point: bool = False,
+    columns: Mapping[str, str] | str | None = None,
+    turns: bool = False,
+    turn_order: TurnOrder | None = None,
+    turn_mm: float | None = None,
+    tool_mm: npt.ArrayLike | None = None,
+    out: Path | None = None,
+    drawing: Path | None = None,
+    force: bool = False,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> Answer:
+    """table of measured poses -> Answer: what the calibrated arm leaves of them, learnt and tried on poses held out."""
+    return call("learn", [poses_file], locals())
+
+
+@command
+def journal(
+    journal: Path,
+    *,
+    work: TableLike | None = None,
+    next: int | None = None,
+    candidates: TableLike | None = None,
+    position_u_um: float | None = None,
+    displacement_u_um: float | None = None,
+    out: Path | None = None,
+    force: bool = False,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> Answer:
+    """journal of measurements -> Answer: geometry, compliances and backlash of the arm from all of them, and what to measure next."""
+    return call("journal", [journal], locals())
+
+
+@command
 def forces(
     file: TableLike,
     *,

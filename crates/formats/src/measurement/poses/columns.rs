@@ -50,7 +50,7 @@ impl FromStr for Mapping {
 
 /// Quantity of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Quantity {
+pub(in crate::measurement) enum Quantity {
     /// Position of the joint with this index, revolute or prismatic.
     Joint(usize),
     /// Measured position along x, y, z: 0, 1, 2; measured orientation: 3, 4, 5.
@@ -65,7 +65,7 @@ pub(super) enum Quantity {
 
 /// A column: its quantity, and the factor from its unit to m or rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Column {
+pub(in crate::measurement) struct Column {
     pub quantity: Quantity,
     pub factor: f64,
 }
@@ -153,7 +153,7 @@ pub(super) fn of_data_set(name: &str) -> Option<&'static str> {
 ///
 /// # Errors
 /// A known name without a unit, or with a unit of another quantity: problem and hint.
-pub(super) fn named(name: &str, robot: &Robot) -> Result<Option<Column>, (String, String)> {
+pub(in crate::measurement) fn named(name: &str, robot: &Robot) -> Result<Option<Column>, (String, String)> {
     let lower = name.trim().to_lowercase();
     let plain = |quantity| Column {
         quantity,
@@ -174,7 +174,8 @@ pub(super) fn named(name: &str, robot: &Robot) -> Result<Option<Column>, (String
             format!("end the name with its unit: {}", units(quantity)),
         ));
     }
-    let Some((plain, unit)) = lower.rsplit_once('_') else {
+    // The direction of the last motion of a joint is a condition, read by `conditions`.
+    let Some((plain, unit)) = lower.rsplit_once('_').filter(|(_, unit)| *unit != "direction") else {
         return Ok(None);
     };
     let Some(quantity) = Quantity::of_name(plain, robot) else {

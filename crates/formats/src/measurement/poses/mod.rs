@@ -5,7 +5,7 @@
 //!
 //! All lengths are in m, all angles in rad, in the axes of the tracker.
 
-mod columns;
+pub(super) mod columns;
 pub mod table;
 
 pub use self::columns::{Mapping, NoMapping};

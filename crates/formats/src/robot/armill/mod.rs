@@ -6,7 +6,7 @@
 //!
 //! In reading order: `file` (the tables as written), `checks` (what no schema can say, and SI), `structure`, `vibration`, `bodies`; `spelling`,
 //! `write_bodies`, `write_masses`, `write` (a robot of another format as such a file), `identified` (such a file with compliances that were identified),
-//! `calibrated` (with small motions that were), `learned` (with values of `[motion]` from joint logs),
+//! `calibrated` (with small motions that were), `backlash` (with backlash that was measured), `learned` (with values of `[motion]` from joint logs),
 //! `learnt` (with the residual that was learnt, and its file of residuals).
 //!
 //! ```text
@@ -21,6 +21,7 @@
 //!
 //! All keys with their meaning: `docs/guide/robot-file.md`.
 
+mod backlash;
 mod bodies;
 mod calibrated;
 mod checks;
@@ -50,6 +51,7 @@ use super::description::{JointNote, OtherLimits, RobotDescription};
 use crate::document::{Document, Problems};
 use crate::sources;
 
+pub use self::backlash::{JointBacklash, MeasuredBacklash, with_backlash};
 pub use self::calibrated::{Geometry, with_geometry};
 pub use self::identified::{Identified, IdentifiedSpring, with_given_springs, with_springs};
 pub use self::learned::{LearnedMotion, with_motion};

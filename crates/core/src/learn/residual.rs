@@ -130,7 +130,7 @@ mod tests {
         let (count, sum) = errors.fold((0.0, 0.0), |(count, sum), e| {
             (count + 1.0, sum + e.norm_squared())
         });
-        (sum / count as f64).sqrt()
+        (sum / count).sqrt()
     }
 
     #[test]

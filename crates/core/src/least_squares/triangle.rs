@@ -10,7 +10,7 @@ const BLOCK: usize = 256;
 
 /// The triangle of all rows.
 #[derive(Clone, Debug)]
-pub(super) struct Triangle {
+pub(crate) struct Triangle {
     /// Square, one column per unknown and the right-hand side last.
     matrix: DMatrix<f64>,
     block: DMatrix<f64>,
@@ -62,7 +62,7 @@ impl Triangle {
 
 /// The least-squares solution of `J x = r` with `damping` (0: none), and the inverse of `J'J`; columns are
 /// scaled to length one first. `None` where the columns are not independent.
-pub(super) fn solve(
+pub(crate) fn solve(
     j: &DMatrix<f64>,
     r: &DVector<f64>,
     damping: f64,

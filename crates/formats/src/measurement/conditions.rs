@@ -1,0 +1,272 @@
+//! What acted on the arm at each row of a table of poses: loads and directions of the last motions.
+//!
+//! | column | meaning | units |
+//! |---|---|---|
+//! | `q1_deg` ..., or a joint's own name such as `A1_deg` | joint positions as the controller reports them | as of measured poses |
+//! | `fx_n`, `fy_n`, `fz_n` | force on the tool at its tip, base axes; a missing column or an empty cell is 0 | `_n`, `_kn` |
+//! | `mx_n_m`, `my_n_m`, `mz_n_m` | moment about the tip | `_n_m` |
+//! | `q1_direction` ..., or `A1_direction` | direction of the last motion of a joint as the controller reports it: 1, -1; 0 or an empty cell: not known | |
+//!
+//! Other columns are ignored: they are those of [`poses`](super::poses).
+
+use std::io::BufRead;
+
+use armill_core::nalgebra::Vector3;
+use armill_core::robot::Robot;
+use armill_core::spatial::Wrench;
+use armill_core::update::Condition;
+
+use super::poses::columns::{self, Quantity};
+use crate::document::lines::{Line, Lines};
+use crate::document::{MOST_PROBLEMS, Problem, Problems};
+use crate::table::sheet::{is_blank_row, named_columns, number, row_cells, separator_of};
+
+/// Maximum number of rows.
+const MOST_ROWS: usize = 1_000_000;
+/// Largest force, N, and moment, N m: beyond that of any robot.
+const LARGEST: f64 = 1e6;
+const HINT: &str = "joint positions (`q1_deg` ...), the load on the tool in base axes (`fx_n`, `fy_n`, `fz_n`), directions of the last motions (`q1_direction` ...)";
+
+/// A row of the table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ConditionRow {
+    /// Its line, from 1.
+    pub line: usize,
+    /// Joint positions, controller, rad or m.
+    pub joints: Vec<f64>,
+    /// Load and directions.
+    pub condition: Condition,
+}
+
+/// Quantity of a column, and the factor of its unit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Column {
+    Joint(usize, f64),
+    Force(usize, f64),
+    Moment(usize),
+    Direction(usize),
+}
+
+/// Whether a column of this name is read here, besides joint positions.
+pub fn is_condition(name: &str, robot: &Robot) -> bool {
+    let found = meaning(name, robot);
+    !matches!(found, Ok(None | Some(Column::Joint(..))) | Err(_))
+}
+
+/// Reads a table of conditions of `robot`; `path` is the file name shown in problems.
+///
+/// # Errors
+/// All problems of the file, at most 200: missing joints, cells that are not numbers, implausible values, no rows.
+pub fn read(path: &str, reader: impl BufRead, robot: &Robot) -> Result<Vec<ConditionRow>, Problems> {
+    let mut lines = Lines::new(path, reader);
+    let Some(header) = lines.next_row()? else {
+        return Err(Problem::of_file(path, "the file has no rows", HINT).into());
+    };
+    let separator = separator_of(&header.text);
+    let is_same = |one: Column, other: Column| match (one, other) {
+        (Column::Joint(a, _), Column::Joint(b, _)) | (Column::Force(a, _), Column::Force(b, _)) => a == b,
+        (one, other) => one == other,
+    };
+    let named = named_columns(path, &header, |name| meaning(name, robot), is_same);
+    Problems::from(named.problems).into_result()?;
+    let has = |joint| {
+        named
+            .columns
+            .iter()
+            .flatten()
+            .any(|column| matches!(column, Column::Joint(of, _) if *of == joint))
+    };
+    let missing: Vec<&str> = (0..robot.joints().len())
+        .filter(|joint| !has(*joint))
+        .map(|joint| robot.joints()[joint].name.as_str())
+        .collect();
+    if !missing.is_empty() {
+        let message = format!("positions of joints are missing: {}", missing.join(", "));
+        return Err(header.problem(path, 0..header.text.len(), message, HINT).into());
+    }
+    let mut rows = Vec::new();
+    let mut problems = Vec::new();
+    while problems.len() < MOST_PROBLEMS {
+        match lines.next_row() {
+            Ok(None) => break,
+            Err(wrong) => {
+                problems.extend(wrong);
+                break;
+            }
+            Ok(Some(line)) if is_blank_row(&line.text, separator) => {}
+            Ok(Some(line)) if rows.len() == MOST_ROWS => {
+                let message = format!("more than {MOST_ROWS} rows");
+                problems.push(line.problem(
+                    path,
+                    0..line.text.len(),
+                    message,
+                    "a few hundred points are sufficient",
+                ));
+                break;
+            }
+            Ok(Some(line)) => match row(path, &line, &named.columns, (separator, robot)) {
+                Ok(row) => rows.push(row),
+                Err(wrong) => problems.extend(wrong),
+            },
+        }
+    }
+    Problems::from(problems).into_result()?;
+    match rows.is_empty() {
+        true => Err(Problem::of_file(path, "the file has no rows", HINT).into()),
+        false => Ok(rows),
+    }
+}
+
+fn row(
+    path: &str,
+    line: &Line,
+    columns: &[Option<Column>],
+    table: (char, &Robot),
+) -> Result<ConditionRow, Problems> {
+    let (separator, robot) = table;
+    let cells = row_cells(path, line, separator, columns.len())?;
+    let mut condition = Condition::unloaded(robot);
+    let mut joints = vec![0.0; robot.joints().len()];
+    let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
+    let mut problems = Vec::new();
+    for (cell, column) in cells.iter().zip(columns) {
+        let Some(column) = column else { continue };
+        if cell.text.is_empty() && !matches!(column, Column::Joint(..)) {
+            continue;
+        }
+        let value = number(&cell.text, separator).filter(|value| value.is_finite());
+        let within = |largest: f64| value.filter(|value| value.abs() <= largest);
+        let (found, hint) = match column {
+            Column::Joint(joint, factor) => {
+                let most = if robot.slides(*joint) {
+                    1e3
+                } else {
+                    4.0 * std::f64::consts::PI
+                };
+                let found = value
+                    .map(|value| value * factor)
+                    .filter(|value| value.abs() <= most);
+                joints[*joint] = found.unwrap_or_default();
+                (
+                    found,
+                    "a joint position, in the unit that the name of the column ends with",
+                )
+            }
+            Column::Force(axis, factor) => {
+                let found = within(LARGEST).map(|value| value * factor);
+                force[*axis] = found.unwrap_or_default();
+                (found, "a force in N, not above 1e6 N")
+            }
+            Column::Moment(axis) => {
+                let found = within(LARGEST);
+                moment[*axis] = found.unwrap_or_default();
+                (found, "a moment in N m, not above 1e6 N m")
+            }
+            Column::Direction(joint) => {
+                let found = value.filter(|value| [-1.0, 0.0, 1.0].contains(value));
+                condition.directions[*joint] = found.unwrap_or_default();
+                (found, "1 or -1; 0 where the direction is not known")
+            }
+        };
+        if found.is_none() {
+            let message = format!("`{}` is not valid here", cell.text);
+            problems.push(line.problem(path, cell.span.clone(), message, hint));
+        }
+    }
+    Problems::from(problems).into_result()?;
+    condition.wrench = Wrench { force, moment };
+    Ok(ConditionRow {
+        line: line.number,
+        joints,
+        condition,
+    })
+}
+
+fn meaning(name: &str, robot: &Robot) -> Result<Option<Column>, (String, String)> {
+    let lower = name.trim().to_lowercase();
+    if let Some(joint) = lower.strip_suffix("_direction") {
+        let unit = |unit: &str| columns::named(&format!("{joint}_{unit}"), robot).ok().flatten();
+        let of = unit("deg").or_else(|| unit("mm")).map(|column| column.quantity);
+        return match of {
+            Some(Quantity::Joint(joint)) => Ok(Some(Column::Direction(joint))),
+            _ => Ok(None),
+        };
+    }
+    for (axis, letter) in ["x", "y", "z"].iter().enumerate() {
+        if let Some(unit) = lower.strip_prefix(&format!("f{letter}_")) {
+            return match unit {
+                "n" => Ok(Some(Column::Force(axis, 1.0))),
+                "kn" => Ok(Some(Column::Force(axis, 1e3))),
+                _ => Err((
+                    format!("`{unit}` is not a unit of `f{letter}`"),
+                    "known units are n and kn".to_owned(),
+                )),
+            };
+        }
+        if lower == format!("m{letter}_n_m") {
+            return Ok(Some(Column::Moment(axis)));
+        }
+    }
+    Ok(
+        columns::named(name, robot)?.and_then(|column| match column.quantity {
+            Quantity::Joint(joint) => Some(Column::Joint(joint, column.factor)),
+            _ => None,
+        }),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use armill_core::robot::{Amount, Axis, Joint, Motion};
+
+    fn two_joints() -> Robot {
+        let motions = [0, 1]
+            .map(|joint| Motion::About(Axis::Z, Amount::Joint(joint)))
+            .to_vec();
+        Robot::new("two", motions, ["a", "b"].map(Joint::plain).to_vec()).unwrap()
+    }
+
+    fn of(text: &str) -> Result<Vec<ConditionRow>, Problems> {
+        read("work.csv", text.as_bytes(), &two_joints())
+    }
+
+    #[test]
+    fn loads_and_directions_are_read_beside_other_columns() {
+        let rows =
+            of("q1_deg;q2_deg;x_mm;fx_n;fz_kn;my_n_m;q2_direction\n90;-45;7;10,5;-0,2;3;-1\n0;0;;;;;\n")
+                .unwrap();
+        assert_eq!(rows.len(), 2);
+        assert!((rows[0].joints[0] - std::f64::consts::FRAC_PI_2).abs() < 1e-15);
+        let condition = &rows[0].condition;
+        assert_eq!(condition.wrench.force, Vector3::new(10.5, 0.0, -200.0));
+        assert_eq!(condition.wrench.moment, Vector3::new(0.0, 3.0, 0.0));
+        assert_eq!(condition.directions, [0.0, -1.0]);
+        assert_eq!(rows[1].condition, Condition::unloaded(&two_joints()));
+        assert_eq!(rows[1].line, 3);
+        assert!(is_condition("q2_direction", &two_joints()) && !is_condition("q2_deg", &two_joints()));
+    }
+
+    #[test]
+    fn all_problems_of_a_table_are_reported_with_their_places() {
+        let problems = of("q1_deg,q2_deg,fx_n,q1_direction\n0,0,much,2\n0,1e9,1e7,\n")
+            .unwrap_err()
+            .to_string();
+        for part in [
+            "2:5", "`much`", "2:10", "`2`", "1 or -1", "3:3", "`1e9`", "`1e7`", "1e6 N",
+        ] {
+            assert!(problems.contains(part), "{part}: {problems}");
+        }
+        for (text, part) in [
+            ("", "no rows"),
+            ("q1_deg,q2_deg\n", "no rows"),
+            ("q1_deg,fx_n\n0,1\n", "missing: b"),
+            ("q1_deg,q2_deg,fx_lb\n0,0,1\n", "known units are n and kn"),
+            ("q1_deg,q2_deg,fx_n,fx_kn\n0,0,1,1\n", "repeats"),
+            ("q1_deg,q2_deg\n0\n", "2:"),
+        ] {
+            let problems = of(text).unwrap_err().to_string();
+            assert!(problems.contains(part), "{text}: {problems}");
+        }
+    }
+}

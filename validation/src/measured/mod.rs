@@ -1,0 +1,53 @@
+//! Predictions held against measurements of real arms: the page *Measured*, `docs/measured.md`.
+//!
+//! In reading order: [`comparison`] (errors of one model on one set), [`samples`] (the folder of the measurements), [`page`].
+//! Each set is a folder of `validation/measured/`: `README.md` says what was measured, what was predicted without it, and what
+//! explains the rest; `set.rs` computes the rows of its table.
+//!
+//! The measurements are not part of this repository. They are found in the folder that `ARMILL_SAMPLES` names; without it the
+//! page stays as it is, and its test says that it was skipped.
+
+pub mod comparison;
+pub mod page;
+pub mod samples;
+
+#[path = "../../measured/drilled-holes/set.rs"]
+mod drilled_holes;
+#[path = "../../measured/fanuc-load-tests/set.rs"]
+mod fanuc_load_tests;
+#[path = "../../measured/irb6640-logs/set.rs"]
+mod irb6640_logs;
+#[path = "../../measured/ur10-tracker/set.rs"]
+mod ur10_tracker;
+
+pub use comparison::{Comparison, Stated};
+pub use samples::Samples;
+
+/// Measurements of one arm.
+#[derive(Clone, Copy, Debug)]
+pub struct Set {
+    /// What was measured and predicted, Markdown; its first line is the title.
+    pub text: &'static str,
+    /// Errors of the models; reads the measurements.
+    pub comparisons: fn(&Samples) -> Vec<Comparison>,
+}
+
+/// All sets, in the order of the page.
+pub const SETS: &[Set] = &[
+    Set {
+        text: include_str!("../../measured/fanuc-load-tests/README.md"),
+        comparisons: fanuc_load_tests::comparisons,
+    },
+    Set {
+        text: include_str!("../../measured/drilled-holes/README.md"),
+        comparisons: drilled_holes::comparisons,
+    },
+    Set {
+        text: include_str!("../../measured/ur10-tracker/README.md"),
+        comparisons: ur10_tracker::comparisons,
+    },
+    Set {
+        text: include_str!("../../measured/irb6640-logs/README.md"),
+        comparisons: irb6640_logs::comparisons,
+    },
+];
