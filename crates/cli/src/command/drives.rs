@@ -6,9 +6,10 @@
 
 use armill_formats::measurement::joint_log::LogReadOptions;
 use armill_measure::drives::answer::{DriveAnswer, EstimateAnswer};
-use armill_measure::drives::{DrivesAnswer, DrivesQuestion, MatlabNames, answer, read};
+use armill_measure::drives::{DrivesAnswer, DrivesQuestion, MatlabNames, evaluate, picture, read};
 use armill_study::StudyError;
 
+use super::drawing;
 use crate::arguments::DrivesArguments;
 use crate::arguments::numbers::above_zero;
 use crate::outcome::Outcome;
@@ -35,7 +36,12 @@ pub(crate) fn run(arguments: &DrivesArguments) -> Result<Outcome, StudyError> {
         Some(other) => Some(read(other, &question)?),
         None => None,
     };
-    let answer = answer(&log, compared.as_ref(), &question);
+    let evaluated = evaluate(&log, compared.as_ref(), &question);
+    if let Some(file) = &arguments.drawing {
+        let writer = arguments.writing.writer("drives").for_new_files();
+        drawing::write(&writer, file, &picture(&evaluated).to_svg())?;
+    }
+    let answer = evaluated.answer;
     print(&match arguments.json {
         true => serde_json::to_string_pretty(&answer)?,
         false => as_text(&answer),

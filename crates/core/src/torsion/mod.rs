@@ -16,7 +16,8 @@
 //! | `u`, `k` | gear ratio; order of the motor shaft | |
 //!
 //! With the friction `f` between motor and gear and the lost motion `b` of the gear, `h = c f - b/2`: a log gives their difference, never
-//! both. A positive `h` is friction of at least `h/c`; a negative one is lost motion of at least `-2 h`. The torque of the motor is that
+//! both. A positive `h` is friction of at least `h/c`; a negative one is lost motion of at least `-2 h`. Viscous friction `n` there (N m s/rad of the joint)
+//! shortens the delay that is found by `c n`. The torque of the motor is that
 //! of the joint divided by the ratio, so that the stiffness at the joint is `u/c`. The torque of the inertia of the motor is not removed.
 //!
 //! Estimation: the delay by Gauss and Newton (its derivative is the speed of the motor), all others linear. The

@@ -73,10 +73,20 @@ pub struct DriveAnswer {
     pub inseparable: Vec<String>,
 }
 
+/// The result, with what a picture needs.
+#[derive(Clone, Debug)]
+pub struct Evaluated {
+    /// The result.
+    pub answer: DrivesAnswer,
+    /// Number of each joint of the answer, and its torsion.
+    pub torsions: Vec<(usize, Torsion)>,
+}
+
 /// Fits all joints of a log and predicts another one.
-pub fn answer(log: &DriveLog, compared: Option<&DriveLog>, question: &DrivesQuestion) -> DrivesAnswer {
+pub fn evaluate(log: &DriveLog, compared: Option<&DriveLog>, question: &DrivesQuestion) -> Evaluated {
     let mut notes = log.notes.clone();
     let mut joints = Vec::new();
+    let mut torsions = Vec::new();
     for joint in 0..log.joints.len() {
         let signals = log.signals(joint);
         let is_constant = |values: &[f64]| values.iter().all(|value| *value == values[0]);
@@ -105,15 +115,17 @@ pub fn answer(log: &DriveLog, compared: Option<&DriveLog>, question: &DrivesQues
             compared_rms_urad: compared_rms,
             ..found
         });
+        torsions.push((joint + 1, torsion));
     }
     notes.push("friction between motor and gear and lost motion act on the step at a reversal with opposite signs; a log gives their difference".to_owned());
+    notes.push("viscous friction between motor and gear shortens the delay by compliance times damping; a log gives their difference".to_owned());
     if question.ratios.is_empty() {
         notes.push(
             "without gear ratios (--gear) there is no stiffness at the joint and no transmission error"
                 .to_owned(),
         );
     }
-    DrivesAnswer {
+    let answer = DrivesAnswer {
         file: log.file.clone(),
         compared: compared.map(|other| other.file.clone()),
         duration_s: log
@@ -124,7 +136,8 @@ pub fn answer(log: &DriveLog, compared: Option<&DriveLog>, question: &DrivesQues
         samples: log.times.len(),
         joints,
         notes,
-    }
+    };
+    Evaluated { answer, torsions }
 }
 
 impl EstimateAnswer {

@@ -7,7 +7,7 @@ use armill_core::torsion::Signals;
 use armill_core::units::from_deg;
 use armill_formats::document::{Problem, Problems};
 use armill_formats::input;
-use armill_formats::measurement::joint_log::{self, JointLog, LogReadOptions};
+use armill_formats::measurement::joint_log::{self, AngleUnit, JointLog, LogReadOptions};
 use armill_formats::measurement::matlab::{self, MatlabArray, MatlabFile};
 use armill_study::StudyError;
 
@@ -19,7 +19,7 @@ const MOST_NAMES: usize = 40;
 /// What is asked of a log.
 #[derive(Clone, Debug, Default)]
 pub struct DrivesQuestion {
-    /// Units that the header does not give.
+    /// Units that the header does not give, and units of the arrays of a MATLAB file.
     pub units: LogReadOptions,
     /// Arrays of a MATLAB file.
     pub names: Option<MatlabNames>,
@@ -27,7 +27,8 @@ pub struct DrivesQuestion {
     pub ratios: Vec<f64>,
 }
 
-/// Paths of the arrays of a MATLAB file: time (s), motor and link encoders (`_rad`, otherwise deg), torques (N m).
+/// Paths of the arrays of a MATLAB file: time (s), motor and link encoders (rad of a name that ends in `_rad`, otherwise deg), torques (N m);
+/// given units take precedence.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MatlabNames {
     /// In the order of the enumeration above.
@@ -109,7 +110,7 @@ pub fn read(path: &Path, question: &DrivesQuestion) -> Result<DriveLog, StudyErr
             hint,
         ));
     };
-    from_matlab(file, names, &found)
+    from_matlab(file, (names, question.units), &found)
 }
 
 fn listed(found: &MatlabFile) -> String {
@@ -126,7 +127,12 @@ fn listed(found: &MatlabFile) -> String {
     }
 }
 
-fn from_matlab(file: String, names: &MatlabNames, found: &MatlabFile) -> Result<DriveLog, StudyError> {
+fn from_matlab(
+    file: String,
+    named: (&MatlabNames, LogReadOptions),
+    found: &MatlabFile,
+) -> Result<DriveLog, StudyError> {
+    let (names, units) = named;
     let mut problems = Vec::new();
     let mut arrays: Vec<&MatlabArray> = Vec::new();
     for (name, array) in names.paths.iter().zip(&found.arrays) {
@@ -141,10 +147,14 @@ fn from_matlab(file: String, names: &MatlabNames, found: &MatlabFile) -> Result<
     }
     Problems::from(problems).into_result()?;
     let mut problems = Vec::new();
-    let times = &arrays[0].values;
-    if times.len() < 2 || !times.is_sorted_by(|one, other| one < other) {
+    let time_factor = units.time.map_or(1.0, joint_log::TimeUnit::factor);
+    let times: Vec<f64> = arrays[0].values.iter().map(|time| time * time_factor).collect();
+    if times.len() < 2
+        || times.iter().any(|time| !time.is_finite())
+        || !times.is_sorted_by(|one, other| one < other)
+    {
         let message = format!(
-            "`{}`: {} times, which have to be at least 2 and rising",
+            "`{}`: {} times, which have to be at least 2, finite and rising",
             names.paths[0],
             times.len()
         );
@@ -188,7 +198,10 @@ fn from_matlab(file: String, names: &MatlabNames, found: &MatlabFile) -> Result<
         .into());
     }
     for (name, signal) in names.paths[1..3].iter().zip(&mut signals) {
-        if !name.to_lowercase().contains("rad") {
+        let is_rad = units
+            .angle
+            .map_or(name.ends_with("_rad"), |angle| angle == AngleUnit::Radian);
+        if !is_rad {
             signal
                 .iter_mut()
                 .flatten()
@@ -205,7 +218,7 @@ fn from_matlab(file: String, names: &MatlabNames, found: &MatlabFile) -> Result<
         .map(|((motor, link), torque)| [motor, link, torque]);
     Ok(DriveLog {
         file,
-        times: times.clone(),
+        times,
         joints: joints.collect(),
         notes: Vec::new(),
     })

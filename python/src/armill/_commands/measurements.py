@@ -239,6 +239,8 @@ def drives(
     compare: TableLike | None = None,
     time_unit: Literal["s", "ms", "us", "ns"] | None = None,
     angle_unit: Literal["deg", "rad"] | None = None,
+    drawing: Path | None = None,
+    force: bool = False,
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> Answer:

@@ -9,7 +9,7 @@ use super::bytes::Order;
 use super::element::{COMPRESSED, Element, Elements, MATRIX, text};
 
 /// Most bytes that the compressed variables of a file are expanded to.
-const MOST_BYTES: u64 = 1 << 30;
+const MOST_BYTES: u64 = 1 << 28;
 /// Deepest structure.
 const DEEPEST: usize = 16;
 /// Most numeric arrays.
@@ -127,7 +127,7 @@ impl<'w> Collected<'w> {
         let path = own.map_or(named, str::to_owned);
         let within = |error: String| format!("`{path}`: {error}");
         match class {
-            STRUCTURE if dimensions.iter().product::<usize>() == 1 => {
+            STRUCTURE if dimensions.iter().all(|size| *size == 1) => {
                 self.structure(&path, &mut elements, depth)
             }
             STRUCTURE => Ok(()),
@@ -173,19 +173,21 @@ impl<'w> Collected<'w> {
             return Err(format!("more than {MOST_ARRAYS} arrays"));
         }
         self.file.names.push(path.to_owned());
-        for (index, wanted) in self.wanted.iter().enumerate() {
-            if *wanted != path {
-                continue;
+        if !self.wanted.contains(&path) {
+            return Ok(());
+        }
+        let values = elements.next()?.numbers(self.order)?;
+        let size = dimensions
+            .iter()
+            .try_fold(1_usize, |size, next| size.checked_mul(*next));
+        if size != Some(values.len()) {
+            return Err(format!("{} values, but its size is {dimensions:?}", values.len()));
+        }
+        let array = MatlabArray { dimensions, values };
+        for (place, wanted) in self.file.arrays.iter_mut().zip(self.wanted) {
+            if *wanted == path {
+                *place = Some(array.clone());
             }
-            let values = elements.next()?.numbers(self.order)?;
-            let size = dimensions
-                .iter()
-                .try_fold(1_usize, |size, next| size.checked_mul(*next));
-            if size != Some(values.len()) {
-                return Err(format!("{} values, but its size is {dimensions:?}", values.len()));
-            }
-            self.file.arrays[index] = Some(MatlabArray { dimensions, values });
-            break;
         }
         Ok(())
     }

@@ -107,6 +107,36 @@ fn a_variable_that_is_cut_off_is_named() {
     assert!(text.contains("`rec.a`") && text.contains("cut off"), "{text}");
 }
 
+#[test]
+fn a_compressed_variable_is_that_of_the_same_file() {
+    let plain = sample();
+    let mut encoder = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::default());
+    std::io::Write::write_all(&mut encoder, &plain[128..]).unwrap();
+    let packed = encoder.finish().unwrap();
+    let mut file = plain[..128].to_vec();
+    file.extend(15_u32.to_le_bytes());
+    file.extend((packed.len() as u32).to_le_bytes());
+    file.extend(&packed);
+    // The same name twice is the same array twice.
+    let wanted = ["rec.a", "rec.a"];
+    let found = read("log.mat", &file, &wanted).unwrap();
+    assert_eq!(found, read("log.mat", &plain, &wanted).unwrap());
+    assert!(found.arrays.iter().all(Option::is_some));
+    file[140] ^= 0xff;
+    let text = read("log.mat", &file, &wanted).unwrap_err().to_string();
+    assert!(text.contains("damaged") || text.contains("cut off"), "{text}");
+}
+
+#[test]
+fn sizes_beyond_all_memory_are_refused() {
+    let mut bytes = sample();
+    let size = [5, 0, 0, 0, 8, 0, 0, 0, 2, 0, 0, 0, 3, 0, 0, 0];
+    let at = bytes.windows(16).position(|window| window == size).unwrap();
+    bytes[at + 8..at + 16].fill(0x7f);
+    let text = read("log.mat", &bytes, &["rec.a"]).unwrap_err().to_string();
+    assert!(text.contains("6 values, but its size is"), "{text}");
+}
+
 proptest! {
     #[test]
     fn damaged_files_do_not_panic(edits in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6), cut in any::<prop::sample::Index>()) {
