@@ -23,8 +23,8 @@
 //! Estimation: the delay by Gauss and Newton (its derivative is the speed of the motor), all others linear. The
 //! torque is noisy, which would attenuate `c`: its instrument is the mean of the torque some samples earlier and later, whose noise is independent.
 //! Residuals are correlated in time: the covariance of independent residuals is multiplied by the number of samples that are as good as one,
-//! `1 + 2 sum r_k` up to the first autocorrelation `r_k` that is not positive. This is too large where a signal changes fast, never too
-//! small for signals slower than the residuals.
+//! `1 + 2 sum r_k` up to the first autocorrelation `r_k` that is not positive. This is too large where a signal changes fast; where residuals are
+//! errors of the model rather than noise it is an approximation (docs/theory/torsion.md, checks).
 //!
 //! Valid for rotary joints with both encoders in one clock, delays up to [`MOST_DELAY`], torsions that are linear in the torque.
 //! Sources: Söderström, Stoica, "Instrumental Variable Methods for System Identification" (1983), for the instrument; Sokal, "Monte Carlo Methods in
