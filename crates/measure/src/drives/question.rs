@@ -140,8 +140,11 @@ fn from_matlab(
             Some(array) => arrays.push(array),
             None => problems.push(Problem::of_file(
                 &file,
-                format!("there is no numeric array `{name}`"),
-                format!("its arrays: {}", listed(found)),
+                format!(
+                    "there is no numeric array `{name}`; the file has {}",
+                    listed(found)
+                ),
+                "give the paths of four of its arrays with --names",
             )),
         }
     }
