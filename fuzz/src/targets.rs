@@ -86,6 +86,7 @@ pub const TARGETS: &[Target] = &[
     target("trace", tracked::trace, fixtures::traces, &[], words::TRACE),
     target("frf", tracked::frf, tracked_fixtures::frfs, &[], words::FRF),
     target("joint-log", tracked::joint_log, tracked_fixtures::joint_logs, &[], words::JOINT_LOG),
+    target("matlab", tracked::matlab, tracked_fixtures::matlab_files, &["mat"], words::MATLAB),
     target("mesh-stl", meshes::stl, fixtures::mesh_stl, &["stl"], words::MESH_STL),
     target("mesh-obj", meshes::obj, fixtures::mesh_obj, &["obj"], words::MESH_OBJ),
     target("mesh-ply", meshes::ply, fixtures::mesh_ply, &["ply"], words::MESH_PLY),

@@ -6,7 +6,7 @@ use armill_core::calibrate;
 use armill_core::frame::Isometry;
 use armill_core::measure::path_accuracy::path_accuracy;
 use armill_core::robot::Robot;
-use armill_formats::measurement::{frf, joint_log, poses, trace};
+use armill_formats::measurement::{frf, joint_log, matlab, poses, trace};
 use armill_study::library;
 
 use crate::verdicts::refused;
@@ -84,5 +84,17 @@ pub fn frf(bytes: &[u8]) {
         assert!(own.receptance.len() == own.angular_frequencies.len() && own.weights.len() == own.angular_frequencies.len());
         assert!(own.receptance.iter().all(|h| h.re.is_finite() && h.im.is_finite()));
         assert!(own.weights.iter().all(|weight| weight.is_finite() && *weight > 0.0));
+    }
+}
+
+/// Arrays of a MATLAB file.
+pub fn matlab(bytes: &[u8]) {
+    let found = match matlab::read("log.mat", bytes, &["rec.a", "b"]) {
+        Err(problems) => return refused(&problems),
+        Ok(found) => found,
+    };
+    assert!(found.arrays.len() == 2);
+    for array in found.arrays.into_iter().flatten() {
+        assert!(array.dimensions.iter().product::<usize>() == array.values.len());
     }
 }

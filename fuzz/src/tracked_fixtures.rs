@@ -1,4 +1,4 @@
-//! Good inputs of the parsers of `tracked`: joint logs and frequency response functions.
+//! Good inputs of the parsers of `tracked`: joint logs, MATLAB files and frequency response functions.
 
 use crate::fixtures::seeds;
 
@@ -8,6 +8,27 @@ pub fn joint_logs() -> Vec<Vec<u8>> {
         "timestamp, cmd_num, J1, J2\n0, -1, 10, 87\n0.004, -1, 10.1, 87\n0.008, 2, 10.2, 86\n",
         "timestamp actual_q_0 actual_q_1 target_q_0 target_q_1\n1 0.1 0.2 0.1 0.2\n1.002 0.1 0.2 0.1 0.2\n",
     ])
+}
+
+/// A MATLAB file with one structure, and one array in it.
+pub fn matlab_files() -> Vec<Vec<u8>> {
+    let element = |code: u32, data: &[u8]| {
+        let mut bytes = [code.to_le_bytes(), (data.len() as u32).to_le_bytes()].concat();
+        bytes.extend(data);
+        bytes.resize(bytes.len().next_multiple_of(8), 0);
+        bytes
+    };
+    let head = |class: u8, columns: u8, name: &str| {
+        let dimensions = element(5, &[1, 0, 0, 0, columns, 0, 0, 0]);
+        [element(6, &[class, 0, 0, 0, 0, 0, 0, 0]), dimensions, element(1, name.as_bytes())].concat()
+    };
+    let array = element(14, &[head(6, 2, ""), element(9, &[0; 16])].concat());
+    let fields = [&[5, 0, 4, 0, 8, 0, 0, 0][..], &element(1, b"a\0\0\0\0\0\0\0")].concat();
+    let mut file = b"MATLAB 5.0 MAT-file".to_vec();
+    file.resize(124, b' ');
+    file.extend([0, 1, b'I', b'M']);
+    file.extend(element(14, &[head(2, 1, "rec"), fields, array].concat()));
+    vec![file]
 }
 
 /// FRFs as tables and as universal files.

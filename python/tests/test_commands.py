@@ -18,7 +18,7 @@ POSE = {"at_mm": [1000, 0, 800], "tilt_deg": 90, "tool_mm": [0, 0, 150], "wrench
 TYPED = ["pose", "yaskawa/mh12", "--at-mm", "1000,0,800", "--tilt-deg", "90", "--tool-mm", "0,0,150", "--wrench-n", "3,-5,5"]
 COMMANDS = [
     "robots", "materials", "pose", "posture", "place", "advise", "compare", "compensate", "identify", "calibrate", "learn", "journal", "tracker",
-    "forces", "roundness", "ballbar", "backlash", "pose_accuracy", "path_accuracy", "motion", "frf", "stability", "budget",
+    "forces", "roundness", "ballbar", "backlash", "pose_accuracy", "path_accuracy", "motion", "drives", "frf", "stability", "budget",
     "modes", "receptance",
 ]  # fmt: skip
 

@@ -99,6 +99,7 @@ fn run(command: &Command) -> Result<Outcome, StudyError> {
         Command::Backlash(backlash) => command::backlash::run(backlash),
         Command::PathAccuracy(path_accuracy) => command::path_accuracy::run(path_accuracy),
         Command::Motion(motion) => command::motion::run(motion),
+        Command::Drives(drives) => command::drives::run(drives),
         Command::Frf(frf) => command::frf::run(frf),
         Command::Receptance(receptance) => command::receptance::run(receptance),
         Command::Stability(stability) => command::stability::run(stability),

@@ -7,9 +7,9 @@
 //! robot), [`marching_squares`] (level lines and areas on a grid), [`robot`] (chain, postures), [`compliance`],
 //! [`dynamics`] (vibration), [`load`], [`stability`] (of a cut against chatter), [`source`] (sources of the deviation), [`workpiece`] and [`path`] (points), [`motion`] (speed, time, rounded corners), [`kernel`] (many
 //! points at once), [`map`] (planes, sections, volumes, the region within a tolerance),
-//! [`optimize`] (the posture along a path), [`identify`] (joint compliances from load tests), [`calibrate`] (geometry
+//! [`optimize`] (the posture along a path), `least_squares`, [`identify`] (joint compliances from load tests), [`calibrate`] (geometry
 //! from measured poses), [`learn`] (what calibration leaves), [`update`] (all measurements of an arm at once), [`measure`] (circular tests and repeated poses), [`budget`] (the error budget of
-//! a milled circle).
+//! a milled circle), [`torsion`] (of a driven joint, from both encoders and the torque).
 //!
 //! Symbols and conventions: `docs/notation.md`.
 
@@ -37,6 +37,7 @@ pub mod roundness;
 pub mod source;
 pub mod spatial;
 pub mod stability;
+pub mod torsion;
 pub mod units;
 pub mod update;
 pub mod watch;

@@ -5,12 +5,13 @@
 //! [`tracker`] makes poses of the files of a laser tracker,
 //! [`backlash`] the backlash of the joints from circular tests. [`ballbar`] evaluates circular tests, [`roundness`]
 //! round profiles, [`forces`] records of a dynamometer, [`pose_accuracy`] and [`path_accuracy`] measured poses and
-//! paths ([`path_repeatability`]: paths of which nothing is commanded), [`motion`] joint logs, [`frf`] frequency response functions. [`data_check`] searches slips in the data of each: signs, order of columns, zeros, units.
+//! paths ([`path_repeatability`]: paths of which nothing is commanded), [`motion`] joint logs, [`drives`] the torsion of joints with two encoders, [`frf`] frequency response functions. [`data_check`] searches slips in the data of each: signs, order of columns, zeros, units.
 
 pub mod backlash;
 pub mod ballbar;
 pub mod calibrate;
 pub mod data_check;
+pub mod drives;
 pub mod forces;
 pub mod frf;
 pub mod identify;

@@ -18,6 +18,7 @@
 //! | what depth and feed meet the tolerance? | [`ProcessMap`] |
 //! | up to which depth is a cut stable? | [`StabilityPlot`] |
 //! | how far does a tool move by a harmonic force? | [`FrfPlot`] |
+//! | how far does a joint twist under the torque of its motor? | [`TorsionPlot`] |
 //! | how may the tool be turned along the path; what is around a place? | [`CellMap`] |
 //! | what was measured, and what became of it? | [`ForcePlot`] |
 //! | which cell meets the tolerance? | [`Comparison`] |
@@ -52,6 +53,7 @@ mod path_plot;
 mod polar_plot;
 mod process_map;
 mod stability_plot;
+mod torsion_plot;
 mod track;
 mod vector_field;
 
@@ -118,6 +120,7 @@ pub use process_map::ProcessMap;
 pub use region::{CircleMm, RectangleMm, RegionMap};
 pub use shares::{ShareBar, ShareBars};
 pub use stability_plot::StabilityPlot;
+pub use torsion_plot::{TorsionPanel, TorsionPlot};
 pub use track::{Stretch, TrackMap};
 pub use vector_field::{Arrow, ArrowCase, VectorField};
 pub use wave_bars::{WaveBar, WaveBars};

@@ -1,7 +1,7 @@
 //! Predictions held against measurements of real arms: the page *Measured*, `docs/measured.md`.
 //!
 //! In reading order: [`comparison`] (errors of one model on one set), [`samples`] (the folder of the measurements), `poses` (of arms, by three models), [`page`].
-//! Each set is a folder of `validation/measured/`: `README.md` says what was measured, what was predicted without it, and what
+//! Sets: `fanuc_load_tests`, `drilled_holes`, `ur10_tracker`, `tx90l_tracker`, `irb120_tracker`, `irb6640_logs`. Each is a folder of `validation/measured/`: `README.md` says what was measured, what was predicted without it, and what
 //! explains the rest; `set.rs` computes the rows of its table.
 //!
 //! The measurements are not part of this repository. They are found in the folder that `ARMILL_SAMPLES` names; without it the

@@ -1,7 +1,7 @@
 //! Arguments of `armill`: one file per command, with the same name as in `command`.
 //!
 //! `run`, `check`, `compare`, `new`, `robots`, `materials`, `pose`, `posture`, `place`, `advise`, `compensate`,
-//! `identify`, `calibrate`, `learn`, `journal`, `tracker`, `forces`, `roundness`, `ballbar`, `backlash`, `budget`, `pose_accuracy`, `path_accuracy`, `motion`, `frf`, `modes`, `receptance`,
+//! `identify`, `calibrate`, `learn`, `journal`, `tracker`, `forces`, `roundness`, `ballbar`, `backlash`, `budget`, `pose_accuracy`, `path_accuracy`, `motion`, `drives`, `frf`, `modes`, `receptance`,
 //! `stability`, `serve`, `completions`, `man`; `poses` and `program` are used by two of them each, `writing` by all that write
 //! files.
 //!
@@ -21,6 +21,7 @@ mod check;
 mod compare;
 mod compensate;
 mod completions;
+mod drives;
 mod forces;
 mod frf;
 mod identify;
@@ -57,6 +58,7 @@ pub(crate) use check::CheckArguments;
 pub(crate) use compare::CompareArguments;
 pub(crate) use compensate::CompensateArguments;
 pub(crate) use completions::CompletionsArguments;
+pub(crate) use drives::DrivesArguments;
 pub(crate) use forces::ForcesArguments;
 pub(crate) use frf::FrfArguments;
 pub(crate) use identify::{IdentifyArguments, PointsArgument, PriorArgument};
@@ -65,7 +67,7 @@ pub(crate) use learn::{LearnArguments, LearnUnknownsArgument};
 pub(crate) use man::ManArguments;
 pub(crate) use materials::MaterialsArguments;
 pub(crate) use modes::ModesArguments;
-pub(crate) use motion::{AngleUnitArgument, MotionArguments, TimeUnitArgument};
+pub(crate) use motion::MotionArguments;
 pub(crate) use new::NewArguments;
 pub(crate) use path_accuracy::PathAccuracyArguments;
 pub(crate) use place::{PlaceArguments, PlaceOptions};
@@ -152,6 +154,8 @@ pub(crate) enum Command {
     PathAccuracy(PathAccuracyArguments),
     /// Learn from joint logs how a controller moves an arm: accelerations, smoothing, lag, zones
     Motion(MotionArguments),
+    /// Determine delay, torsion and stiffness of drives from motor encoders, link encoders and torques
+    Drives(DrivesArguments),
     /// Determine the modes of a tool or an arm from measured frequency response functions
     Frf(FrfArguments),
     /// Predict the receptance at the tip of a tool: arm, holder and cutter coupled
@@ -202,6 +206,7 @@ impl Command {
             Command::PoseAccuracy(a) => a.json,
             Command::PathAccuracy(a) => a.json,
             Command::Motion(a) => a.json,
+            Command::Drives(a) => a.json,
             Command::Frf(a) => a.json,
             Command::Receptance(a) => a.json,
             Command::Stability(a) => a.json,

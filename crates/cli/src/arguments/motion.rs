@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use armill_formats::measurement::joint_log::{AngleUnit, TimeUnit};
 use clap::{Args, ValueEnum};
 
 use super::robots::ROBOT_HELP;
@@ -66,4 +67,24 @@ pub(crate) enum AngleUnitArgument {
     Deg,
     /// Radians
     Rad,
+}
+
+impl From<TimeUnitArgument> for TimeUnit {
+    fn from(unit: TimeUnitArgument) -> TimeUnit {
+        match unit {
+            TimeUnitArgument::S => TimeUnit::Second,
+            TimeUnitArgument::Ms => TimeUnit::Millisecond,
+            TimeUnitArgument::Us => TimeUnit::Microsecond,
+            TimeUnitArgument::Ns => TimeUnit::Nanosecond,
+        }
+    }
+}
+
+impl From<AngleUnitArgument> for AngleUnit {
+    fn from(unit: AngleUnitArgument) -> AngleUnit {
+        match unit {
+            AngleUnitArgument::Deg => AngleUnit::Degree,
+            AngleUnitArgument::Rad => AngleUnit::Radian,
+        }
+    }
 }

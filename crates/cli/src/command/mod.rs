@@ -2,7 +2,7 @@
 //!
 //! One file per command: `run`, `check`, `compare`, `new`, `robots` (a folder, for its subcommands), `materials`,
 //! `pose` (`pose_subject`: a robot, or the cell of a study), `posture`, `place`, `advise`, `compensate`, `identify`, `calibrate`, `learn`, `journal`, `tracker`, `forces`, `roundness`, `ballbar`,
-//! `backlash`, `budget`, `pose_accuracy`, `path_accuracy`, `motion`, `frf`, `modes`, `receptance`, `stability`, `serve`, `completions`, `man`. `poses`: options of measured
+//! `backlash`, `budget`, `pose_accuracy`, `path_accuracy`, `motion`, `drives`, `frf`, `modes`, `receptance`, `stability`, `serve`, `completions`, `man`. `poses`: options of measured
 //! poses. `program`: options of a robot program. `drawing`: writes requested pictures.
 //!
 //! Each command has one function `run(&Arguments) -> Result<Outcome, StudyError>`: it finds robot or study,
@@ -20,6 +20,7 @@ pub(crate) mod check;
 pub(crate) mod compare;
 pub(crate) mod compensate;
 pub(crate) mod completions;
+pub(crate) mod drives;
 pub(crate) mod forces;
 pub(crate) mod frf;
 pub(crate) mod identify;

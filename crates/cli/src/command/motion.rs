@@ -8,13 +8,13 @@
 //! ```
 
 use armill_core::units::from_mm;
-use armill_formats::measurement::joint_log::{AngleUnit, LogReadOptions, TimeUnit};
+use armill_formats::measurement::joint_log::LogReadOptions;
 use armill_measure::motion::answer::{ComparedAnswer, CornerAnswer, JointAnswer, MoveAnswer, ValueAnswer};
 use armill_measure::motion::{MotionAnswer, Question, answer, learn, read, robot_file};
 use armill_study::{StudyError, robots};
 
+use crate::arguments::MotionArguments;
 use crate::arguments::numbers::{finite, three, within};
-use crate::arguments::{AngleUnitArgument, MotionArguments, TimeUnitArgument};
 use crate::outcome::Outcome;
 use crate::terminal::{print, say};
 
@@ -55,16 +55,8 @@ fn question(arguments: &MotionArguments) -> Result<Question, StudyError> {
     let zones = arguments.zone_mm.iter();
     Ok(Question {
         units: LogReadOptions {
-            time: arguments.time_unit.map(|unit| match unit {
-                TimeUnitArgument::S => TimeUnit::Second,
-                TimeUnitArgument::Ms => TimeUnit::Millisecond,
-                TimeUnitArgument::Us => TimeUnit::Microsecond,
-                TimeUnitArgument::Ns => TimeUnit::Nanosecond,
-            }),
-            angle: arguments.angle_unit.map(|unit| match unit {
-                AngleUnitArgument::Deg => AngleUnit::Degree,
-                AngleUnitArgument::Rad => AngleUnit::Radian,
-            }),
+            time: arguments.time_unit.map(Into::into),
+            angle: arguments.angle_unit.map(Into::into),
         },
         tip: match &arguments.tool_mm {
             Some(tool) => Some(from_mm(three("--tool-mm", tool)?)),

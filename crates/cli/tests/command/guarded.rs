@@ -473,6 +473,7 @@ fn help_of_every_writing_command_describes_force() {
         &["backlash"],
         &["path-accuracy"],
         &["motion"],
+        &["drives"],
         &["frf"],
         &["receptance"],
         &["stability"],

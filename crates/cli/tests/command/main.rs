@@ -22,6 +22,7 @@ mod clearance;
 mod compare;
 mod compensate;
 mod documents;
+mod drives;
 mod forces;
 mod frf;
 mod guarded;

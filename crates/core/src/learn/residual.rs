@@ -9,9 +9,8 @@ use super::evidence::Evidence;
 use super::search::minimum;
 use crate::calibrate::{Calibrated, MeasuredPose, Refusal};
 use crate::robot::Robot;
-use crate::robot::learnt::{
-    Learnt, LearntAxes, LearntError, LearntSettings, MOST_POSES, ResidualAt, components,
-};
+use crate::robot::learnt::{Learnt, LearntAxes, LearntError, LearntSettings, MOST_POSES, ResidualAt};
+use crate::robot::learnt_of_robot::components;
 
 /// Most poses that decide the settings: each comparison takes the third power of their number.
 pub const MOST_FOR_SETTINGS: usize = 300;

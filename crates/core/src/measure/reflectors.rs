@@ -17,9 +17,10 @@
 //! to their plane. Source: W. Kabsch, A solution for the best rotation to relate two sets of vectors, Acta Cryst. A32, 1976; median absolute deviation:
 //! P. Rousseeuw and C. Croux, Alternatives to the median absolute deviation, J. Am. Stat. Assoc. 88, 1993.
 
-use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+use nalgebra::Vector3;
 
 use crate::frame::Isometry;
+use crate::least_squares::superposed;
 
 /// Distances that deviate by more than this many robust standard deviations are wrong.
 const FAR: f64 = 8.0;
@@ -69,7 +70,7 @@ pub struct Misreading {
 
 /// Why there is no body.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum NoBody {
+pub enum BodyError {
     /// No readings.
     #[error("there are no readings")]
     Empty,
@@ -88,18 +89,18 @@ impl Body {
     /// The body with these readings.
     ///
     /// # Errors
-    /// See [`NoBody`].
-    pub fn of(readings: &[Readings]) -> Result<Body, NoBody> {
+    /// See [`BodyError`].
+    pub fn of(readings: &[Readings]) -> Result<Body, BodyError> {
         for (pose, three) in readings.iter().enumerate() {
             if let Some(reflector) = three
                 .iter()
                 .position(|one| !one.iter().all(|part| part.is_finite()))
             {
-                return Err(NoBody::NotFinite(pose, reflector));
+                return Err(BodyError::NotFinite(pose, reflector));
             }
         }
         if readings.is_empty() {
-            return Err(NoBody::Empty);
+            return Err(BodyError::Empty);
         }
         let distances = PAIRS.map(|([a, b], _)| -> Vec<f64> {
             readings
@@ -119,14 +120,14 @@ impl Body {
         };
         let apart = (0..3).find(|pair| spread[*pair] > FLEXIBLE * middle[*pair] + LEAST);
         if let Some(pair) = apart {
-            return Err(NoBody::NotRigid(spread[pair]));
+            return Err(BodyError::NotRigid(spread[pair]));
         }
-        let triangle = triangle(middle).ok_or(NoBody::Line)?;
+        let triangle = triangle(middle).ok_or(BodyError::Line)?;
         let states: Vec<State> = (0..readings.len()).map(|pose| State::of(wrong(pose))).collect();
         let first = states
             .iter()
             .position(|state| *state == State::Whole)
-            .ok_or(NoBody::NotRigid(spread[0]))?;
+            .ok_or(BodyError::NotRigid(spread[0]))?;
         let mut body = Body {
             triangle,
             poses: Vec::with_capacity(readings.len()),
@@ -210,34 +211,6 @@ pub fn referred_to(base: &Body, body: &[Isometry]) -> Vec<Isometry> {
     both.map(|(base, body)| first * base.inverse() * body).collect()
 }
 
-/// The displacement and rotation that brings `from` nearest to `to`, by weighted least squares.
-pub(crate) fn superposed(from: &[Vector3<f64>], to: &[Vector3<f64>], weights: &[f64]) -> Isometry {
-    let whole: f64 = weights.iter().sum();
-    let mean = |points: &[Vector3<f64>]| {
-        let sum: Vector3<f64> = points
-            .iter()
-            .zip(weights)
-            .map(|(point, weight)| point * *weight)
-            .sum();
-        sum / whole
-    };
-    let (here, there) = (mean(from), mean(to));
-    let mut spread = Matrix3::zeros();
-    for ((from, to), weight) in from.iter().zip(to).zip(weights) {
-        spread += (to - there) * (from - here).transpose() * *weight;
-    }
-    let parts = spread.svd(true, true);
-    let turn = match (parts.u, parts.v_t) {
-        (Some(u), Some(v_t)) => {
-            let side = (u * v_t).determinant().signum();
-            u * Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, side)) * v_t
-        }
-        _ => Matrix3::identity(),
-    };
-    let turn = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(turn));
-    Isometry::from_parts((there - turn * here).into(), turn)
-}
-
 fn placed(triangle: &Readings, readings: &Readings, weights: [f64; 3]) -> Isometry {
     superposed(triangle, readings, &weights)
 }
@@ -246,7 +219,7 @@ fn placed(triangle: &Readings, readings: &Readings, weights: [f64; 3]) -> Isomet
 fn triangle([c, b, a]: [f64; 3]) -> Option<Readings> {
     let x = (b * b + c * c - a * a) / (2.0 * c);
     let height = (b * b - x * x).sqrt();
-    if !(height > 1e-6 * b) {
+    if height.is_nan() || height <= 1e-6 * b {
         return None;
     }
     let corners = [
@@ -369,7 +342,7 @@ mod tests {
     }
 
     #[test]
-    fn a_drifting_reflector_is_told_from_a_base_that_moves() {
+    fn a_drifting_reflector_is_distinguished_from_a_base_that_moves() {
         let (_, three) = readings(1);
         let mut noise = Stream(3);
         let mut at = |count: usize, moved: &dyn Fn(f64) -> [Vector3<f64>; 3]| -> Vec<Readings> {
@@ -402,17 +375,17 @@ mod tests {
     #[test]
     fn readings_that_are_no_body_are_refused() {
         let (_, mut three) = readings(10);
-        assert_eq!(Body::of(&[]).unwrap_err(), NoBody::Empty);
+        assert_eq!(Body::of(&[]).unwrap_err(), BodyError::Empty);
         three[3][1].z = f64::NAN;
-        assert_eq!(Body::of(&three).unwrap_err(), NoBody::NotFinite(3, 1));
+        assert_eq!(Body::of(&three).unwrap_err(), BodyError::NotFinite(3, 1));
         let line: Vec<Readings> = (0..5)
             .map(|_| [0.0, 1.0, 2.0].map(|x| Vector3::new(x, 0.0, 0.0)))
             .collect();
-        assert_eq!(Body::of(&line).unwrap_err(), NoBody::Line);
+        assert_eq!(Body::of(&line).unwrap_err(), BodyError::Line);
         let mut next = Stream(1);
         let apart: Vec<Readings> = (0..9)
             .map(|_| [next.vector(1.0), next.vector(1.0), next.vector(1.0)])
             .collect();
-        assert!(matches!(Body::of(&apart), Err(NoBody::NotRigid(_))));
+        assert!(matches!(Body::of(&apart), Err(BodyError::NotRigid(_))));
     }
 }

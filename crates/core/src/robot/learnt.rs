@@ -24,9 +24,6 @@ use std::sync::Arc;
 
 use nalgebra::{Rotation3, Unit, Vector3};
 
-use super::Robot;
-use super::forward::forward;
-
 /// Most poses of a learnt residual: an evaluation takes their square.
 pub const MOST_POSES: usize = 2000;
 /// Largest residual, m: a larger one is not of an arm that has been calibrated.
@@ -55,11 +52,23 @@ impl LearntAxes {
     }
 }
 
-/// Components of the residuals of `robot` along these axes, m.
-pub(crate) fn components(robot: &Robot, poses: &[ResidualAt], axes: LearntAxes) -> Vec<Vector3<f64>> {
-    let first = first_joint(robot);
-    let along = |pose: &ResidualAt| axes.at(first, &pose.joints).inverse() * pose.residual;
-    poses.iter().map(along).collect()
+/// What the process needs of the kinematics of an arm.
+#[derive(Clone, Debug)]
+pub(super) struct LearntKinematics {
+    /// Whether each joint is prismatic.
+    pub slides: Vec<bool>,
+    /// The first joint, if it turns.
+    pub first: Option<FirstJoint>,
+    /// Whether the arm stands on its base, without links before the first joint that move.
+    pub is_on_base: bool,
+}
+
+impl LearntKinematics {
+    /// Components of the residuals along these axes, m.
+    pub fn components(&self, poses: &[ResidualAt], axes: LearntAxes) -> Vec<Vector3<f64>> {
+        let along = |pose: &ResidualAt| axes.at(self.first, &pose.joints).inverse() * pose.residual;
+        poses.iter().map(along).collect()
+    }
 }
 
 /// The settings of a Gaussian process.
@@ -139,9 +148,9 @@ pub struct Learnt {
 
 /// A revolute first joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct FirstJoint {
-    axis: Unit<Vector3<f64>>,
-    sign: f64,
+pub(super) struct FirstJoint {
+    pub axis: Unit<Vector3<f64>>,
+    pub sign: f64,
 }
 
 /// The residual in a posture.
@@ -154,17 +163,17 @@ pub struct LearntResidual {
 }
 
 impl Learnt {
-    /// The process with these settings, given these residuals of `robot`.
-    ///
-    /// # Errors
-    /// See [`LearntError`].
-    pub fn new(robot: &Robot, poses: &[ResidualAt], settings: LearntSettings) -> Result<Learnt, LearntError> {
-        check(robot, poses, &settings)?;
+    /// The process with these settings, given these residuals of an arm with these kinematics.
+    pub(super) fn of(
+        arm: LearntKinematics,
+        poses: &[ResidualAt],
+        settings: LearntSettings,
+    ) -> Result<Learnt, LearntError> {
+        check(&arm, poses, &settings)?;
+        let y = arm.components(poses, settings.axes);
         let mut learnt = Learnt {
-            slides: (0..robot.joints().len())
-                .map(|joint| robot.slides(joint))
-                .collect(),
-            first: first_joint(robot),
+            slides: arm.slides,
+            first: arm.first,
             features: Arc::default(),
             width: 0,
             factor: Arc::default(),
@@ -179,7 +188,6 @@ impl Learnt {
         }
         learnt.width = features.len() / poses.len();
         learnt.features = Arc::new(features);
-        let y = components(robot, poses, learnt.settings.axes);
         learnt.factor = Arc::new(learnt.factor_of(poses.len()));
         let mut weights = y.clone();
         learnt.solve_lower(&mut weights);
@@ -344,25 +352,12 @@ fn squared_distance(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum()
 }
 
-fn first_joint(robot: &Robot) -> Option<FirstJoint> {
-    let (joint, link) = (robot.joints().first()?, robot.chain().links().first()?);
-    let super::Motion::About(axis, _) = link.motion else {
-        return None;
-    };
-    let rest = vec![0.0; robot.joints().len()];
-    let base_from_joint = *forward(robot, &rest).base_from_joint.first()?;
-    Some(FirstJoint {
-        axis: Unit::new_normalize(base_from_joint.rotation * axis.unit()),
-        sign: joint.sign.factor(),
-    })
-}
-
 /// Range of length scales and scatter.
 const SETTINGS: std::ops::RangeInclusive<f64> = 1e-3..=1e4;
 
-fn check(robot: &Robot, poses: &[ResidualAt], settings: &LearntSettings) -> Result<(), LearntError> {
-    let joints = robot.joints().len();
-    if !robot.chain().ground().is_base() {
+fn check(arm: &LearntKinematics, poses: &[ResidualAt], settings: &LearntSettings) -> Result<(), LearntError> {
+    let joints = arm.slides.len();
+    if !arm.is_on_base {
         return Err(LearntError::Ground);
     }
     if settings.lengths.len() != joints {

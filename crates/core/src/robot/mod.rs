@@ -2,7 +2,7 @@
 //!
 //! In reading order: [`chain`] (elementary motions and their inner form), [`joint`] (limits, signs, zeros, compliance),
 //! [`structure_error`] (why a structure is not valid), [`spring`], [`compensator`] (and masses), [`motor`], [`damping`], [`torque_curve`], [`backlash`],
-//! [`learnt`] (what the model leaves of measured positions),
+//! [`learnt`] (what the model leaves of measured positions; `learnt_of_robot`: of a robot),
 //! [`structure`] (the parts other than drives), [`ground`] (the link that does not move), [`model`] (the robot as one
 //! value), [`positioner`] (an arm and the positioner of the part as one chain), [`hand`] (an arm that holds the part), [`forward`] (joint positions to frames), [`jacobian`] (screws at the tool), `forward_of_eight` (both for eight postures at once, along the chain by
 //! `frame_in_lanes`), [`deflected_arm`] (frames and screws of the deflected arm), [`branch`] and [`posture`] (the
@@ -25,6 +25,7 @@ pub mod inverse;
 pub mod jacobian;
 pub mod joint;
 pub mod learnt;
+pub(crate) mod learnt_of_robot;
 pub mod model;
 pub mod motor;
 pub mod positioner;

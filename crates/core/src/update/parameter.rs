@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | small motion after a joint | normal, m or rad | zero, with the standard deviation of arms of this kind |
 //! | compliance of a drive | its logarithm is normal | value of the robot file and its uncertainty; without them the typical prior of [`identify`](crate::identify::prior) |
-//! | backlash of a joint | its logarithm is normal | likewise; lost motion of reducers |
+//! | backlash of a joint | its logarithm is normal | value of the robot file and its uncertainty; without them the lost motion of reducers |
 
 use crate::calibrate::{self, ParameterLocation, ParameterSet, Unknown, unknowns};
 use crate::identify::prior::{LogPrior, typical};

@@ -87,7 +87,7 @@ impl Work {
     pub(super) fn derivatives(&self, robot: &Robot, knowledge: &[Knowledge]) -> DMatrix<f64> {
         let rows = self.rows(robot, knowledge);
         let all = rows.columns(0, knowledge.len());
-        &all - &self.rigid * self.rigid.tr_mul(&all)
+        all - &self.rigid * self.rigid.tr_mul(&all)
     }
 
     /// Root mean square over the points of the standard uncertainty of the deviation (of its length), m, with this covariance of `knowledge`.

@@ -200,7 +200,7 @@ impl<'a> Table<'a> {
         }
         let whole = 0..line.text.len();
         let mut report = |message: String, hint: &str| {
-            problems.push(line.problem(self.path, whole.clone(), message, hint))
+            problems.push(line.problem(self.path, whole.clone(), message, hint));
         };
         if position.norm() > FARTHEST {
             report("the position is beyond 10 km".to_owned(), "is the unit right?");

@@ -14,6 +14,7 @@
 //! - [`conditions`]: loads and directions of motion at points of a path.
 //! - [`journal`]: all measurements of one arm, with their days and temperatures.
 //! - [`frf`]: frequency response functions of a modal test.
+//! - [`matlab`]: numeric arrays of MATLAB files.
 //!
 //! Force records are [`Record`](armill_core::load::Record)s in the axes of the sensor. Whether the force acts on the
 //! tool or on the part, and how the sensor is oriented, is not in any file: the caller gives it.
@@ -32,6 +33,7 @@ pub mod frf;
 pub mod joint_log;
 pub mod journal;
 pub mod load_tests;
+pub mod matlab;
 pub mod numbers;
 pub mod poses;
 pub mod profile;

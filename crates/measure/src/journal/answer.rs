@@ -11,9 +11,9 @@ use super::learning::{Learning, is_loaded};
 use super::measurements::Measurements;
 use super::output::DETERMINED;
 
-/// Temperatures further apart than this are told, K.
+/// Temperatures further apart than this are noted, K.
 const SAME_TEMPERATURE: f64 = 5.0;
-/// A scatter of more than this many stated uncertainties is told.
+/// A scatter of more than this many stated uncertainties is noted.
 const LARGE_SCALE: f64 = 2.0;
 
 /// What the measurements of a journal say.

@@ -1,7 +1,7 @@
 //! The files of a journal, as campaigns of the core.
 
 use std::io::BufReader;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use armill_core::frame::Isometry;
 use armill_core::robot::Robot;
@@ -91,7 +91,7 @@ fn campaign(
     robot: &Robot,
     journal: &Journal,
     entry: &Entry,
-    path: &PathBuf,
+    path: &Path,
     unused: &mut Vec<String>,
 ) -> Result<Campaign, StudyError> {
     let shown = path.display().to_string();

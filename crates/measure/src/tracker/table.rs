@@ -29,7 +29,7 @@ pub fn table(robot: &Robot, poses: &[MeasuredPose]) -> String {
         let at = to_mm(pose.position);
         let _ = write!(text, "{:.6},{:.6},{:.6}", at.x, at.y, at.z);
         if let Some(rotation) = pose.rotation.filter(|_| turned) {
-            let angles = fixed_angles(&rotation).map(|angle| to_deg(angle));
+            let angles = fixed_angles(&rotation).map(to_deg);
             let _ = write!(text, ",{:.8},{:.8},{:.8}", angles.x, angles.y, angles.z);
         }
         text.push('\n');

@@ -1,7 +1,7 @@
 //! One measured pose for each row of the files.
 
 use armill_core::calibrate::MeasuredPose;
-use armill_core::measure::reflectors::{Body, NoBody, referred_to};
+use armill_core::measure::reflectors::{Body, BodyError, referred_to};
 use armill_core::nalgebra::{UnitQuaternion, Vector3};
 use armill_core::robot::Robot;
 use armill_study::StudyError;
@@ -46,7 +46,7 @@ pub fn together(robot: &Robot, files: &Files) -> Result<Together, StudyError> {
         }
         [a, b, c] => {
             let three = reflectors(&[a.clone(), b.clone(), c.clone()])?;
-            let tool = Body::of(&three).map_err(|error| no_body("the reflectors of the tool", error))?;
+            let tool = Body::of(&three).map_err(|error| not_a_body("the reflectors of the tool", error))?;
             let poses = tool
                 .poses
                 .iter()
@@ -71,7 +71,7 @@ pub fn together(robot: &Robot, files: &Files) -> Result<Together, StudyError> {
             ]
             .into_iter(),
         )?;
-        let base = Body::of(&three).map_err(|error| no_body("the reflectors of the base", error))?;
+        let base = Body::of(&three).map_err(|error| not_a_body("the reflectors of the base", error))?;
         placed = referred(&base, &placed);
         found.base = Some(base);
     }
@@ -120,7 +120,7 @@ fn referred(
     moved.into_iter().zip(placed).map(back).collect()
 }
 
-fn no_body(what: &str, error: NoBody) -> StudyError {
+fn not_a_body(what: &str, error: BodyError) -> StudyError {
     StudyError::value(
         format!("{what}: {error}"),
         "three files in one order of rows, mm; the same reflector in the same file",

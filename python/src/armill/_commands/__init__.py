@@ -10,6 +10,7 @@ from armill._commands.libraries import materials, modes, pose, receptance, robot
 from armill._commands.measurements import (
     ballbar,
     calibrate,
+    drives,
     forces,
     frf,
     identify,
@@ -32,6 +33,7 @@ __all__ = [
     "command_help",
     "compare",
     "compensate",
+    "drives",
     "forces",
     "frf",
     "identify",

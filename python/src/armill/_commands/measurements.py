@@ -250,6 +250,24 @@ def motion(
 
 
 @command
+def drives(
+    log: TableLike,
+    *,
+    names: Sequence[str] | str | None = None,
+    gear: npt.ArrayLike | None = None,
+    compare: TableLike | None = None,
+    time_unit: Literal["s", "ms", "us", "ns"] | None = None,
+    angle_unit: Literal["deg", "rad"] | None = None,
+    drawing: Path | None = None,
+    force: bool = False,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> Answer:
+    """log of both encoders and torques -> Answer: delay, torsion and stiffness of the drives."""
+    return call("drives", [log], locals())
+
+
+@command
 def frf(
     *files: TableLike,
     band_hz: npt.ArrayLike | None = None,

@@ -17,6 +17,10 @@ pub(super) enum Meaning {
     Actual(usize),
     /// Commanded position of a joint, from 0.
     Commanded(usize),
+    /// Position of a link encoder.
+    Link(usize),
+    /// Torque of a motor.
+    Torque(usize),
     /// Number of the move.
     Move,
 }
@@ -49,10 +53,38 @@ enum Named {
 enum Role {
     Actual,
     Commanded,
+    Link,
+    Torque,
+}
+
+impl Role {
+    const ALL: [Role; 4] = [Role::Actual, Role::Commanded, Role::Link, Role::Torque];
+
+    fn meaning(self, joint: usize) -> Meaning {
+        match self {
+            Role::Actual => Meaning::Actual(joint),
+            Role::Commanded => Meaning::Commanded(joint),
+            Role::Link => Meaning::Link(joint),
+            Role::Torque => Meaning::Torque(joint),
+        }
+    }
+
+    /// What its columns are.
+    fn described(self) -> &'static str {
+        match self {
+            Role::Actual => "actual positions",
+            Role::Commanded => "commanded positions",
+            Role::Link => "positions of the link encoders",
+            Role::Torque => "torques",
+        }
+    }
 }
 
 /// Words before the name of a joint, with the unit that the interface defines.
-const ROLES: [(&str, Role, Option<AngleUnit>); 17] = [
+const ROLES: [(&str, Role, Option<AngleUnit>); 20] = [
+    ("motor", Role::Actual, None),
+    ("link", Role::Link, None),
+    ("torque", Role::Torque, None),
     ("actual", Role::Actual, None),
     ("act", Role::Actual, None),
     ("measured", Role::Actual, None),
@@ -93,6 +125,11 @@ fn named(name: &str) -> Option<Named> {
         }
         _ => {}
     }
+    // Torques: `torque_j1_nm`.
+    let words = match words[..] {
+        ["torque", ref rest @ .., "nm"] => [&["torque"], rest].concat(),
+        _ => words,
+    };
     let unit = words.last().and_then(|word| word.parse::<AngleUnit>().ok());
     let words = &words[..words.len() - usize::from(unit.is_some())];
     let (role, own, rest) = match words.split_first() {
@@ -116,7 +153,8 @@ fn named(name: &str) -> Option<Named> {
     if !matches!(letters, "j" | "a" | "q" | "joint" | "axis" | "achse") || digits.len() > 2 {
         return None;
     }
-    Some(Named::Joint(role, digits.parse().ok()?, unit.or(own)))
+    let angle = unit.or(own).filter(|_| role != Role::Torque);
+    Some(Named::Joint(role, digits.parse().ok()?, angle))
 }
 
 impl Columns {
@@ -128,7 +166,7 @@ impl Columns {
         path: &str,
         header: &Line,
         names: Vec<Cell<'_>>,
-        joints: usize,
+        joints: Option<usize>,
     ) -> Result<Columns, Problems> {
         let found: Vec<Option<Named>> = names.iter().map(|cell| named(&cell.text)).collect();
         let numbers = |role: Role| -> BTreeSet<usize> {
@@ -139,7 +177,9 @@ impl Columns {
             })
             .collect()
         };
-        let roles = [Role::Actual, Role::Commanded].map(|role| (role, numbers(role)));
+        let roles = Role::ALL.map(|role| (role, numbers(role)));
+        let joints =
+            joints.unwrap_or_else(|| roles.iter().map(|(_, numbers)| numbers.len()).max().unwrap_or(0));
         let first = |role: Role| numbers(role).first().copied().unwrap_or(0);
         let mut columns = Columns {
             meanings: Vec::new(),
@@ -153,10 +193,7 @@ impl Columns {
             let meaning = named.map(|named| match named {
                 Named::Time(_) => Meaning::Time,
                 Named::Move => Meaning::Move,
-                Named::Joint(Role::Actual, number, _) => Meaning::Actual(number - first(Role::Actual)),
-                Named::Joint(Role::Commanded, number, _) => {
-                    Meaning::Commanded(number - first(Role::Commanded))
-                }
+                Named::Joint(role, number, _) => role.meaning(number - first(role)),
             });
             let mut refuse = |message: String, hint: &str| {
                 problems.push(header.problem(path, cell.span.clone(), message, hint));
@@ -192,7 +229,7 @@ impl Columns {
         if !columns.has(Meaning::Time) {
             problems.push(header.problem(path, whole.clone(), "no column gives the time", HINT));
         }
-        if roles.iter().all(|(_, numbers)| numbers.is_empty()) {
+        if numbers(Role::Actual).is_empty() && numbers(Role::Commanded).is_empty() {
             problems.push(header.problem(path, whole.clone(), "no column is the position of a joint", HINT));
         }
         for (role, numbers) in &roles {
@@ -200,13 +237,10 @@ impl Columns {
             let Some((first, last)) = range else { continue };
             let fits = numbers.len() == joints && last - first + 1 == joints && *first <= 1;
             if !fits {
-                let role = match role {
-                    Role::Actual => "actual",
-                    Role::Commanded => "commanded",
-                };
                 let shown: Vec<String> = numbers.iter().map(ToString::to_string).collect();
                 let message = format!(
-                    "{role} positions of the joints {}, but the robot has {joints} joints",
+                    "{} of the joints {}, but the robot has {joints} joints",
+                    role.described(),
                     shown.join(", ")
                 );
                 let hint = "give one column for each joint, numbered from 0 or from 1";

@@ -50,8 +50,12 @@ pub(super) fn convert(
                 "name the column `time_s`, `time_ms`, `time_us` or `time_ns`, or give the option --time-unit",
             )
         });
-    let largest = (log.positions.iter().chain(log.commanded.iter().flatten()))
-        .fold(0.0, |most: f64, value| most.max(value.abs()));
+    let largest = (log
+        .positions
+        .iter()
+        .chain(log.commanded.iter().flatten())
+        .chain(log.link.iter().flatten()))
+    .fold(0.0, |most: f64, value| most.max(value.abs()));
     let angle = columns
         .angle
         .or(given.angle)
@@ -75,6 +79,7 @@ pub(super) fn convert(
             };
             log.positions.iter_mut().for_each(to_rad);
             log.commanded.iter_mut().flatten().for_each(to_rad);
+            log.link.iter_mut().flatten().for_each(to_rad);
             let duration = log.times[log.times.len() - 1];
             if duration > LONGEST {
                 problems.push(refuse(

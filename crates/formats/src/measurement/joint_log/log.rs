@@ -30,6 +30,10 @@ pub struct JointLog {
     pub positions: Vec<f64>,
     /// Commanded positions, rad, instant after instant, of a log that has both.
     pub commanded: Option<Vec<f64>>,
+    /// Positions of the link encoders, rad, instant after instant, of a log that has them.
+    pub link: Option<Vec<f64>>,
+    /// Torques of the motors, N m, instant after instant, of a log that has them.
+    pub torque: Option<Vec<f64>>,
     /// Number of the move at each instant.
     pub moves: Option<Vec<i64>>,
     /// Line of each instant, from 1.

@@ -5,6 +5,8 @@
 //! | time | `t`, `time`, `timestamp`, `IPOC` | `_s`, `_ms`, `_us`, `_ns`; `IPOC` (RSI) ms |
 //! | actual position | `J1`, `A1`, `q1`, `joint_1`; `actual_q_0` (RTDE); `AIPos.A1` (RSI); `fb_j1` (EGM) | `_deg`, `_rad`; RTDE rad, RSI and EGM deg |
 //! | commanded position | `target_q_0` (RTDE); `ASPos.A1` (RSI); `planned_j1` (EGM); `cmd_j1`, `set_j1` | the same |
+//! | position of the link encoder | `link_j1`, `link_A1`; the motor encoder, reduced to the joint, is the actual position (`motor_j1`) | the same |
+//! | torque of the motor | `torque_j1`, `torque_A1` | N m, `_nm` |
 //! | move | `cmd_num`, `move`, `segment` | whole number |
 //!
 //! One row per instant. Cells are separated by `;`, tab, `,` or blanks. Units may also be in brackets: `J1 [deg]`. Joints are numbered
@@ -35,7 +37,7 @@ const MOST_ROWS: usize = 2_000_000;
 /// Maximum absolute value of a cell, in its own unit.
 const LARGEST: f64 = 1e19;
 
-/// Reads the log in `reader` of an arm with `joints` joints. `path` is the file name shown in problems.
+/// Reads the log in `reader` of an arm with `joints` joints; `None`: as many as the log has. `path` is the file name shown in problems.
 ///
 /// # Errors
 /// All problems of the file, at most 200: missing or duplicate columns, units that are not known, cells that are not finite numbers, rows of
@@ -43,7 +45,7 @@ const LARGEST: f64 = 1e19;
 pub fn read(
     path: &str,
     reader: impl BufRead,
-    joints: usize,
+    joints: impl Into<Option<usize>>,
     given: LogReadOptions,
 ) -> Result<JointLog, Problems> {
     let mut lines = Lines::new(path, reader);
@@ -51,11 +53,13 @@ pub fn read(
         return Err(Problem::of_file(path, "the file has no instants", HINT).into());
     };
     let separator = separator(&header.text);
-    let columns = Columns::of(path, &header, split(&header.text, separator), joints)?;
+    let columns = Columns::of(path, &header, split(&header.text, separator), joints.into())?;
     let mut log = JointLog {
-        joints,
+        joints: columns.joints,
         unused: columns.unused.clone(),
         commanded: columns.has_both().then(Vec::new),
+        link: columns.has(Meaning::Link(0)).then(Vec::new),
+        torque: columns.has(Meaning::Torque(0)).then(Vec::new),
         moves: columns.has(Meaning::Move).then(Vec::new),
         ..JointLog::default()
     };
@@ -120,6 +124,8 @@ struct Row {
     time_cell: std::ops::Range<usize>,
     actual: Vec<f64>,
     commanded: Vec<f64>,
+    link: Vec<f64>,
+    torque: Vec<f64>,
     number: Option<i64>,
 }
 
@@ -134,6 +140,11 @@ impl JointLog {
             }
             // A log of one of them.
             None => self.positions.extend(row.actual.into_iter().chain(row.commanded)),
+        }
+        for (values, own) in [(&mut self.link, row.link), (&mut self.torque, row.torque)] {
+            if let Some(values) = values {
+                values.extend(own);
+            }
         }
         if let Some((moves, number)) = self.moves.as_mut().zip(row.number) {
             moves.push(number);
@@ -177,25 +188,14 @@ fn row(path: &str, line: &Line, separator: char, columns: &Columns) -> Result<Ro
         let hint = "every row needs one cell per column";
         return Err(line.problem(path, 0..line.text.len(), message, hint).into());
     }
+    let empty = |first: Meaning| vec![0.0; if columns.has(first) { columns.joints } else { 0 }];
     let mut row = Row {
         time: 0.0,
         time_cell: 0..0,
-        actual: vec![
-            0.0;
-            if columns.has(Meaning::Actual(0)) {
-                columns.joints
-            } else {
-                0
-            }
-        ],
-        commanded: vec![
-            0.0;
-            if columns.has(Meaning::Commanded(0)) {
-                columns.joints
-            } else {
-                0
-            }
-        ],
+        actual: empty(Meaning::Actual(0)),
+        commanded: empty(Meaning::Commanded(0)),
+        link: empty(Meaning::Link(0)),
+        torque: empty(Meaning::Torque(0)),
         number: None,
     };
     let mut problems = Vec::new();
@@ -212,6 +212,8 @@ fn row(path: &str, line: &Line, separator: char, columns: &Columns) -> Result<Ro
             Meaning::Time => (row.time, row.time_cell) = (value, cell.span.clone()),
             Meaning::Actual(joint) => row.actual[*joint] = value,
             Meaning::Commanded(joint) => row.commanded[*joint] = value,
+            Meaning::Link(joint) => row.link[*joint] = value,
+            Meaning::Torque(joint) => row.torque[*joint] = value,
             Meaning::Move if value.fract() == 0.0 && value.abs() < 1e15 => row.number = Some(value as i64),
             Meaning::Move => {
                 let message = format!("`{}` is not the number of a move", cell.text);

@@ -37,6 +37,22 @@ fn the_same_log_in_other_names_units_and_separators_is_the_same() {
 }
 
 #[test]
+fn link_encoders_and_torques_are_read_next_to_the_motors() {
+    let text = "time_s,motor_j1_deg,motor_j2_deg,link_j1_deg,link_j2_deg,torque_j1_nm,torque_j2_nm\n0,90,0,91,1,-5,3\n0.004,90,0,92,1,-6,3\n";
+    let found = read_as(text, 2, LogReadOptions::default()).unwrap();
+    assert_eq!(
+        found.link.as_deref(),
+        Some(&[91.0, 1.0, 92.0, 1.0].map(from_deg)[..])
+    );
+    assert_eq!(found.torque.as_deref(), Some(&[-5.0, 3.0, -6.0, 3.0][..]));
+    assert!(found.commanded.is_none());
+    let own = read("log.csv", text.as_bytes(), None, LogReadOptions::default()).unwrap();
+    assert_eq!(own, found);
+    let missing = text.replace("torque_j2_nm", "other");
+    assert!(refused(&missing, 2).contains("torques of the joints 1, but the robot has 2 joints"));
+}
+
+#[test]
 fn commanded_positions_and_moves_are_read_next_to_the_actual_ones() {
     let found = log(
         "timestamp target_q_0 actual_q_0 target_qd_0 cmd_num\n0.002 1 0.9 7 -1\n0.004 1.1 1 7 2\n",

@@ -57,6 +57,7 @@ pub(super) struct MeasurementTable {
     pub date: String,
     /// Temperature of the arm.
     #[schemars(range(min = -50, max = 100))]
+    // unit: deg C
     pub temperature_c: f64,
     /// What was measured.
     pub kind: KindWord,

@@ -6,7 +6,7 @@ use serde::Deserialize;
 
 use crate::controller::ControllerTable;
 use crate::motion::MotionTable;
-use crate::robot::armill::learnt::LearntTable;
+use crate::robot::armill::learnt_table::LearntTable;
 use crate::robot::shape_tables::{BoxTable, RoundTable};
 use crate::robot::spring_tables::{AxisName, MassTable, SpringTable};
 use crate::sources::SourceTable;

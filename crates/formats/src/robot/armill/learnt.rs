@@ -15,13 +15,12 @@ use armill_core::calibrate::MeasuredPose;
 use armill_core::robot::Robot;
 use armill_core::robot::learnt::{Learnt, LearntAxes, LearntSettings, ResidualAt};
 use armill_core::units::{from_deg, from_mm, to_deg, to_mm};
-use schemars::JsonSchema;
-use serde::Deserialize;
 use toml_edit::{Array, DocumentMut, Item, Table, Value, value};
 
 use super::checks::Checks;
 use super::file::RobotFile;
 use super::identified::set_sources;
+use super::learnt_table::{LearntAxesWord, LearntTable};
 use crate::document::{Document, Problems};
 use crate::file::sum_of;
 use crate::input;
@@ -30,36 +29,6 @@ use crate::robot::description::RobotDescription;
 
 /// Key of the source.
 const KEY: &str = "learnt";
-
-/// The learnt residual, as written.
-#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct LearntTable {
-    /// File of the residuals, in the folder of the robot file.
-    pub file: String,
-    /// Its checksum.
-    pub sha256: String,
-    /// Axes of the components of the residual.
-    pub axes: LearntAxesWord,
-    /// Length scale of each joint: deg, of prismatic joints mm.
-    #[schemars(length(max = 64))]
-    pub length_scales_deg: Vec<f64>,
-    /// Scatter between neighbouring poses, relative to the standard deviation over all postures.
-    #[schemars(range(min = 1e-3, max = 1e4))]
-    pub scatter: f64,
-    /// Key of the source.
-    pub source: String,
-}
-
-/// Axes of the components of a learnt residual.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum LearntAxesWord {
-    /// Of the base.
-    Base,
-    /// Of the base rotated with the first joint.
-    FirstJoint,
-}
 
 impl LearntAxesWord {
     /// The word in a file.

@@ -7,7 +7,7 @@
 //! In reading order: `file` (the tables as written), `checks` (what no schema can say, and SI), `structure`, `vibration`, `bodies`; `spelling`,
 //! `write_bodies`, `write_masses`, `write` (a robot of another format as such a file), `identified` (such a file with compliances that were identified),
 //! `calibrated` (with small motions that were), `backlash` (with backlash that was measured), `learned` (with values of `[motion]` from joint logs),
-//! `learnt` (with the residual that was learnt, and its file of residuals).
+//! `learnt_table`, `learnt` (with the residual that was learnt, and its file of residuals).
 //!
 //! ```text
 //! format = 1
@@ -29,6 +29,7 @@ mod file;
 mod identified;
 mod learned;
 mod learnt;
+mod learnt_table;
 mod spelling;
 mod structure;
 mod vibration;
@@ -56,7 +57,8 @@ pub use self::calibrated::{Geometry, with_geometry};
 pub use self::identified::{Identified, IdentifiedSpring, with_given_springs, with_springs};
 pub use self::learned::{LearnedMotion, with_motion};
 pub(super) use self::learnt::with_residuals_of_its_file;
-pub use self::learnt::{LearntTable, residuals_file, with_residual};
+pub use self::learnt::{residuals_file, with_residual};
+pub use self::learnt_table::LearntTable;
 
 /// The robot of this file; `path` is what errors show, `id` the robot's name in results.
 ///
