@@ -17,7 +17,7 @@ from conftest import ROOT
 POSE = {"at_mm": [1000, 0, 800], "tilt_deg": 90, "tool_mm": [0, 0, 150], "wrench_n": [3, -5, 5]}
 TYPED = ["pose", "yaskawa/mh12", "--at-mm", "1000,0,800", "--tilt-deg", "90", "--tool-mm", "0,0,150", "--wrench-n", "3,-5,5"]
 COMMANDS = [
-    "robots", "materials", "pose", "posture", "place", "advise", "compare", "compensate", "identify", "calibrate", "learn", "journal",
+    "robots", "materials", "pose", "posture", "place", "advise", "compare", "compensate", "identify", "calibrate", "learn", "journal", "tracker",
     "forces", "roundness", "ballbar", "backlash", "pose_accuracy", "path_accuracy", "motion", "drives", "frf", "stability", "budget",
     "modes", "receptance",
 ]  # fmt: skip

@@ -246,3 +246,47 @@ pub fn with_opw_parameters() -> [(&'static str, Robot, Parameters); 3] {
         ("Staubli TX2-90", tx2_90(), tx2_90_parameters),
     ]
 }
+
+/// Standard Denavit-Hartenberg rows (theta at zero, d, a, alpha; deg and mm) as a robot without compliances.
+fn by_rows(name: &str, rows: [[f64; 4]; 6]) -> Robot {
+    let motions = rows.iter().enumerate().flat_map(|(joint, [theta, d, a, alpha])| {
+        [
+            About(Z, Constant(theta.to_radians())),
+            About(Z, Var(joint)),
+            Along(Z, Constant(d * 1e-3)),
+            Along(X, Constant(a * 1e-3)),
+            About(X, Constant(alpha.to_radians())),
+        ]
+    });
+    Robot::new(name, motions.collect(), joints([1; 6])).expect("its chain is typed here")
+}
+
+/// Staubli TX90L: lengths of its data sheet.
+pub fn tx90l() -> Robot {
+    by_rows(
+        "tx90l",
+        [
+            [0.0, 478.0, 50.0, -90.0],
+            [-90.0, 0.0, 500.0, 0.0],
+            [90.0, 50.0, 0.0, 90.0],
+            [0.0, 550.0, 0.0, -90.0],
+            [0.0, 0.0, 0.0, 90.0],
+            [0.0, 100.0, 0.0, 0.0],
+        ],
+    )
+}
+
+/// ABB IRB 120-3/0.6: lengths of its data sheet.
+pub fn irb120() -> Robot {
+    by_rows(
+        "irb120",
+        [
+            [0.0, 290.0, 0.0, -90.0],
+            [-90.0, 0.0, 270.0, 0.0],
+            [0.0, 0.0, 70.0, -90.0],
+            [0.0, 302.0, 0.0, 90.0],
+            [0.0, 0.0, 0.0, -90.0],
+            [180.0, 72.0, 0.0, 0.0],
+        ],
+    )
+}

@@ -91,6 +91,7 @@ fn run(command: &Command) -> Result<Outcome, StudyError> {
         Command::Calibrate(calibrate) => command::calibrate::run(calibrate),
         Command::Learn(learn) => command::learn::run(learn),
         Command::Journal(journal) => command::journal::run(journal),
+        Command::Tracker(tracker) => command::tracker::run(tracker),
         Command::Forces(forces) => command::forces::run(forces),
         Command::Roundness(roundness) => command::roundness::run(roundness),
         Command::Ballbar(ballbar) => command::ballbar::run(ballbar),

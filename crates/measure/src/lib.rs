@@ -2,6 +2,7 @@
 //!
 //! [`identify`] determines joint compliances from load tests, [`calibrate`] the geometry from measured poses,
 //! [`learn`] what the calibrated geometry leaves of them, [`journal`] all of this from all measurements of an arm,
+//! [`tracker`] makes poses of the files of a laser tracker,
 //! [`backlash`] the backlash of the joints from circular tests. [`ballbar`] evaluates circular tests, [`roundness`]
 //! round profiles, [`forces`] records of a dynamometer, [`pose_accuracy`] and [`path_accuracy`] measured poses and
 //! paths ([`path_repeatability`]: paths of which nothing is commanded), [`motion`] joint logs, [`drives`] the torsion of joints with two encoders, [`frf`] frequency response functions. [`data_check`] searches slips in the data of each: signs, order of columns, zeros, units.
@@ -21,3 +22,4 @@ pub mod path_accuracy;
 pub mod path_repeatability;
 pub mod pose_accuracy;
 pub mod roundness;
+pub mod tracker;

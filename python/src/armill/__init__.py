@@ -54,6 +54,7 @@ from armill._commands import (
     receptance,
     robots,
     roundness,
+    tracker,
     stability,
 )
 
@@ -97,5 +98,6 @@ __all__ = [
     "receptance",
     "robots",
     "roundness",
+    "tracker",
     "stability",
 ]

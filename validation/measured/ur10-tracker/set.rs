@@ -2,13 +2,11 @@
 
 use nalgebra::Vector3;
 
-use armill_core::calibrate::{MeasuredPose, ParameterSet, Prior, Question};
-use armill_core::frame::Isometry;
-use armill_core::learn::held_out;
-use armill_core::units::{from_deg, from_mm};
-use armill_core::watch::Watch;
+use armill_core::calibrate::MeasuredPose;
+use armill_core::units::from_mm;
 
 use crate::arms;
+use crate::measured::poses::stretches_held_out;
 use crate::measured::{Comparison, Samples};
 
 /// Stretches of the series, each held out once.
@@ -23,17 +21,6 @@ pub fn comparisons(samples: &Samples) -> Vec<Comparison> {
         rotation: None,
     };
     let poses: Vec<MeasuredPose> = rows.iter().map(pose).collect();
-    let question = Question {
-        requested: ParameterSet::Geometry,
-        flange_from_point: Isometry::identity(),
-        turn_length: 1.0,
-        prior: Some(Prior {
-            length: from_mm(0.5),
-            angle: from_deg(0.05),
-        }),
-    };
     let robot = arms::library("universal-robots/ur10");
-    let errors = held_out(&robot, &poses, &question, STRETCHES, Watch::NONE)
-        .unwrap_or_else(|error| panic!("the series determines the arm: {error}"));
-    Comparison::of_models("position, held out in 8 stretches", &errors)
+    stretches_held_out(&robot, "632 poses", &poses, STRETCHES)
 }

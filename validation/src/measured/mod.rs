@@ -1,6 +1,6 @@
 //! Predictions held against measurements of real arms: the page *Measured*, `docs/measured.md`.
 //!
-//! In reading order: [`comparison`] (errors of one model on one set), [`samples`] (the folder of the measurements), [`page`].
+//! In reading order: [`comparison`] (errors of one model on one set), [`samples`] (the folder of the measurements), `poses` (of arms, by three models), [`page`].
 //! Each set is a folder of `validation/measured/`: `README.md` says what was measured, what was predicted without it, and what
 //! explains the rest; `set.rs` computes the rows of its table.
 //!
@@ -9,14 +9,19 @@
 
 pub mod comparison;
 pub mod page;
+mod poses;
 pub mod samples;
 
 #[path = "../../measured/drilled-holes/set.rs"]
 mod drilled_holes;
 #[path = "../../measured/fanuc-load-tests/set.rs"]
 mod fanuc_load_tests;
+#[path = "../../measured/irb120-tracker/set.rs"]
+mod irb120_tracker;
 #[path = "../../measured/irb6640-logs/set.rs"]
 mod irb6640_logs;
+#[path = "../../measured/tx90l-tracker/set.rs"]
+mod tx90l_tracker;
 #[path = "../../measured/ur10-tracker/set.rs"]
 mod ur10_tracker;
 
@@ -45,6 +50,14 @@ pub const SETS: &[Set] = &[
     Set {
         text: include_str!("../../measured/ur10-tracker/README.md"),
         comparisons: ur10_tracker::comparisons,
+    },
+    Set {
+        text: include_str!("../../measured/tx90l-tracker/README.md"),
+        comparisons: tx90l_tracker::comparisons,
+    },
+    Set {
+        text: include_str!("../../measured/irb120-tracker/README.md"),
+        comparisons: irb120_tracker::comparisons,
     },
     Set {
         text: include_str!("../../measured/irb6640-logs/README.md"),

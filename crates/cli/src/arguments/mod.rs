@@ -1,7 +1,7 @@
 //! Arguments of `armill`: one file per command, with the same name as in `command`.
 //!
 //! `run`, `check`, `compare`, `new`, `robots`, `materials`, `pose`, `posture`, `place`, `advise`, `compensate`,
-//! `identify`, `calibrate`, `learn`, `journal`, `forces`, `roundness`, `ballbar`, `backlash`, `budget`, `pose_accuracy`, `path_accuracy`, `motion`, `drives`, `frf`, `modes`, `receptance`,
+//! `identify`, `calibrate`, `learn`, `journal`, `tracker`, `forces`, `roundness`, `ballbar`, `backlash`, `budget`, `pose_accuracy`, `path_accuracy`, `motion`, `drives`, `frf`, `modes`, `receptance`,
 //! `stability`, `serve`, `completions`, `man`; `poses` and `program` are used by two of them each, `writing` by all that write
 //! files.
 //!
@@ -46,6 +46,7 @@ mod roundness;
 mod run;
 mod serve;
 mod stability;
+mod tracker;
 mod writing;
 
 pub(crate) use advise::AdviseArguments;
@@ -83,6 +84,7 @@ pub(crate) use roundness::RoundnessArguments;
 pub(crate) use run::{RunArguments, RunOptions};
 pub(crate) use serve::ServeArguments;
 pub(crate) use stability::StabilityArguments;
+pub(crate) use tracker::{JointUnitArgument, TrackerArguments};
 pub(crate) use writing::WritingOptions;
 
 use clap::{Parser, Subcommand};
@@ -136,6 +138,8 @@ pub(crate) enum Command {
     Learn(Box<LearnArguments>),
     /// Learn geometry, compliances and backlash from all measurements of an arm, and plan further ones
     Journal(Box<JournalArguments>),
+    /// Combine files of a laser tracker and joint positions into a table of poses; find misread reflectors
+    Tracker(TrackerArguments),
     /// Analyse a dynamometer record: remove drift, average over spindle revolutions
     Forces(ForcesArguments),
     /// Evaluate the roundness of a measured profile: four reference circles, filter, harmonics
@@ -194,6 +198,7 @@ impl Command {
             Command::Calibrate(a) => a.json,
             Command::Learn(a) => a.json,
             Command::Journal(a) => a.json,
+            Command::Tracker(a) => a.json,
             Command::Forces(a) => a.json,
             Command::Roundness(a) => a.json,
             Command::Ballbar(a) => a.json,

@@ -1,7 +1,7 @@
 //! The commands: options to a call of `armill-study`, its result to stdout, as text or JSON.
 //!
 //! One file per command: `run`, `check`, `compare`, `new`, `robots` (a folder, for its subcommands), `materials`,
-//! `pose` (`pose_subject`: a robot, or the cell of a study), `posture`, `place`, `advise`, `compensate`, `identify`, `calibrate`, `learn`, `journal`, `forces`, `roundness`, `ballbar`,
+//! `pose` (`pose_subject`: a robot, or the cell of a study), `posture`, `place`, `advise`, `compensate`, `identify`, `calibrate`, `learn`, `journal`, `tracker`, `forces`, `roundness`, `ballbar`,
 //! `backlash`, `budget`, `pose_accuracy`, `path_accuracy`, `motion`, `drives`, `frf`, `modes`, `receptance`, `stability`, `serve`, `completions`, `man`. `poses`: options of measured
 //! poses. `program`: options of a robot program. `drawing`: writes requested pictures.
 //!
@@ -43,6 +43,7 @@ pub(crate) mod roundness;
 pub(crate) mod run;
 pub(crate) mod serve;
 pub(crate) mod stability;
+pub(crate) mod tracker;
 
 mod drawing;
 mod poses;

@@ -114,6 +114,7 @@ guide! {
     guide_your_robot: "your-robot",
     guide_measure_stiffness: "measure-stiffness",
     guide_learn: "learn",
+    guide_journal: "journal",
     guide_study_file: "study-file",
     guide_robot_file: "robot-file",
     guide_results: "results",

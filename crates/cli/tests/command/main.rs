@@ -2,7 +2,7 @@
 //!
 //! `cell` is where they run. What a user meets first: `new_and_robots`, `shell`, `documents` (every page is run).
 //! Commands: `run`,
-//! `pose`, `place`, `advise`, `springs`, `assumed`, `robots_check`, `import`, `bodies`, `masses`, `materials`, `identify`, `calibrate`,
+//! `pose`, `place`, `advise`, `springs`, `assumed`, `robots_check`, `import`, `bodies`, `masses`, `materials`, `identify`, `calibrate`, `learn`, `journal`, `tracker`,
 //! `forces`, `roundness`, `ballbar`, `budget`, `path_accuracy`, `motion`, `frf`, `receptance`, `stability`, `compare`, `clearance`, `restricted_space`, `holes`, `unloaded` (backlash). What goes
 //! wrong: `refused`, `guarded` (files of the user), `hostile` (numbers and bytes),
 //! `terminal`, `killed`, `rough` (places and inputs), `slips` (mistakes that are easily made). `without_masses`: an arm whose links have none.
@@ -31,6 +31,7 @@ mod holes;
 mod hostile;
 mod identify;
 mod import;
+mod journal;
 #[cfg(unix)]
 mod killed;
 mod learn;
@@ -57,6 +58,7 @@ mod slips;
 mod springs;
 mod stability;
 mod terminal;
+mod tracker;
 mod unloaded;
 #[path = "../../../study/tests/shared/without_masses.rs"]
 mod without_masses;

@@ -15,7 +15,7 @@
 //!
 //! Source: Mooring, Roth and Driels 1991; Everett, Driels and Mooring 1987; `docs/theory/calibration.md`.
 
-use nalgebra::{DMatrix, Matrix3, Rotation3, UnitQuaternion, Vector3};
+use nalgebra::{DMatrix, Matrix3, Unit, UnitQuaternion, Vector3};
 
 use super::arm::Arm;
 use super::errors::PoseErrors;
@@ -25,6 +25,7 @@ use super::select::{Redundant, select};
 use super::unknown::{ParameterLocation, ParameterSet, Unknown, unknowns};
 use crate::frame::Isometry;
 use crate::least_squares::{Problem, Triangle, descend, solve};
+use crate::measure::reflectors::superposed;
 use crate::robot::chain::{Amount, Motion};
 use crate::robot::forward::forward;
 use crate::robot::{Robot, RobotError};
@@ -281,7 +282,8 @@ fn check(robot: &Robot, poses: &[MeasuredPose]) -> Result<(), Refusal> {
     Ok(())
 }
 
-/// The nominal arm, placed by the rotation and shift that bring its points nearest to the measured ones (Kabsch 1976).
+/// The nominal arm, placed by the rotation and shift that bring its points nearest to the measured ones (Kabsch 1976), and by the rotation about the line in which
+/// these spread most that fits best.
 fn start<'a>(robot: &'a Robot, poses: &[MeasuredPose], question: &Question) -> Arm<'a> {
     let flange_from_point = &question.flange_from_point;
     let base_from_point: Vec<Isometry> = poses
@@ -292,35 +294,53 @@ fn start<'a>(robot: &'a Robot, poses: &[MeasuredPose], question: &Question) -> A
             Isometry::from_parts(flange.translation, turn) * flange_from_point
         })
         .collect();
-    let count = poses.len() as f64;
-    let here = base_from_point
+    let here: Vec<Vector3<f64>> = base_from_point
         .iter()
         .map(|frame| frame.translation.vector)
-        .sum::<Vector3<f64>>()
-        / count;
-    let there = poses.iter().map(|pose| pose.position).sum::<Vector3<f64>>() / count;
-    let mut spread = Matrix3::zeros();
-    for (frame, pose) in base_from_point.iter().zip(poses) {
-        spread += (pose.position - there) * (frame.translation.vector - here).transpose();
-    }
-    let parts = spread.svd(true, true);
-    let turn = match (parts.u, parts.v_t) {
-        (Some(u), Some(v_t)) => {
-            let side = (u * v_t).determinant().signum();
-            u * Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, side)) * v_t
+        .collect();
+    let there: Vec<Vector3<f64>> = poses.iter().map(|pose| pose.position).collect();
+    let nearest = superposed(&here, &there, &vec![1.0; poses.len()]);
+    let middle = there.iter().sum::<Vector3<f64>>() / there.len() as f64;
+    let along = principal_direction(&there, middle);
+    // Points near a line leave the rotation about it open: the orientations decide, or the rest of the positions.
+    let rotated = (0..ROTATIONS).map(|k| {
+        let angle = std::f64::consts::TAU * k as f64 / ROTATIONS as f64;
+        let about = UnitQuaternion::from_axis_angle(&along, angle);
+        let shift = about * (nearest.translation.vector - middle) + middle;
+        let tracker_from_base = Isometry::from_parts(shift.into(), about * nearest.rotation);
+        let mut flange_from_point = *flange_from_point;
+        // The rotation of the body on the flange is not known beforehand: it is taken from the first pose.
+        if question.requested != ParameterSet::Base
+            && let (Some(rotation), Some(frame)) = (poses[0].rotation, base_from_point.first())
+        {
+            flange_from_point.rotation *= (tracker_from_base.rotation * frame.rotation).inverse() * rotation;
         }
-        _ => Matrix3::identity(),
+        Arm::nominal(robot, tracker_from_base, flange_from_point)
+    });
+    let data = Data {
+        poses,
+        length: question.turn_length,
+        prior: PriorWeights::NONE,
     };
-    let turn = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(turn));
-    let tracker_from_base = Isometry::from_parts((there - turn * here).into(), turn);
-    let mut flange_from_point = *flange_from_point;
-    // The rotation of the body on the flange is not known beforehand: it is taken from the first pose.
-    if question.requested != ParameterSet::Base
-        && let (Some(rotation), Some(frame)) = (poses[0].rotation, base_from_point.first())
-    {
-        flange_from_point.rotation *= (turn * frame.rotation).inverse() * rotation;
-    }
-    Arm::nominal(robot, tracker_from_base, flange_from_point)
+    let costed = rotated.map(|arm| (cost(&arm, &[], &data), arm));
+    let least = costed.min_by(|a, b| a.0.total_cmp(&b.0));
+    least.map_or_else(
+        || Arm::nominal(robot, nearest, *flange_from_point),
+        |(_, arm)| arm,
+    )
+}
+
+/// Rotations about the line of the points that are tried at the start.
+const ROTATIONS: usize = 24;
+
+/// The direction in which points spread most.
+fn principal_direction(points: &[Vector3<f64>], middle: Vector3<f64>) -> Unit<Vector3<f64>> {
+    let spread: Matrix3<f64> = points
+        .iter()
+        .map(|point| (point - middle) * (point - middle).transpose())
+        .sum();
+    let parts = spread.symmetric_eigen();
+    Unit::new_normalize(parts.eigenvectors.column(parts.eigenvalues.imax()).into_owned())
 }
 
 /// The data of the fit.

@@ -6,7 +6,7 @@
 //! measure next).
 //!
 //! `calibrate` and `identify` are the special cases of one kind of measurement; unlike them all measurements are used at once, each
-//! with its own scatter, and what they do not determine stays as it was known before. Theory: `docs/theory/update.md`.
+//! with its own scatter, and what they do not determine stays as it was known before. Theory: `docs/theory/journal.md`.
 
 pub mod measurement;
 pub mod next;

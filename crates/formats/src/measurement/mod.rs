@@ -10,6 +10,7 @@
 //! - [`poses`]: joint positions, and the poses that a laser tracker measured.
 //! - [`trace`]: points of the tip along a path, for one or several runs.
 //! - [`joint_log`]: joint positions over time.
+//! - [`bodies`]: positions and orientations as trackers export them; [`numbers`]: tables of numbers without names, workbooks.
 //! - [`conditions`]: loads and directions of motion at points of a path.
 //! - [`journal`]: all measurements of one arm, with their days and temperatures.
 //! - [`frf`]: frequency response functions of a modal test.
@@ -21,6 +22,7 @@
 //! `columns`: quantity and unit of each column; samples. `force_records`: the content of a force file in any format.
 
 pub mod ballbar;
+pub mod bodies;
 mod columns;
 pub mod conditions;
 pub mod csv;
@@ -32,6 +34,7 @@ pub mod joint_log;
 pub mod journal;
 pub mod load_tests;
 pub mod matlab;
+pub mod numbers;
 pub mod poses;
 pub mod profile;
 pub mod trace;

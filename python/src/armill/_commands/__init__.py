@@ -20,6 +20,7 @@ from armill._commands.measurements import (
     path_accuracy,
     pose_accuracy,
     roundness,
+    tracker,
 )
 from armill._commands.studies import advise, backlash, budget, compare, compensate, place, posture, stability
 
@@ -49,5 +50,6 @@ __all__ = [
     "receptance",
     "robots",
     "roundness",
+    "tracker",
     "stability",
 ]

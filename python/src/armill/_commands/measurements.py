@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Literal
 
@@ -104,6 +105,24 @@ def journal(
 ) -> Answer:
     """journal of measurements -> Answer: geometry, compliances and backlash of the arm from all of them, and what to measure next."""
     return call("journal", [journal], locals())
+
+
+@command
+def tracker(
+    file: Path | Sequence[Path],
+    *,
+    robot: RobotLike,
+    base: Sequence[Path] | None = None,
+    joints: Path | None = None,
+    joint_unit: Literal["deg", "rad"] | None = None,
+    out: Path | None = None,
+    force: bool = False,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> Answer:
+    """files of a laser tracker and joint positions -> Answer: a table of poses, misread and drifting reflectors."""
+    files = [file] if isinstance(file, (str, os.PathLike)) else list(file)
+    return call("tracker", files, locals())
 
 
 @command

@@ -1,0 +1,304 @@
+//! Tables of numbers without names: text, or the first sheet of an Excel workbook.
+//!
+//! Cells of a text are separated by `;`, tab, `,` or blanks; with `;` or tab, decimal commas are read too. Lines before the first row of numbers are
+//! titles; lines that begin with `#` and empty lines are ignored. Only the requested columns need to be numbers.
+
+use std::io::Cursor;
+
+use calamine::{Data, Reader, Xlsx};
+
+use crate::document::lines::Lines;
+use crate::document::{MOST_PROBLEMS, Problem, Problems};
+use crate::table::sheet::{Cell, cells, number};
+
+/// Maximum number of rows.
+const MOST_ROWS: usize = 1_000_000;
+/// Maximum size of a workbook, byte; unpacked it may be eight times as large.
+const LARGEST_WORKBOOK: usize = 64 << 20;
+/// How an Excel workbook begins: a zip archive.
+const ZIP: &[u8] = b"PK\x03\x04";
+
+/// Columns of a table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Columns {
+    /// The first of each row.
+    First(usize),
+    /// The last of each row.
+    Last(usize),
+}
+
+impl Columns {
+    fn count(self) -> usize {
+        let (Columns::First(count) | Columns::Last(count)) = self;
+        count
+    }
+
+    fn of<T>(self, row: &[T]) -> Option<&[T]> {
+        match self {
+            Columns::First(count) => row.get(..count),
+            Columns::Last(count) => row.get(row.len().checked_sub(count)?..),
+        }
+    }
+}
+
+/// The numbers in these columns of each row; `path` is the file name shown in problems.
+///
+/// # Errors
+/// No such rows; a row of numbers with too few cells, or with one that is not a finite number; a damaged workbook.
+pub fn read(path: &str, bytes: &[u8], columns: Columns) -> Result<Vec<Vec<f64>>, Problems> {
+    let rows = match bytes.starts_with(ZIP) {
+        true => of_workbook(path, bytes, columns)?,
+        false => of_text(path, bytes, columns)?,
+    };
+    match rows.is_empty() {
+        true => Err(Problem::of_file(path, "the file has no rows of numbers", &hint(columns)).into()),
+        false => Ok(rows),
+    }
+}
+
+fn hint(columns: Columns) -> String {
+    match columns {
+        Columns::First(count) => format!("one row per pose; its first {count} cells are numbers"),
+        Columns::Last(count) => format!("one row per pose; its last {count} cells are numbers"),
+    }
+}
+
+fn of_text(path: &str, bytes: &[u8], columns: Columns) -> Result<Vec<Vec<f64>>, Problems> {
+    let mut lines = Lines::new(path, bytes);
+    let mut rows: Vec<Vec<f64>> = Vec::new();
+    let mut problems = Vec::new();
+    while problems.len() < MOST_PROBLEMS {
+        let line = match lines.next_row() {
+            Ok(None) => break,
+            Err(wrong) => {
+                problems.extend(wrong);
+                break;
+            }
+            Ok(Some(line)) => line,
+        };
+        let whole = 0..line.text.len();
+        if rows.len() == MOST_ROWS {
+            let message = format!("more than {MOST_ROWS} rows");
+            problems.push(line.problem(path, whole, message, "a few hundred poses are sufficient"));
+            break;
+        }
+        let separator = [';', '\t', ','].into_iter().find(|c| line.text.contains(*c));
+        let found = match separator {
+            Some(separator) => cells(&line.text, separator),
+            None => blank_separated(&line.text),
+        };
+        // A comma that separates nothing is the end of the row.
+        let end = found
+            .iter()
+            .rposition(|cell| !cell.text.is_empty())
+            .map_or(0, |last| last + 1);
+        let found = &found[..end];
+        let value =
+            |cell: &Cell<'_>| number(&cell.text, separator.unwrap_or(' ')).filter(|value| value.is_finite());
+        let Some(requested) = columns.of(found) else {
+            if rows.is_empty() {
+                continue;
+            }
+            let message = format!("{} cells instead of at least {}", found.len(), columns.count());
+            problems.push(line.problem(path, whole, message, &hint(columns)));
+            continue;
+        };
+        let numbers: Vec<Option<f64>> = requested.iter().map(value).collect();
+        if rows.is_empty() && problems.is_empty() && numbers.iter().all(Option::is_none) {
+            continue;
+        }
+        for (cell, _) in requested
+            .iter()
+            .zip(&numbers)
+            .filter(|(_, number)| number.is_none())
+        {
+            let message = format!("`{}` is not a number", cell.text);
+            problems.push(line.problem(path, cell.span.clone(), message, &hint(columns)));
+        }
+        rows.push(numbers.into_iter().flatten().collect());
+    }
+    Problems::from(problems).into_result()?;
+    Ok(rows)
+}
+
+fn blank_separated(text: &str) -> Vec<Cell<'_>> {
+    let start = |part: &str| part.as_ptr() as usize - text.as_ptr() as usize;
+    text.split_whitespace()
+        .map(|part| Cell {
+            text: part.into(),
+            span: start(part)..start(part) + part.len(),
+        })
+        .collect()
+}
+
+fn of_workbook(path: &str, bytes: &[u8], columns: Columns) -> Result<Vec<Vec<f64>>, Problems> {
+    let refused = |message: String, hint: &str| Problems::from(Problem::of_file(path, message, hint));
+    if bytes.len() > LARGEST_WORKBOOK {
+        let message = format!("the workbook is larger than {} MiB", LARGEST_WORKBOOK >> 20);
+        return Err(refused(message, "save the sheet as CSV"));
+    }
+    let damaged = |error: &dyn std::fmt::Display| {
+        refused(
+            format!("not a workbook that can be read: {error}"),
+            "save the sheet as CSV, or the workbook as .xlsx",
+        )
+    };
+    check_unpacked_size(bytes).map_err(|message| damaged(&message))?;
+    let mut workbook: Xlsx<_> = Xlsx::new(Cursor::new(bytes)).map_err(|error| damaged(&error))?;
+    let Some(sheet) = workbook.worksheet_range_at(0) else {
+        return Err(damaged(&"it has no sheet"));
+    };
+    let sheet = sheet.map_err(|error| damaged(&error))?;
+    let first_row = sheet.start().map_or(0, |(row, _)| row as usize);
+    let mut rows: Vec<Vec<f64>> = Vec::new();
+    let mut problems = Vec::new();
+    for (index, row) in sheet.rows().enumerate() {
+        let end = row
+            .iter()
+            .rposition(|cell| *cell != Data::Empty)
+            .map_or(0, |last| last + 1);
+        let value = |cell: &Data| match cell {
+            Data::Float(value) => Some(*value).filter(|value| value.is_finite()),
+            Data::Int(value) => Some(*value as f64),
+            Data::String(text) => number(text, ';').filter(|value| value.is_finite()),
+            _ => None,
+        };
+        let numbers: Option<Vec<Option<f64>>> = columns
+            .of(&row[..end])
+            .map(|cells| cells.iter().map(value).collect());
+        let whole = numbers
+            .as_ref()
+            .and_then(|numbers| numbers.iter().copied().collect::<Option<Vec<f64>>>());
+        match whole {
+            _ if rows.len() == MOST_ROWS || problems.len() == MOST_PROBLEMS => break,
+            Some(whole) => rows.push(whole),
+            None if end == 0 || rows.is_empty() => {}
+            None => {
+                let message = format!(
+                    "row {} of the sheet is not a row of numbers",
+                    first_row + index + 1
+                );
+                problems.push(Problem::of_file(path, message, &hint(columns)));
+            }
+        }
+    }
+    Problems::from(problems).into_result()?;
+    Ok(rows)
+}
+
+/// Refuses an archive that would unpack to more than eight times the largest workbook.
+fn check_unpacked_size(bytes: &[u8]) -> Result<(), String> {
+    let archive = rawzip::ZipArchive::from_slice(bytes).map_err(|error| error.to_string())?;
+    let mut size: u64 = 0;
+    for entry in archive.entries() {
+        let entry = entry.map_err(|error| error.to_string())?;
+        size = size.saturating_add(entry.uncompressed_size_hint());
+    }
+    match size > 8 * LARGEST_WORKBOOK as u64 {
+        true => Err(format!("it unpacks to {} MiB", size >> 20)),
+        false => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(text: &str, columns: Columns) -> Result<Vec<Vec<f64>>, Problems> {
+        read("joints.txt", text.as_bytes(), columns)
+    }
+
+    #[test]
+    fn rows_are_read_whatever_separates_them() {
+        for text in [
+            "1 2.5 -3e0\n  4 5 6\n",
+            "a,b,c\n1,2.5,-3\n\n# done\n4,5,6,\n",
+            "1;2,5;-3\n4;5;6\n",
+            "1\t2.5\t-3\n4\t5\t6\n",
+        ] {
+            assert_eq!(
+                of(text, Columns::First(3)).unwrap(),
+                [[1.0, 2.5, -3.0], [4.0, 5.0, 6.0]],
+                "{text}"
+            );
+        }
+        let named = "P1 1 2 3\nP2 4 5 6\n";
+        assert_eq!(of(named, Columns::Last(2)).unwrap(), [[2.0, 3.0], [5.0, 6.0]]);
+    }
+
+    #[test]
+    fn problems_have_their_places() {
+        for (text, parts) in [
+            ("", &["no rows of numbers"][..]),
+            ("only words\n", &["no rows of numbers", "first 3 cells"]),
+            (
+                "1 2 3\n4 x 6\n7 8\n1 2 inf\n",
+                &["2:3", "`x`", "3:1", "2 cells instead of at least 3", "`inf`"],
+            ),
+        ] {
+            let problems = of(text, Columns::First(3)).unwrap_err().to_string();
+            for part in parts {
+                assert!(problems.contains(part), "{part}: {problems}");
+            }
+        }
+    }
+
+    /// A workbook with one sheet: titles, two rows of numbers, as a spreadsheet writes it.
+    fn workbook() -> Vec<u8> {
+        let files = [
+            (
+                "[Content_Types].xml",
+                r#"<?xml version="1.0"?><Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types"><Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/><Default Extension="xml" ContentType="application/xml"/><Override PartName="/xl/workbook.xml" ContentType="application/vnd.openxmlformats-officedocument.spreadsheetml.sheet.main+xml"/></Types>"#,
+            ),
+            (
+                "_rels/.rels",
+                r#"<?xml version="1.0"?><Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Id="r1" Type="http://schemas.openxmlformats.org/officeDocument/2006/relationships/officeDocument" Target="xl/workbook.xml"/></Relationships>"#,
+            ),
+            (
+                "xl/workbook.xml",
+                r#"<?xml version="1.0"?><workbook xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main" xmlns:r="http://schemas.openxmlformats.org/officeDocument/2006/relationships"><sheets><sheet name="Sheet1" sheetId="1" r:id="r1"/></sheets></workbook>"#,
+            ),
+            (
+                "xl/_rels/workbook.xml.rels",
+                r#"<?xml version="1.0"?><Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Id="r1" Type="http://schemas.openxmlformats.org/officeDocument/2006/relationships/worksheet" Target="worksheets/sheet1.xml"/></Relationships>"#,
+            ),
+            (
+                "xl/worksheets/sheet1.xml",
+                r#"<?xml version="1.0"?><worksheet xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main"><sheetData><row r="1"><c r="A1" t="inlineStr"><is><t>J1</t></is></c></row><row r="2"><c r="A2" t="inlineStr"><is><t>P1</t></is></c><c r="B2"><v>1.5</v></c><c r="C2"><v>-2</v></c></row><row r="3"><c r="A3" t="inlineStr"><is><t>P2</t></is></c><c r="B3"><v>3</v></c><c r="C3"><v>4</v></c></row></sheetData></worksheet>"#,
+            ),
+        ];
+        let mut bytes = Cursor::new(Vec::new());
+        let mut archive = rawzip::ZipArchiveWriter::new(&mut bytes);
+        for (name, text) in files {
+            use std::io::Write as _;
+            let (mut entry, config) = archive.new_file(name).start().unwrap();
+            let mut data = config.wrap(&mut entry);
+            data.write_all(text.as_bytes()).unwrap();
+            let (_, output) = data.finish().unwrap();
+            entry.finish(output).unwrap();
+        }
+        archive.finish().unwrap();
+        bytes.into_inner()
+    }
+
+    #[test]
+    fn the_first_sheet_of_a_workbook_is_read_and_damaged_ones_are_refused() {
+        let whole = workbook();
+        let rows = read("joints.xlsx", &whole, Columns::Last(2)).unwrap();
+        assert_eq!(rows, [[1.5, -2.0], [3.0, 4.0]]);
+        let problems = read("joints.xlsx", &whole, Columns::Last(4))
+            .unwrap_err()
+            .to_string();
+        assert!(problems.contains("no rows of numbers"), "{problems}");
+        for cut in (4..whole.len()).step_by(7) {
+            let _ = read("joints.xlsx", &whole[..cut], Columns::Last(2));
+            let mut damaged = whole.clone();
+            damaged[cut] ^= 0x55;
+            let _ = read("joints.xlsx", &damaged, Columns::Last(2));
+        }
+        let half = read("joints.xlsx", &whole[..whole.len() / 2], Columns::Last(2))
+            .unwrap_err()
+            .to_string();
+        assert!(half.contains("save the sheet as CSV"), "{half}");
+    }
+}
