@@ -89,7 +89,7 @@ fn coverage(tests: &[LoadTest], unknowns: &[Unknown], found: &Identified) -> f64
     for (test, outcome) in tests.iter().zip(&found.tests) {
         let jacobian = Effects::of(&robot, unknowns, test).jacobian(unknowns, &state);
         let of_sizes = jacobian.columns(0, unknowns.len());
-        let of_springs = &of_sizes * &found.covariance * of_sizes.transpose();
+        let of_springs = of_sizes * &found.covariance * of_sizes.transpose();
         for (row, (error, reading)) in outcome.left_out.iter().zip(&test.readings).enumerate() {
             let scatter = found.scale * reading.standard_uncertainty;
             let u = (scatter * scatter + of_springs[(row, row)]).sqrt();

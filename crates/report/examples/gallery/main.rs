@@ -8,6 +8,7 @@ mod corner;
 mod fields;
 mod frf;
 mod paths;
+mod torsion;
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -27,6 +28,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         .chain(corner::pictures())
         .chain(budget::pictures())
         .chain(arms::pictures())
+        .chain(torsion::pictures())
         .collect();
     for (name, svg) in &pictures {
         write(&folder, &format!("{name}.svg"), svg.as_bytes())?;
