@@ -3299,7 +3299,7 @@ export interface components {
             model: string[];
             /**
              * @description The contributors of `share_um`: the joints; base, flange and tool if springs are attached there;
-             *     geometry with a calibrated robot; thermal growth; blending and servo of a motion.
+             *     geometry with a calibrated robot; thermal growth; learnt residual; blending and servo of a motion.
              */
             contributors: string[];
         };
@@ -4893,7 +4893,7 @@ export interface components {
             model: string[];
             /**
              * @description The contributors of `share_um`: the joints; base, flange and tool if springs are attached there;
-             *     geometry with a calibrated robot; thermal growth.
+             *     geometry with a calibrated robot; thermal growth; learnt residual.
              */
             contributors: string[];
             /** @description Every posture; empty if the pose is unreachable. */

@@ -7,22 +7,14 @@ use crate::arms;
 use crate::measured::poses::{on_others, stretches_held_out};
 use crate::measured::{Comparison, Samples};
 
-/// Points held out, and each path by what was found from another one.
+/// Poses held out, and points and poses by what was found from the other.
 pub fn comparisons(samples: &Samples) -> Vec<Comparison> {
     let robot = arms::tx90l();
     let [points, line, few] = ["POINTS", "LINE", "Calibration"].map(|path| poses(samples, path));
     let mut rows = stretches_held_out(&robot, "300 points", &points, 6);
     rows.extend(stretches_held_out(&robot, "a line", &line, 6));
-    rows.extend(on_others(
-        &robot,
-        ("40 poses", &few),
-        &[("300 points", &points), ("a line", &line)],
-    ));
-    rows.extend(on_others(
-        &robot,
-        ("300 points", &points),
-        &[("a line", &line), ("40 poses", &few)],
-    ));
+    rows.extend(on_others(&robot, ("40 poses", &few), &[("300 points", &points)]));
+    rows.extend(on_others(&robot, ("300 points", &points), &[("40 poses", &few)]));
     rows
 }
 
