@@ -1,6 +1,6 @@
 //! What all measurements of one arm say of it, and what to measure next.
 //!
-//! In reading order: `measurements` (the files of a journal), `learning` (the arm after each of them), [`answer`] (numbers for people and
+//! In reading order: `measurements` (the files of a journal), `learning` (the arm after each of them), [`answer`](mod@answer) (numbers for people and
 //! programs), `output` (the robot file).
 //!
 //! Method, formulas and sources: [`armill_core::update`].

@@ -1,6 +1,6 @@
 //! Files of a laser tracker and of a controller as one table of measured poses.
 //!
-//! In reading order: `files` (what is read), `together` (one pose for each row; reflectors of the base), [`answer`] (numbers for people and programs),
+//! In reading order: `files` (what is read), `together` (one pose for each row; reflectors of the base), [`answer`](mod@answer) (numbers for people and programs),
 //! `table` (the poses as CSV, for `calibrate`, `learn` and `pose-accuracy`).
 //!
 //! Method of three reflectors: [`armill_core::measure::reflectors`].
