@@ -250,7 +250,7 @@ fn bad_journals_are_refused_and_nothing_is_written() {
         "yesterday",
         &["bad.toml:6", "`yesterday` is not a day", "2026-11-24"],
     );
-    with("part.csv", "gone.csv", &["gone.csv", "relative to the journal"]);
+    with("part.csv", "gone.csv", &["cannot read gone.csv"]);
     with("lever.toml", "gone.toml", &["gone.toml"]);
     let sum = "0".repeat(64);
     with(
