@@ -258,7 +258,7 @@ fn bad_journals_are_refused_and_nothing_is_written() {
         &format!("u_um = 10\nsha256 = \"{sum}\""),
         &["part.csv", "checksum", "changed after it was entered"],
     );
-    with("u_um = 10", "", &["bad.toml:5", "add u_um = 10"]);
+    with("u_um = 10", "", &["bad.toml:8", "add u_um = 10"]);
     with(
         "kind = \"part\"",
         "kind = \"loads\"",
