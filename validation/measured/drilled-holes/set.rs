@@ -1,10 +1,7 @@
 //! FANUC R-2000iC: 20 drilled holes, each place predicted from the three others. See README.md.
 
 use crate::drilled_holes::{HOLES, Hole, POSTURES, at};
-use crate::measured::{Comparison, Samples, Stated};
-
-/// Half width of a 95 % interval of a normal distribution, standard deviations.
-const NORMAL_95: f64 = 1.959_964;
+use crate::measured::{Comparison, NORMAL_95, Samples, Stated};
 
 /// One quantity of a hole, and the size that a model gives it up to a factor.
 type Model<'a> = &'a dyn Fn(&Hole) -> f64;

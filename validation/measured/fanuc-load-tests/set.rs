@@ -14,10 +14,7 @@ use armill_core::units::to_mm;
 
 use crate::arms;
 use crate::fanuc_rows::TOOL_POINT;
-use crate::measured::{Comparison, Samples, Stated};
-
-/// Half width of a 95 % interval of a normal distribution, standard deviations.
-const NORMAL_95: f64 = 1.959_964;
+use crate::measured::{Comparison, NORMAL_95, Samples, Stated};
 
 /// Displacements by the published stiffness, and left out by identified ones.
 pub fn comparisons(samples: &Samples) -> Vec<Comparison> {

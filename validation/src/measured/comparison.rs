@@ -5,6 +5,9 @@ use nalgebra::Vector3;
 use armill_core::learn::HeldOut;
 use armill_core::units::to_mm;
 
+/// Half width of a 95 % interval of a normal distribution, standard deviations.
+pub const NORMAL_95: f64 = 1.959_964;
+
 /// The uncertainty that the model stated for its errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Stated {

@@ -25,7 +25,7 @@ mod tx90l_tracker;
 #[path = "../../measured/ur10-tracker/set.rs"]
 mod ur10_tracker;
 
-pub use comparison::{Comparison, Stated};
+pub use comparison::{Comparison, NORMAL_95, Stated};
 pub use samples::Samples;
 
 /// Measurements of one arm.

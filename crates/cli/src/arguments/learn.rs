@@ -47,7 +47,7 @@ pub(crate) struct LearnArguments {
     pub same_point: bool,
     #[command(flatten)]
     pub poses: PosesOptions,
-    /// Write the calibrated robot with the learnt residual to this file, and the residuals beside it
+    /// Write the calibrated robot with the learnt residual to this file, and the residuals to its folder
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
     /// Write a drawing of the errors to this file (.svg, .png)

@@ -71,7 +71,7 @@ pub(crate) fn run(arguments: &LearnArguments) -> Result<Outcome, StudyError> {
     let writer = arguments.writing.writer("learn");
     if let Some(file) = &arguments.out {
         let [path, text] = robots::text_of(&arguments.robot, &found)?;
-        let residuals = beside(file);
+        let residuals = residuals_path(file);
         let name = residuals
             .file_name()
             .map(|name| name.to_string_lossy().into_owned());
@@ -100,7 +100,7 @@ pub(crate) fn run(arguments: &LearnArguments) -> Result<Outcome, StudyError> {
 }
 
 /// The file of residuals of a robot file.
-fn beside(robot: &Path) -> std::path::PathBuf {
+fn residuals_path(robot: &Path) -> std::path::PathBuf {
     let stem = robot.file_stem().map(|stem| stem.to_string_lossy().into_owned());
     robot.with_file_name(format!("{}-residuals.csv", stem.unwrap_or_default()))
 }

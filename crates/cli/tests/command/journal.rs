@@ -171,7 +171,7 @@ fn lengths_compliances_and_backlash_are_found_and_written() {
     near(&answer["drives"][1], DRIVES[1]);
     near(&answer["backlash"][0], GAP.to_degrees());
     let measured = answer["measurements"].as_array().unwrap();
-    // The part foretells the load tests better than the robot file does.
+    // The part predicts the load tests better than the robot file does.
     assert!(
         value(&measured[1], "predicted") < 0.7 * value(&measured[1], "before"),
         "{measured:?}"
@@ -200,7 +200,7 @@ fn lengths_compliances_and_backlash_are_found_and_written() {
         "{answer}"
     );
 
-    // The written robot foretells what the journal found: force on the tool, 100 N across the stretched lever.
+    // The written robot predicts what the journal found: force on the tool, 100 N across the stretched lever.
     let pose = [
         "pose",
         "mine.toml",

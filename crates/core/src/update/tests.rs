@@ -238,17 +238,17 @@ fn the_error_of_a_hidden_arm_decreases_from_round_to_round_as_its_uncertainty_sa
     let third = update(robot, &known, &campaigns).unwrap();
     rounds.push(error(&hidden, &held_out, (&third.knowledge, &third.covariance)));
 
-    // What the part and the tracker said foretells the load tests, which the robot file does not.
-    let foretold = update(robot, &second.knowledge, &campaigns[2..]).unwrap();
+    // Part and tracker together predict the load tests, which the robot file does not.
+    let predicted = update(robot, &second.knowledge, &campaigns[2..]).unwrap();
     assert!(
-        foretold.campaigns[0].before < 0.05 * third.campaigns[2].before,
-        "{foretold:?}"
+        predicted.campaigns[0].before < 0.05 * third.campaigns[2].before,
+        "{predicted:?}"
     );
-    // And what the part said foretells the tracker.
-    let foretold = update(robot, &first.knowledge, &campaigns[1..2]).unwrap();
+    // The part alone predicts the tracker.
+    let predicted = update(robot, &first.knowledge, &campaigns[1..2]).unwrap();
     assert!(
-        foretold.campaigns[0].before < 0.6 * third.campaigns[1].before,
-        "{foretold:?}"
+        predicted.campaigns[0].before < 0.6 * third.campaigns[1].before,
+        "{predicted:?}"
     );
 
     println!(
