@@ -13,8 +13,16 @@ pub fn comparisons(samples: &Samples) -> Vec<Comparison> {
     let [points, line, few] = ["POINTS", "LINE", "Calibration"].map(|path| poses(samples, path));
     let mut rows = stretches_held_out(&robot, "300 points", &points, 6);
     rows.extend(stretches_held_out(&robot, "a line", &line, 6));
-    rows.extend(on_others(&robot, ("40 poses", &few), &[("300 points", &points)]));
-    rows.extend(on_others(&robot, ("300 points", &points), &[("40 poses", &few)]));
+    rows.extend(on_others(
+        &robot,
+        ("40 poses", &few),
+        &[("300 points", &points), ("a line", &line)],
+    ));
+    rows.extend(on_others(
+        &robot,
+        ("300 points", &points),
+        &[("40 poses", &few), ("a line", &line)],
+    ));
     rows
 }
 

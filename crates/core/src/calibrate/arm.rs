@@ -168,16 +168,34 @@ impl<'a> Arm<'a> {
     }
 }
 
-/// Along x, y, z, then by the rotation vector.
+/// The screw motion by a twist `(v, w)` over unit time: rotation `exp [w]`, translation `(1 + b [w] + c [w]^2) v` with
+/// `b = (1 - cos a)/a^2`, `c = (a - sin a)/a^3`, `a = |w|` (Murray, Li and Sastry 1994, section 2.3.2). A rotation about a
+/// line far from the origin keeps its points however large it is: poses near a line leave that rotation almost free.
 fn displacement([x, y, z, a, b, c]: [f64; 6]) -> Isometry {
+    let (linear, angular) = (Vector3::new(x, y, z), Vector3::new(a, b, c));
+    let angle = angular.norm();
+    let half = (0.5 * angle).sin();
+    let [first, second] = match angle < SMALL_ANGLE {
+        true => [0.5, 1.0 / 6.0],
+        false => [
+            2.0 * (half / angle).powi(2),
+            (angle - angle.sin()) / angle.powi(3),
+        ],
+    };
+    let once = angular.cross(&linear);
     Isometry::from_parts(
-        Vector3::new(x, y, z).into(),
-        UnitQuaternion::from_scaled_axis(Vector3::new(a, b, c)),
+        (linear + first * once + second * angular.cross(&once)).into(),
+        UnitQuaternion::from_scaled_axis(angular),
     )
 }
 
+/// Below this angle the series of the screw motion is exact to rounding, rad.
+const SMALL_ANGLE: f64 = 1e-5;
+
 #[cfg(test)]
 mod tests {
+    use nalgebra::Point3;
+
     use super::super::unknown::{ParameterSet, unknowns};
     use super::*;
     use crate::arms;
@@ -220,5 +238,22 @@ mod tests {
                 );
             }
         }
+    }
+
+    #[test]
+    fn a_twist_about_a_line_keeps_its_points_and_is_the_limit_of_many_small_ones() {
+        let (through, turn) = (Point3::new(0.4, -2.0, 1.1), Vector3::new(0.3, 0.8, -0.5));
+        let moment = through.coords.cross(&turn);
+        let about = displacement([moment.x, moment.y, moment.z, turn.x, turn.y, turn.z]);
+        for along in [0.0, 1.0, -3.0] {
+            let point = through + turn * along;
+            assert!((about * point - point).norm() < 1e-14);
+        }
+        let twist = [0.2, -0.1, 0.4, 0.3, 0.8, -0.5];
+        let small = displacement(twist.map(|part| part / 1e5));
+        let many = (0..100_000).fold(Isometry::identity(), |frame, _| frame * small);
+        let once = displacement(twist);
+        assert!((many.translation.vector - once.translation.vector).norm() < 1e-9);
+        assert!(many.rotation.angle_to(&once.rotation) < 1e-9);
     }
 }
