@@ -276,6 +276,29 @@ pub fn tx90l() -> Robot {
     )
 }
 
+/// KUKA LBR iiwa 7 R800: lengths of its data sheet; axes as those of the iiwa 14 of the library.
+pub fn iiwa7() -> Robot {
+    let motions = vec![
+        Along(Z, Constant(0.340)),
+        About(Z, Var(0)),
+        About(Y, Var(1)),
+        Along(Z, Constant(0.400)),
+        About(Z, Var(2)),
+        About(Y, Var(3)),
+        Along(Z, Constant(0.400)),
+        About(Z, Var(4)),
+        About(Y, Var(5)),
+        About(Z, Var(6)),
+        Along(Z, Constant(0.126)),
+    ];
+    let joint = |negative| Joint {
+        sign: if negative { Sign::Negative } else { Sign::Positive },
+        ..Joint::plain("joint")
+    };
+    let joints = (0..7).map(|index| joint(index == 3)).collect();
+    Robot::new("iiwa7", motions, joints).expect("its chain is typed here")
+}
+
 /// ABB IRB 120-3/0.6: lengths of its data sheet.
 pub fn irb120() -> Robot {
     by_rows(

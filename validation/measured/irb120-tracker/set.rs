@@ -3,7 +3,7 @@
 use armill_measure::tracker::{Files, JointUnit, Together, together};
 
 use crate::arms;
-use crate::measured::poses::{on_others, stretches_held_out};
+use crate::measured::poses::{on_others, question, stretches_held_out};
 use crate::measured::{Comparison, Samples};
 
 /// Poses from which the arm is found; the others are kept back.
@@ -15,7 +15,12 @@ pub fn comparisons(samples: &Samples) -> Vec<Comparison> {
     let all = read(samples).poses;
     let (first, others) = all.split_at(FOUND_FROM);
     let mut rows = stretches_held_out(&robot, "400 poses", first, 5);
-    rows.extend(on_others(&robot, ("400 poses", first), &[("300 others", others)]));
+    rows.extend(on_others(
+        &robot,
+        &question(),
+        ("400 poses", first),
+        &[("300 others", others)],
+    ));
     rows
 }
 

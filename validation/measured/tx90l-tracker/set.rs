@@ -4,7 +4,7 @@ use armill_core::calibrate::MeasuredPose;
 use armill_measure::tracker::{Files, JointUnit, together};
 
 use crate::arms;
-use crate::measured::poses::{on_others, stretches_held_out};
+use crate::measured::poses::{on_others, question, stretches_held_out};
 use crate::measured::{Comparison, Samples};
 
 /// Poses held out, and points and poses by what was found from the other.
@@ -15,11 +15,13 @@ pub fn comparisons(samples: &Samples) -> Vec<Comparison> {
     rows.extend(stretches_held_out(&robot, "a line", &line, 6));
     rows.extend(on_others(
         &robot,
+        &question(),
         ("40 poses", &few),
         &[("300 points", &points), ("a line", &line)],
     ));
     rows.extend(on_others(
         &robot,
+        &question(),
         ("300 points", &points),
         &[("40 poses", &few), ("a line", &line)],
     ));

@@ -40,12 +40,13 @@ pub fn stretches_held_out(
 /// Positions of each of `others` by what was found from `poses`; base and point are found from them.
 pub fn on_others(
     robot: &Robot,
+    question: &Question,
     (name, poses): (&str, &[MeasuredPose]),
     others: &[(&str, &[MeasuredPose])],
 ) -> Vec<Comparison> {
     let with = |requested| Question {
         requested,
-        ..question()
+        ..question.clone()
     };
     let found =
         |requested| fit(robot, poses, &with(requested)).unwrap_or_else(|error| panic!("{name}: {error}"));
@@ -58,7 +59,7 @@ pub fn on_others(
         learnt: &learnt,
     };
     let on = |(other, poses): &(&str, &[MeasuredPose])| {
-        let errors: HeldOut = on_other_poses(robot, models, OtherSetUp::BaseAndPoint, poses, &question())
+        let errors: HeldOut = on_other_poses(robot, models, OtherSetUp::BaseAndPoint, poses, question)
             .unwrap_or_else(|error| panic!("{name}, {other}: {error}"));
         Comparison::of_models(&format!("{other}, from {name}"), &errors)
     };

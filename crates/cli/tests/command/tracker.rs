@@ -147,3 +147,49 @@ fn misread_reflectors_are_reported_and_files_that_do_not_belong_together_refused
         &["leica.csv:2", "length 2.0000"],
     );
 }
+
+#[test]
+fn three_reflectors_and_joints_in_one_file_without_titles_are_the_poses_of_three_files() {
+    let point = |angle: f64, (x, y): (f64, f64)| {
+        let (sin, cos) = angle.to_radians().sin_cos();
+        format!("{:.5} {:.5} 10", x * cos - y * sin, x * sin + y * cos)
+    };
+    let corners = [(500.0, 0.0), (600.0, 0.0), (500.0, 80.0)];
+    let mut files = [const { String::new() }; 5];
+    for k in 0..12 {
+        let angle = 7.0 * f64::from(k);
+        let points = corners.map(|corner| point(angle, corner));
+        for (file, point) in files.iter_mut().zip(&points) {
+            *file += &format!("{point}\n");
+        }
+        files[3] += &format!("{angle} 0\n");
+        files[4] += &format!("{} 0 0 {angle} 0\n", points.join(" "));
+    }
+    let named: Vec<(&str, &str)> = ["a.txt", "b.txt", "c.txt", "joints.txt", "all.txt"]
+        .into_iter()
+        .zip(files.iter().map(String::as_str))
+        .collect();
+    let folder = cell(&named);
+    let of = |arguments: &[&str], out: &str| {
+        let all = [&["tracker"], arguments, &["--robot", "lever.toml", "--out", out]].concat();
+        let (code, _, err) = armill(folder.path(), &all);
+        assert_eq!(code, 0, "{err}");
+        std::fs::read_to_string(folder.path().join(out)).unwrap()
+    };
+    let three = of(
+        &["a.txt", "b.txt", "c.txt", "--joints", "joints.txt"],
+        "three.csv",
+    );
+    assert_eq!(of(&["all.txt"], "one.csv"), three);
+    assert_eq!(three.lines().count(), 13);
+    std::fs::write(
+        folder.path().join("short.txt"),
+        "1 2 3 4 5 6 7 8 9 0 0\n1 2 3 4 5\n",
+    )
+    .unwrap();
+    refused(
+        folder.path(),
+        &["short.txt"],
+        &["short.txt:2", "5 cells instead of at least 9"],
+    );
+}

@@ -56,6 +56,32 @@ pub fn read(path: &str, bytes: &[u8], columns: Columns) -> Result<Vec<Vec<f64>>,
     }
 }
 
+/// Whether this is a text whose first row is numbers: there are no titles. At least `columns` of them.
+pub fn is_without_titles(bytes: &[u8], columns: usize) -> bool {
+    if bytes.starts_with(ZIP) {
+        return false;
+    }
+    let Ok(Some(line)) = Lines::new("", bytes).next_row() else {
+        return false;
+    };
+    let (separator, found) = row_of(&line.text);
+    let is_number = |cell: &Cell<'_>| number(&cell.text, separator).is_some();
+    found.len() >= columns && found.iter().all(is_number)
+}
+
+/// The cells of a row, without empty ones at its end, and what separates them.
+fn row_of(text: &str) -> (char, Vec<Cell<'_>>) {
+    let separator = [';', '\t', ','].into_iter().find(|c| text.contains(*c));
+    let mut found = match separator {
+        Some(separator) => cells(text, separator),
+        None => blank_separated(text),
+    };
+    // A comma that separates nothing is the end of the row.
+    let end = found.iter().rposition(|cell| !cell.text.is_empty());
+    found.truncate(end.map_or(0, |last| last + 1));
+    (separator.unwrap_or(' '), found)
+}
+
 fn hint(columns: Columns) -> String {
     match columns {
         Columns::First(count) => format!("one row per pose; its first {count} cells are numbers"),
@@ -82,20 +108,9 @@ fn of_text(path: &str, bytes: &[u8], columns: Columns) -> Result<Vec<Vec<f64>>, 
             problems.push(line.problem(path, whole, message, "a few hundred poses are sufficient"));
             break;
         }
-        let separator = [';', '\t', ','].into_iter().find(|c| line.text.contains(*c));
-        let found = match separator {
-            Some(separator) => cells(&line.text, separator),
-            None => blank_separated(&line.text),
-        };
-        // A comma that separates nothing is the end of the row.
-        let end = found
-            .iter()
-            .rposition(|cell| !cell.text.is_empty())
-            .map_or(0, |last| last + 1);
-        let found = &found[..end];
-        let value =
-            |cell: &Cell<'_>| number(&cell.text, separator.unwrap_or(' ')).filter(|value| value.is_finite());
-        let Some(requested) = columns.of(found) else {
+        let (separator, found) = row_of(&line.text);
+        let value = |cell: &Cell<'_>| number(&cell.text, separator).filter(|value| value.is_finite());
+        let Some(requested) = columns.of(&found) else {
             if rows.is_empty() {
                 continue;
             }
@@ -224,6 +239,13 @@ mod tests {
         }
         let named = "P1 1 2 3\nP2 4 5 6\n";
         assert_eq!(of(named, Columns::Last(2)).unwrap(), [[2.0, 3.0], [5.0, 6.0]]);
+    }
+
+    #[test]
+    fn titles_are_recognised() {
+        let without = |text: &str| is_without_titles(text.as_bytes(), 3);
+        assert!(without("# robot\n\n1 2 3\n4 5 6\n") && without("1;2,5;3;\n"));
+        assert!(!without("a b c\n1 2 3\n") && !without("1 2\n") && !without("") && !without("1,2,P1\n"));
     }
 
     #[test]

@@ -23,11 +23,11 @@ pub enum JointUnit {
 /// The files that belong together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Files {
-    /// One file of a measured body, or of one point; or three of reflectors.
+    /// One file of a measured body, of one point or, without titles, of three reflectors in its first nine columns; or three of reflectors.
     pub measured: Vec<PathBuf>,
     /// Three reflectors on the base, measured with every pose.
     pub base: Option<[PathBuf; 3]>,
-    /// Joint positions, in the last columns; without it they are in the file of the body.
+    /// Joint positions, in the last columns; without it they are in the file of the body or of the three reflectors.
     pub joints: Option<PathBuf>,
     /// Their unit.
     pub joint_unit: JointUnit,
@@ -52,6 +52,19 @@ fn bytes(path: &Path) -> Result<(String, Vec<u8>), StudyError> {
 pub(super) fn body(path: &Path, robot: &Robot) -> Result<Bodies, StudyError> {
     let (shown, bytes) = bytes(path)?;
     Ok(bodies::read(&shown, &bytes, robot)?)
+}
+
+/// Readings of three reflectors, m, in one file without titles: mm in its first nine columns. None of a file with titles.
+pub(super) fn three_in_one(path: &Path) -> Result<Option<Vec<Readings>>, StudyError> {
+    let (shown, bytes) = bytes(path)?;
+    if !numbers::is_without_titles(&bytes, 9) {
+        return Ok(None);
+    }
+    let rows = numbers::read(&shown, &bytes, Columns::First(9))?;
+    let readings = |row: &Vec<f64>| {
+        [0, 3, 6].map(|first: usize| Vector3::from_column_slice(&row[first..first + 3]).map(from_mm))
+    };
+    Ok(Some(rows.iter().map(readings).collect()))
 }
 
 /// Readings of three reflectors, m, one row each in three files: mm in the first three columns.

@@ -1,12 +1,13 @@
 //! One measured pose for each row of the files.
 
 use armill_core::calibrate::MeasuredPose;
+use armill_core::frame::Isometry;
 use armill_core::measure::reflectors::{Body, BodyError, referred_to};
 use armill_core::nalgebra::{UnitQuaternion, Vector3};
 use armill_core::robot::Robot;
 use armill_study::StudyError;
 
-use super::files::{Files, body, joints, reflectors, same_rows};
+use super::files::{Files, body, joints, reflectors, same_rows, three_in_one};
 
 /// What the files have together.
 #[derive(Clone, Debug)]
@@ -34,32 +35,35 @@ pub fn together(robot: &Robot, files: &Files) -> Result<Together, StudyError> {
         unused: Vec::new(),
     };
     let mut own_joints = None;
-    let mut placed: Vec<(Vector3<f64>, Option<UnitQuaternion<f64>>)> = match files.measured.as_slice() {
-        [one] => {
-            let bodies = body(one, robot)?;
+    let three = match files.measured.as_slice() {
+        [one] => three_in_one(one)?,
+        [a, b, c] => Some(reflectors(&[a.clone(), b.clone(), c.clone()])?),
+        others => {
+            return Err(StudyError::value(
+                format!("{} files of measured points are given", others.len()),
+                "one file of a body, a point or three reflectors on the tool; or three files of one reflector each",
+            ));
+        }
+    };
+    let mut placed: Vec<(Vector3<f64>, Option<UnitQuaternion<f64>>)> = match three {
+        Some(three) => {
+            let tool = Body::of(&three).map_err(|error| not_a_body("the reflectors of the tool", error))?;
+            let place = |pose: &Isometry| (pose.translation.vector, Some(pose.rotation));
+            let placed = tool.poses.iter().map(place).collect();
+            found.tool = Some(tool);
+            if let ([one], None) = (files.measured.as_slice(), &files.joints) {
+                own_joints = Some(joints(one, robot, files.joint_unit)?);
+            }
+            placed
+        }
+        None => {
+            let bodies = body(&files.measured[0], robot)?;
             own_joints = bodies.joints;
             found.unused = bodies.unused;
             let rotations = bodies.rotations;
             let rotation = |row: usize| rotations.as_ref().map(|all| all[row]);
             let rows = bodies.positions.into_iter().enumerate();
             rows.map(|(row, position)| (position, rotation(row))).collect()
-        }
-        [a, b, c] => {
-            let three = reflectors(&[a.clone(), b.clone(), c.clone()])?;
-            let tool = Body::of(&three).map_err(|error| not_a_body("the reflectors of the tool", error))?;
-            let poses = tool
-                .poses
-                .iter()
-                .map(|pose| (pose.translation.vector, Some(pose.rotation)));
-            let poses = poses.collect();
-            found.tool = Some(tool);
-            poses
-        }
-        others => {
-            return Err(StudyError::value(
-                format!("{} files of measured points are given", others.len()),
-                "one file of a body or point, or three of reflectors on the tool",
-            ));
         }
     };
     if let Some(base) = &files.base {
@@ -109,7 +113,6 @@ fn referred(
     base: &Body,
     placed: &[(Vector3<f64>, Option<UnitQuaternion<f64>>)],
 ) -> Vec<(Vector3<f64>, Option<UnitQuaternion<f64>>)> {
-    use armill_core::frame::Isometry;
     let frame = |(position, rotation): &(Vector3<f64>, Option<UnitQuaternion<f64>>)| {
         Isometry::from_parts((*position).into(), rotation.unwrap_or_default())
     };
@@ -123,6 +126,6 @@ fn referred(
 fn not_a_body(what: &str, error: BodyError) -> StudyError {
     StudyError::value(
         format!("{what}: {error}"),
-        "three files in one order of rows, mm; the same reflector in the same file",
+        "all files in one order of rows, mm; the same reflector in the same file or columns",
     )
 }
