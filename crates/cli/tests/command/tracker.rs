@@ -110,7 +110,7 @@ fn misread_reflectors_are_reported_and_files_that_do_not_belong_together_refused
     refused(
         at,
         &["a.txt", "b.txt", "--joints", "joints.txt"],
-        &["2 files", "three of reflectors"],
+        &["2 files", "three files of one reflector each"],
     );
     refused(
         at,
