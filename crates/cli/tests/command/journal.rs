@@ -130,6 +130,74 @@ fn cell() -> tempfile::TempDir {
     folder
 }
 
+/// A circle of 80 mm forth and back: joint positions of a lever with nominal lengths, distances of the true one from a pivot that is not exactly in
+/// the middle, by a bar that is 0.02 mm too short.
+fn ball_bar() -> String {
+    let mut text = "A_deg,B_deg,A_direction,radius_mm\n".to_owned();
+    let joints = |angle_deg: f64| {
+        let (sin, cos) = angle_deg.to_radians().sin_cos();
+        let (x, y) = (320.0 + 80.0 * cos, 120.0 + 80.0 * sin);
+        let inner = ((x * x + y * y - 300.0f64.powi(2) - 200.0f64.powi(2)) / 120_000.0).acos();
+        let outer = (200.0 * inner.sin()).atan2(300.0 + 200.0 * inner.cos());
+        [(y.atan2(x) - outer).to_degrees(), -inner.to_degrees()]
+    };
+    for way in [1.0, -1.0] {
+        for k in 0..120 {
+            let angle = way * f64::from(3 * k);
+            let ([a, b], [next, _]) = (joints(angle), joints(angle + 0.01 * way));
+            let direction = (next - a).signum();
+            let [x, y] = tip(a, b, [0.0, 0.0], direction);
+            let radius = (x - 320.3).hypot(y - 119.8) + 0.02 + f64::from(k * 11 % 7 - 3) / 4000.0;
+            let _ = writeln!(text, "{a:.7},{b:.7},{direction},{radius:.5}");
+        }
+    }
+    text
+}
+
+#[test]
+fn a_ball_bar_measures_the_backlash_of_a_joint() {
+    let folder = cell();
+    let at = folder.path();
+    let journal = JOURNAL.split("[[measurement]]").next().unwrap().to_owned()
+        + "[[measurement]]\ndate = \"2026-11-27\"\ntemperature_c = 20\nkind = \"ball-bar\"\nfile = \"bar.csv\"\nu_um = 1\n";
+    std::fs::write(at.join("bar.toml"), &journal).unwrap();
+    std::fs::write(at.join("bar.csv"), ball_bar()).unwrap();
+    let (code, out, err) = armill(at, &["journal", "bar.toml", "--json"]);
+    assert_eq!(code, 0, "{err}");
+    let answer: Value = serde_json::from_str(&out).unwrap();
+    let measured = &answer["measurements"][0];
+    assert!(
+        measured["kind"] == "ball-bar" && measured["readings"] == 239,
+        "{answer}"
+    );
+    assert!(measured["after"].as_f64().unwrap() < 1.5, "{answer}");
+    let backlash = answer["backlash"][0]["value"].as_f64().unwrap();
+    assert!((backlash / GAP.to_degrees() - 1.0).abs() < 0.03, "{answer}");
+
+    std::fs::write(at.join("bar.csv"), ball_bar().replace("radius_mm", "radius")).unwrap();
+    refused(
+        at,
+        &["journal", "bar.toml"],
+        &["bar.csv: line 2 has no reading", "radius_mm"],
+    );
+    std::fs::write(
+        at.join("bar.csv"),
+        ball_bar().replace("A_deg", "b_deg").replace("B_deg", "A_deg"),
+    )
+    .unwrap();
+    refused(
+        at,
+        &["journal", "bar.toml"],
+        &["mm from a reading of the ball-bar", "point_mm"],
+    );
+    std::fs::write(
+        at.join("bar.toml"),
+        journal.replace("u_um = 1", "calibrated = true"),
+    )
+    .unwrap();
+    refused(at, &["journal", "bar.toml"], &["bar.toml:8", "add u_um"]);
+}
+
 fn refused(folder: &Path, arguments: &[&str], words: &[&str]) {
     let (code, out, err) = armill(folder, arguments);
     assert!(code == 2 && out.is_empty(), "{out}{err}");

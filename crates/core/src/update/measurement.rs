@@ -1,6 +1,6 @@
-//! Campaigns of measurements: positions of a point, and load tests.
+//! Campaigns of measurements: positions of a point, its distances from a pivot (ball-bar), and load tests.
 
-use nalgebra::Vector3;
+use nalgebra::{DMatrix, DVector, Vector3};
 
 use crate::calibrate::{MeasuredPose, ParameterSet, Question, Refusal, fit};
 use crate::frame::Isometry;
@@ -32,6 +32,28 @@ pub struct Positions {
     pub standard_uncertainty: f64,
     /// Weight of rotations: metres per radian.
     pub turn_length: f64,
+    /// What was measured of these positions.
+    pub observed: Observed,
+}
+
+/// What was measured of a position.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Observed {
+    /// Its coordinates, as the poses have them.
+    Coordinates,
+    /// Its distance from a pivot; the positions of the poses are not used.
+    Distances(Distances),
+}
+
+/// Readings of a ball-bar.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Distances {
+    /// Distance at each pose, m.
+    pub lengths: Vec<f64>,
+    /// The pivot, approximately; base, m.
+    pub pivot: Vector3<f64>,
+    /// Whether the length of the bar is known; otherwise only differences between readings are.
+    pub is_calibrated: bool,
 }
 
 /// Whether something is known or to be found.
@@ -80,6 +102,9 @@ impl Campaign {
     pub fn rows(&self) -> usize {
         match self {
             Campaign::Positions(positions) => {
+                if let Observed::Distances(distances) = &positions.observed {
+                    return distances.lengths.len() - usize::from(!distances.is_calibrated);
+                }
                 let turned = positions
                     .poses
                     .iter()
@@ -109,6 +134,9 @@ impl Positions {
     /// # Errors
     /// Poses that a calibration refuses.
     pub(super) fn placed(&self, robot: &Robot) -> Result<[Isometry; 2], Refusal> {
+        if let Observed::Distances(distances) = &self.observed {
+            return Ok([distances.pivot_from_base(), self.flange_from_point]);
+        }
         let question = |requested| Question {
             requested,
             flange_from_point: self.flange_from_point,
@@ -122,5 +150,121 @@ impl Positions {
                 .or_else(|_| fit(robot, &self.poses, &question(ParameterSet::Base))),
         }?;
         Ok([found.tracker_from_base, found.flange_from_point])
+    }
+}
+
+impl Distances {
+    /// The base in a frame at the pivot, with the axes of the base.
+    fn pivot_from_base(&self) -> Isometry {
+        Isometry::from_parts((-self.pivot).into(), Default::default())
+    }
+
+    /// How far the pivot of this frame is from where it was said to be, m.
+    pub(super) fn moved(&self, pivot_from_base: &Isometry) -> Vector3<f64> {
+        pivot_from_base.translation.vector + self.pivot
+    }
+
+    /// Rows of the distances, from `rows` of the coordinates from the pivot, which were said to be zero: the residual is last.
+    ///
+    /// A bar of unknown length leaves the differences between readings, in an orthonormal basis (Helmert).
+    pub(super) fn rows(&self, rows: &DMatrix<f64>) -> DMatrix<f64> {
+        let last = rows.ncols() - 1;
+        let mut of_lengths = DMatrix::zeros(self.lengths.len(), last + 1);
+        for (k, length) in self.lengths.iter().enumerate() {
+            let here = rows.rows(3 * k, 3);
+            let from_pivot = -here.column(last);
+            let distance = from_pivot.norm();
+            if distance > 0.0 {
+                of_lengths
+                    .row_mut(k)
+                    .copy_from(&(from_pivot.transpose() / distance * here));
+            }
+            of_lengths[(k, last)] = length - distance;
+        }
+        if self.is_calibrated {
+            return of_lengths;
+        }
+        let mut sum = of_lengths.row(0).into_owned();
+        let mut differences = DMatrix::zeros(self.lengths.len() - 1, last + 1);
+        for k in 1..self.lengths.len() {
+            let (count, next) = (k as f64, of_lengths.row(k));
+            let difference = (&sum - next * count) / (count * (count + 1.0)).sqrt();
+            differences.row_mut(k - 1).copy_from(&difference);
+            sum += next;
+        }
+        differences
+    }
+}
+
+/// The point whose distances from these are closest to one another, by linear least squares; what the points leave open (points of a plane: the
+/// distance from it) is that of their middle. None without points.
+pub fn pivot_of(points: &[Vector3<f64>]) -> Option<Vector3<f64>> {
+    if points.is_empty() {
+        return None;
+    }
+    let middle = points.iter().sum::<Vector3<f64>>() / points.len() as f64;
+    // |p|^2 - 2 p.c = constant, about the middle; the mean takes the constant.
+    let from_middle: Vec<Vector3<f64>> = points.iter().map(|point| point - middle).collect();
+    let mean = from_middle.iter().map(Vector3::norm_squared).sum::<f64>() / points.len() as f64;
+    let a = DMatrix::from_fn(points.len(), 3, |row, column| 2.0 * from_middle[row][column]);
+    let b = DVector::from_fn(points.len(), |row, _| from_middle[row].norm_squared() - mean);
+    let svd = a.svd(true, true);
+    let least = FLAT * svd.singular_values.max();
+    let centre = svd.solve(&b, least).ok()?;
+    let centre = middle + Vector3::new(centre[0], centre[1], centre[2]);
+    centre.iter().all(|value| value.is_finite()).then_some(centre)
+}
+
+/// Points whose extent in a direction is below this part of their largest do not determine the pivot there.
+const FLAT: f64 = 1e-2;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_pivot_of_a_circle_is_in_its_plane_and_that_of_a_sphere_its_centre() {
+        let centre = Vector3::new(1.0, -0.4, 0.3);
+        let circle: Vec<Vector3<f64>> = (0..20)
+            .map(|k| {
+                let angle = 0.2 * f64::from(k);
+                centre + 0.15 * Vector3::new(angle.cos(), 0.8 * angle.sin(), 0.6 * angle.sin())
+            })
+            .collect();
+        let off = (pivot_of(&circle).unwrap() - centre).norm();
+        assert!(off < 1e-12, "{off}");
+        let sphere: Vec<Vector3<f64>> = (0..20)
+            .map(|k| {
+                let (a, b) = (0.9 * f64::from(k), 0.1 * f64::from(k));
+                centre + 0.15 * Vector3::new(a.cos() * b.cos(), a.sin() * b.cos(), b.sin())
+            })
+            .collect();
+        let off = (pivot_of(&sphere).unwrap() - centre).norm();
+        assert!(off < 1e-12, "{off}");
+        assert_eq!(pivot_of(&[]), None);
+    }
+
+    #[test]
+    fn differences_of_readings_do_not_depend_on_the_length_of_the_bar() {
+        let rows = DMatrix::from_row_slice(
+            9,
+            2,
+            &[
+                1.0, -0.3, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0, 0.2, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 4.0, -0.5,
+            ],
+        );
+        let distances = |offset: f64, is_calibrated| Distances {
+            lengths: [0.31, 0.22, 0.5].map(|length| length + offset).to_vec(),
+            pivot: Vector3::zeros(),
+            is_calibrated,
+        };
+        let known = distances(0.0, true).rows(&rows);
+        // Along x, against y, along z; readings less distances.
+        let expected = DMatrix::from_row_slice(3, 2, &[1.0, 0.01, -2.0, 0.02, 4.0, 0.0]);
+        assert!((known - expected).norm() < 1e-15);
+        let [here, longer] = [0.0, 0.1].map(|offset| distances(offset, false).rows(&rows));
+        assert!((&here - longer).norm() < 1e-15 && here.nrows() == 2);
+        // The sum of squares is that about the mean: 0.01, 0.02, 0 about 0.01.
+        assert!((here.column(1).norm_squared() - 2e-4).abs() < 1e-17);
     }
 }

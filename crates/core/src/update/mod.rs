@@ -1,7 +1,7 @@
 //! What all measurements of one arm say together: geometry, compliances and backlash by Bayes.
 //!
 //! In reading order: [`parameter`] (what is uncertain, and what is known of it before), [`measurement`] (campaigns: positions of a
-//! point, load tests), `state` (an arm with values of all parameters, and the rows of a campaign there), [`posterior`] (the most likely
+//! point, its distances from a pivot, load tests), `state` (an arm with values of all parameters, and the rows of a campaign there), [`posterior`] (the most likely
 //! values with their covariance), [`work`] (the uncertainty of the deviation where the arm will work), [`next`](mod@next) (what to
 //! measure next).
 //!
@@ -17,7 +17,7 @@ mod state;
 mod tests;
 pub mod work;
 
-pub use measurement::{Campaign, Condition, Known, Positions};
+pub use measurement::{Campaign, Condition, Distances, Known, Observed, Positions, pivot_of};
 pub use next::{Candidate, Chosen, Instrument, Plan, next};
 pub use parameter::{Knowledge, Parameter, PriorFactors, prior};
 pub use posterior::{CampaignOutcome, Posterior, Refusal, update};

@@ -16,7 +16,7 @@
 use nalgebra::{Cholesky, DMatrix, Dyn, Vector3};
 use rayon::prelude::*;
 
-use super::measurement::{Campaign, Condition, Known, Positions};
+use super::measurement::{Campaign, Condition, Known, Observed, Positions};
 use super::parameter::Knowledge;
 use super::posterior::Posterior;
 use super::state::Model;
@@ -174,6 +174,7 @@ fn rows(
                 point: Known::Approximately,
                 standard_uncertainty: instrument.standard_uncertainty,
                 turn_length: 1.0,
+                observed: Observed::Coordinates,
             }),
         };
         let campaigns = [campaign];

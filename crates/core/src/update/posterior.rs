@@ -13,7 +13,7 @@
 //! | `m`, `sigma` | mean and standard deviation of a parameter before any measurement |
 //! | `C` | covariance afterwards |
 //!
-//! Scales and values are iterated until the scales are constant. Base frames have no prior; a point that is to be found is known within
+//! Scales and values are iterated until the scales are constant. Base frames have no prior; a point or pivot that is to be found is known within
 //! centimetres.
 //!
 //! Source: Gauss-Newton and normal approximation of a posterior, A. Gelman et al., Bayesian Data Analysis, 3rd ed. 2013, ch. 4; effective
@@ -21,7 +21,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::measurement::Campaign;
+use super::measurement::{Campaign, Observed};
 use super::parameter::{Knowledge, Parameter};
 use super::state::{Model, State, residual};
 use crate::calibrate::{self, Arm, ParameterLocation};
@@ -32,7 +32,7 @@ use crate::robot::chain::Motion;
 /// Rounds of scales and values, and the change of the scales that ends them.
 const MOST_ROUNDS: usize = 40;
 const SAME_SCALE: f64 = 1e-4;
-/// Standard deviation of the coordinates of an approximate point, m.
+/// Standard deviation of the coordinates of an approximate point or pivot, m.
 const POINT: f64 = 0.02;
 
 /// What is known of an arm after its measurements.
@@ -209,6 +209,19 @@ fn sound(robot: &Robot, campaign: &Campaign) -> Result<(), &'static str> {
                 .any(|condition| condition.directions.len() != joints)
             {
                 return Err("it has another number of directions than the robot has joints");
+            }
+            if positions.poses.iter().any(|pose| pose.joints.len() != joints) {
+                return Err("it has another number of joints than the robot");
+            }
+            if let Observed::Distances(distances) = &positions.observed {
+                let is_sound = |length: &f64| *length > 0.0 && length.is_finite();
+                if distances.lengths.len() != positions.poses.len() || distances.lengths.len() < 2 {
+                    return Err("it has another number of distances than of poses, or fewer than two");
+                }
+                if !distances.lengths.iter().all(is_sound) || !distances.pivot.iter().all(|at| at.is_finite())
+                {
+                    return Err("it has a distance that is not above 0, or a pivot that is not finite");
+                }
             }
             match u > 0.0 && u.is_finite() {
                 true => Ok(()),

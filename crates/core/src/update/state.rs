@@ -6,7 +6,7 @@
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
-//! | `y` | measured point, in the frame of the measurement | m |
+//! | `y` | measured point, in the frame of the measurement; of a ball-bar its distance from the pivot, the origin of that frame | m |
 //! | `B` | base of the robot in that frame, unknown | |
 //! | `p(q; x)` | the point by the chain with the small motions `x`, base | m |
 //! | `s_j`, `w` | screw of a joint at the point of the nominal chain; load | |
@@ -17,7 +17,7 @@
 
 use nalgebra::{DMatrix, DVector, Vector3};
 
-use super::measurement::{Campaign, Known, Positions};
+use super::measurement::{Campaign, Known, Observed, Positions};
 use super::parameter::{Knowledge, Parameter};
 use crate::calibrate::{Arm, ParameterLocation, Unknown};
 use crate::frame::Isometry;
@@ -97,7 +97,7 @@ impl<'a> Model<'a> {
         (self.prior.len() + before, &self.frames[index])
     }
 
-    /// Columns of the coordinates of approximate points, and how far each is from where it was said to be, m.
+    /// Columns of the coordinates of approximate points and pivots, and how far each is from where it was said to be, m.
     pub fn points(&self, state: &State<'a>) -> Vec<(usize, f64)> {
         let positions = self.campaigns.iter().filter_map(|campaign| match campaign {
             Prepared::Positions(positions, _) => Some(positions),
@@ -109,11 +109,17 @@ impl<'a> Model<'a> {
             let point = &arm.flange_from_point;
             let moved = point.translation.vector - positions.flange_from_point.translation.vector;
             let moved = point.rotation.inverse() * moved;
-            let coordinates = frames
-                .iter()
-                .enumerate()
-                .filter(|(_, unknown)| unknown.place == ParameterLocation::Tool && !unknown.turns());
-            points.extend(coordinates.map(|(k, unknown)| (first + k, moved[unknown.axis().index()])));
+            let mut take = |place: ParameterLocation, moved: Vector3<f64>| {
+                let coordinates = frames
+                    .iter()
+                    .enumerate()
+                    .filter(|(_, unknown)| unknown.place == place && !unknown.turns());
+                points.extend(coordinates.map(|(k, unknown)| (first + k, moved[unknown.axis().index()])));
+            };
+            take(ParameterLocation::Tool, moved);
+            if let Observed::Distances(distances) = &positions.observed {
+                take(ParameterLocation::Base, distances.moved(&arm.tracker_from_base));
+            }
         }
         points
     }
@@ -251,7 +257,10 @@ impl<'a> Model<'a> {
                 }
             }
         }
-        rows / positions.standard_uncertainty
+        match &positions.observed {
+            Observed::Coordinates => rows / positions.standard_uncertainty,
+            Observed::Distances(distances) => distances.rows(&rows) / positions.standard_uncertainty,
+        }
     }
 
     fn load_test_rows(&self, state: &State<'a>, tests: &[LoadTest], effects: &[Effects]) -> DMatrix<f64> {
@@ -326,7 +335,12 @@ fn frames_of(positions: &Positions) -> Vec<Unknown> {
         (Known::Approximately, false) => 3,
         (Known::Approximately, true) => 6,
     };
-    of(ParameterLocation::Base, 6)
+    // Distances do not depend on the axes of the frame at the pivot.
+    let base = match positions.observed {
+        Observed::Coordinates => 6,
+        Observed::Distances(_) => 3,
+    };
+    of(ParameterLocation::Base, base)
         .chain(of(ParameterLocation::Tool, point))
         .collect()
 }

@@ -13,6 +13,8 @@ use crate::robot::{Joint, JointCompliance, Robot};
 use crate::source::elastic;
 use crate::spatial::Wrench;
 
+mod ball_bar;
+
 const FACTORS: PriorFactors = PriorFactors {
     geometry: Prior {
         length: 3e-4,
@@ -124,6 +126,7 @@ fn part(hidden: &Hidden, points: &[WorkPoint], u: f64) -> Campaign {
         point: Known::Exactly,
         standard_uncertainty: u,
         turn_length: 1.0,
+        observed: Observed::Coordinates,
     })
 }
 
@@ -145,6 +148,7 @@ fn tracker(hidden: &Hidden, joints: Vec<Vec<f64>>, u: f64) -> Campaign {
         point: Known::Approximately,
         standard_uncertainty: u,
         turn_length: 1.0,
+        observed: Observed::Coordinates,
     })
 }
 
@@ -295,6 +299,8 @@ fn rows_match_finite_differences() {
     });
     let campaigns = [
         part(&hidden, &work(&hidden, 3, 8), 1.0),
+        ball_bar::readings(&hidden, &work(&hidden, 4, 9), 1.0, true),
+        ball_bar::readings(&hidden, &work(&hidden, 4, 10), 1.0, false),
         tracker(
             &hidden,
             vec![vec![0.3; 6], vec![-0.2; 6], vec![0.1; 6], vec![0.5; 6]],

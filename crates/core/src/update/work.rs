@@ -12,7 +12,7 @@
 
 use nalgebra::{DMatrix, Vector3};
 
-use super::measurement::{Campaign, Condition, Known, Positions};
+use super::measurement::{Campaign, Condition, Known, Observed, Positions};
 use super::parameter::Knowledge;
 use super::state::{Model, residual};
 use crate::calibrate::MeasuredPose;
@@ -62,6 +62,7 @@ impl Work {
                 point: Known::Exactly,
                 standard_uncertainty: 1.0,
                 turn_length: 1.0,
+                observed: Observed::Coordinates,
             }),
             rigid: rigid(&tips),
         })

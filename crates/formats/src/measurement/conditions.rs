@@ -1,4 +1,4 @@
-//! What acted on the arm at each row of a table of poses: loads and directions of the last motions.
+//! What acted on the arm at each row of a table of poses: loads and directions of the last motions; and readings of a ball-bar.
 //!
 //! | column | meaning | units |
 //! |---|---|---|
@@ -6,6 +6,7 @@
 //! | `fx_n`, `fy_n`, `fz_n` | force on the tool at its tip, base axes; a missing column or an empty cell is 0 | `_n`, `_kn` |
 //! | `mx_n_m`, `my_n_m`, `mz_n_m` | moment about the tip | `_n_m` |
 //! | `q1_direction` ..., or `A1_direction` | direction of the last motion of a joint as the controller reports it: 1, -1; 0 or an empty cell: not known | |
+//! | `radius_mm` | reading of a ball-bar: distance of the measured point from the pivot | `_mm`, `_um`, `_m`, `_in` |
 //!
 //! Other columns are ignored: they are those of [`poses`](super::poses).
 
@@ -17,6 +18,7 @@ use armill_core::spatial::Wrench;
 use armill_core::update::Condition;
 
 use super::poses::columns::{self, Quantity};
+use super::profile::LengthUnit;
 use crate::document::lines::{Line, Lines};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
 use crate::table::sheet::{is_blank_row, named_columns, number, row_cells, separator_of};
@@ -25,6 +27,8 @@ use crate::table::sheet::{is_blank_row, named_columns, number, row_cells, separa
 const MOST_ROWS: usize = 1_000_000;
 /// Largest force, N, and moment, N m: beyond that of any robot.
 const LARGEST: f64 = 1e6;
+/// Longest ball-bar, m.
+const LONGEST: f64 = 100.0;
 const HINT: &str = "joint positions (`q1_deg` ...), the load on the tool in base axes (`fx_n`, `fy_n`, `fz_n`), directions of the last motions (`q1_direction` ...)";
 
 /// A row of the table.
@@ -36,6 +40,8 @@ pub struct ConditionRow {
     pub joints: Vec<f64>,
     /// Load and directions.
     pub condition: Condition,
+    /// Reading of a ball-bar, m.
+    pub radius: Option<f64>,
 }
 
 /// Quantity of a column, and the factor of its unit.
@@ -45,6 +51,7 @@ enum Column {
     Force(usize, f64),
     Moment(usize),
     Direction(usize),
+    Radius(f64),
 }
 
 /// Whether a column of this name is read here, besides joint positions.
@@ -65,6 +72,7 @@ pub fn read(path: &str, reader: impl BufRead, robot: &Robot) -> Result<Vec<Condi
     let separator = separator_of(&header.text);
     let is_same = |one: Column, other: Column| match (one, other) {
         (Column::Joint(a, _), Column::Joint(b, _)) | (Column::Force(a, _), Column::Force(b, _)) => a == b,
+        (Column::Radius(_), Column::Radius(_)) => true,
         (one, other) => one == other,
     };
     let named = named_columns(path, &header, |name| meaning(name, robot), is_same);
@@ -128,6 +136,7 @@ fn row(
     let mut condition = Condition::unloaded(robot);
     let mut joints = vec![0.0; robot.joints().len()];
     let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
+    let mut radius = None;
     let mut problems = Vec::new();
     for (cell, column) in cells.iter().zip(columns) {
         let Some(column) = column else { continue };
@@ -162,6 +171,12 @@ fn row(
                 moment[*axis] = found.unwrap_or_default();
                 (found, "a moment in N m, not above 1e6 N m")
             }
+            Column::Radius(factor) => {
+                let found = value.map(|value| value * factor);
+                let found = found.filter(|radius| *radius > 0.0 && *radius <= LONGEST);
+                radius = found;
+                (found, "a distance above 0 and not above 100 m")
+            }
             Column::Direction(joint) => {
                 let found = value.filter(|value| [-1.0, 0.0, 1.0].contains(value));
                 condition.directions[*joint] = found.unwrap_or_default();
@@ -179,6 +194,7 @@ fn row(
         line: line.number,
         joints,
         condition,
+        radius,
     })
 }
 
@@ -191,6 +207,10 @@ fn meaning(name: &str, robot: &Robot) -> Result<Option<Column>, (String, String)
             Some(Quantity::Joint(joint)) => Ok(Some(Column::Direction(joint))),
             _ => Ok(None),
         };
+    }
+    if let Some(unit) = lower.strip_prefix("radius_") {
+        let unit: Option<LengthUnit> = unit.parse().ok();
+        return Ok(unit.map(|unit| Column::Radius(unit.factor())));
     }
     for (axis, letter) in ["x", "y", "z"].iter().enumerate() {
         if let Some(unit) = lower.strip_prefix(&format!("f{letter}_")) {
@@ -244,6 +264,9 @@ mod tests {
         assert_eq!(condition.directions, [0.0, -1.0]);
         assert_eq!(rows[1].condition, Condition::unloaded(&two_joints()));
         assert_eq!(rows[1].line, 3);
+        assert_eq!(rows[0].radius, None);
+        let bar = of("q1_deg,q2_deg,radius_mm,radius_error\n0,0,150.002,7\n0,1,,\n").unwrap();
+        assert!((bar[0].radius.unwrap() - 0.150_002).abs() < 1e-15 && bar[1].radius.is_none());
         assert!(is_condition("q2_direction", &two_joints()) && !is_condition("q2_deg", &two_joints()));
     }
 
@@ -264,6 +287,8 @@ mod tests {
             ("q1_deg,q2_deg,fx_lb\n0,0,1\n", "known units are n and kn"),
             ("q1_deg,q2_deg,fx_n,fx_kn\n0,0,1,1\n", "repeats"),
             ("q1_deg,q2_deg\n0\n", "2:"),
+            ("q1_deg,q2_deg,radius_mm\n0,0,-1\n", "a distance above 0"),
+            ("q1_deg,q2_deg,radius_mm,radius_um\n0,0,1,1\n", "repeats"),
         ] {
             let problems = of(text).unwrap_err().to_string();
             assert!(problems.contains(part), "{text}: {problems}");

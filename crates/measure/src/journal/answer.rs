@@ -50,7 +50,7 @@ pub struct MeasurementAnswer {
     pub date: String,
     /// Temperature of the arm.
     pub temperature_c: f64,
-    /// `part`, `tracker` or `load tests`.
+    /// `part`, `tracker`, `ball-bar` or `load tests`.
     pub kind: &'static str,
     /// Its file.
     pub file: String,
@@ -169,6 +169,7 @@ fn measurement(entry: &Entry, outcome: &CampaignOutcome, predicted: f64) -> Meas
             Kind::Part(_) => "part",
             Kind::Tracker(_) => "tracker",
             Kind::LoadTests => "load tests",
+            Kind::BallBar { .. } => "ball-bar",
         },
         file: entry.file.clone(),
         readings: outcome.rows,

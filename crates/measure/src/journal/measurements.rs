@@ -3,9 +3,13 @@
 use std::io::BufReader;
 use std::path::Path;
 
+use armill_core::calibrate::MeasuredPose;
 use armill_core::frame::Isometry;
+use armill_core::nalgebra::{Point3, Vector3};
 use armill_core::robot::Robot;
-use armill_core::update::{Campaign, Condition, Known, Positions};
+use armill_core::robot::forward::forward;
+use armill_core::units::to_mm;
+use armill_core::update::{Campaign, Condition, Distances, Known, Observed, Positions, pivot_of};
 use armill_formats::file::sum_of;
 use armill_formats::input;
 use armill_formats::measurement::conditions::{self, ConditionRow};
@@ -16,6 +20,11 @@ use armill_formats::robot::RobotDescription;
 use armill_study::{StudyError, robots};
 
 use crate::calibrate;
+
+/// Least number of readings of a ball-bar: pivot, point and length take seven.
+const FEWEST_READINGS: usize = 8;
+/// A reading further from the robot file than this, m, is not one of these joint positions.
+const FARTHEST_READING: f64 = 0.02;
 
 /// A journal with its robot and all its files.
 #[derive(Clone, Debug)]
@@ -117,6 +126,10 @@ fn campaign(
             }
             return Ok(Campaign::LoadTests(found.tests));
         }
+        Kind::BallBar { u, is_calibrated } => {
+            let rows = conditions(path, robot)?;
+            return ball_bar(robot, entry, (&shown, &rows), (u, is_calibrated));
+        }
         Kind::Part(u) => (journal.tool_point, Known::Exactly, u),
         Kind::Tracker(u) => (entry.point, Known::Approximately, u),
     };
@@ -144,6 +157,71 @@ fn campaign(
         point: known,
         standard_uncertainty: u,
         turn_length: 1.0,
+        observed: Observed::Coordinates,
+    }))
+}
+
+/// Readings of a ball-bar; the pivot is approximately where the nominal chain has it.
+fn ball_bar(
+    robot: &Robot,
+    entry: &Entry,
+    (shown, rows): (&str, &[ConditionRow]),
+    (u, is_calibrated): (f64, bool),
+) -> Result<Campaign, StudyError> {
+    let refused = |message: String, hint: &str| StudyError::value(format!("{shown}: {message}"), hint);
+    if let Some(row) = rows.iter().find(|row| row.radius.is_none()) {
+        let hint = "add the column radius_mm, the distance from the pivot at these joint positions";
+        return Err(refused(
+            format!("line {} has no reading of the ball-bar", row.line),
+            hint,
+        ));
+    }
+    if rows.len() < FEWEST_READINGS {
+        let hint = "use the readings along a whole circle, some hundred of them";
+        return Err(refused(
+            format!("{} readings of a ball-bar are too few", rows.len()),
+            hint,
+        ));
+    }
+    let flange_from_point = Isometry::from_parts(entry.point.into(), Default::default());
+    let tip = |row: &ConditionRow| {
+        let flange = forward(robot, &row.joints).base_from_flange;
+        (flange * Point3::from(entry.point)).coords
+    };
+    let tips: Vec<Vector3<f64>> = rows.iter().map(tip).collect();
+    let pivot = pivot_of(&tips).ok_or_else(|| {
+        let hint = "the joint positions at each reading, along a circle or on a sphere";
+        refused("no pivot is found from these joint positions".to_owned(), hint)
+    })?;
+    let radius = rows.iter().filter_map(|row| row.radius).sum::<f64>() / rows.len() as f64;
+    let farthest = tips.iter().map(|tip| ((tip - pivot).norm() - radius).abs());
+    let farthest = farthest.fold(0.0, f64::max);
+    if farthest > FARTHEST_READING {
+        return Err(refused(
+            format!(
+                "the robot file is {:.1} mm from a reading of the ball-bar",
+                to_mm(farthest)
+            ),
+            "joint positions and readings of one row belong together; point_mm is the centre of the ball in the flange frame",
+        ));
+    }
+    let pose = |row: &ConditionRow| MeasuredPose {
+        joints: row.joints.clone(),
+        position: Vector3::zeros(),
+        rotation: None,
+    };
+    Ok(Campaign::Positions(Positions {
+        poses: rows.iter().map(pose).collect(),
+        conditions: rows.iter().map(|row| row.condition.clone()).collect(),
+        flange_from_point,
+        point: Known::Approximately,
+        standard_uncertainty: u,
+        turn_length: 1.0,
+        observed: Observed::Distances(Distances {
+            lengths: rows.iter().filter_map(|row| row.radius).collect(),
+            pivot,
+            is_calibrated,
+        }),
     }))
 }
 

@@ -66,9 +66,11 @@ pub(super) struct MeasurementTable {
     pub file: String,
     /// Checksum of the file, so that a changed file is noticed.
     pub sha256: Option<String>,
-    /// Standard uncertainty of a measured coordinate; load tests state theirs in the file.
+    /// Standard uncertainty of a measured coordinate or distance; load tests state theirs in the file.
     #[schemars(range(min = 1e-3, max = 1e5))]
     pub u_um: Option<f64>,
+    /// Of a ball-bar: whether its length is known, so that its readings are distances; otherwise only their differences count.
+    pub calibrated: Option<bool>,
     /// The measured point in the flange frame, approximately; the tip of the tool without it.
     pub point_mm: Option<[f64; 3]>,
     /// For people.
@@ -85,4 +87,6 @@ pub(super) enum KindWord {
     Tracker,
     /// Displacements under load.
     LoadTests,
+    /// Distances of a point on the tool from a fixed pivot.
+    BallBar,
 }

@@ -3,7 +3,7 @@
 //! ```text
 //! format = 1, robot = "yaskawa/mh12", tool_mm = [0, 0, 150]
 //! [prior]            length_mm, angle_deg, factor
-//! [[measurement]]    date, temperature_c, kind = "part" | "tracker" | "load-tests", file, u_um, sha256, point_mm, note
+//! [[measurement]]    date, temperature_c, kind = "part" | "tracker" | "ball-bar" | "load-tests", file, u_um, calibrated, sha256, point_mm, note
 //! ```
 //!
 //! `file` has the tables as written; here they are checked and converted to SI. All keys: `docs/guide/journal.md`.
@@ -50,7 +50,7 @@ pub struct Entry {
     pub note: Option<String>,
 }
 
-/// What was measured, with the standard uncertainty of a coordinate, m.
+/// What was measured, with the standard uncertainty of a coordinate or distance, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
     /// Features that the tool cut.
@@ -59,6 +59,13 @@ pub enum Kind {
     Tracker(f64),
     /// Displacements under load.
     LoadTests,
+    /// Distances of a point on the tool from a fixed pivot.
+    BallBar {
+        /// Standard uncertainty, m.
+        u: f64,
+        /// Whether the length of the bar is known.
+        is_calibrated: bool,
+    },
 }
 
 /// Reads a journal; `name` is the file name shown in problems.
@@ -126,6 +133,10 @@ fn entry(
     let kind = match (table.kind, u) {
         (KindWord::Part, Some(u)) => Some(Kind::Part(u)),
         (KindWord::Tracker, Some(u)) => Some(Kind::Tracker(u)),
+        (KindWord::BallBar, Some(u)) => Some(Kind::BallBar {
+            u,
+            is_calibrated: table.calibrated.unwrap_or(false),
+        }),
         (KindWord::LoadTests, None) => Some(Kind::LoadTests),
         (KindWord::LoadTests, Some(_)) => {
             let hint = "remove it: the file of load tests states it for each displacement (d_u_mm)";
@@ -136,12 +147,16 @@ fn entry(
             );
             None
         }
-        (KindWord::Part | KindWord::Tracker, None) => {
-            let hint = "add u_um = 10, the standard uncertainty of a measured coordinate";
+        (KindWord::Part | KindWord::Tracker | KindWord::BallBar, None) => {
+            let hint = "add u_um = 10, the standard uncertainty of a measured coordinate or distance";
             report("kind", "the measurement has no uncertainty".to_owned(), hint);
             None
         }
     };
+    if table.kind != KindWord::BallBar && table.calibrated.is_some() {
+        let hint = "remove it: it says whether the length of a ball-bar is known";
+        report("calibrated", "the measurement has no ball-bar".to_owned(), hint);
+    }
     if table.kind == KindWord::Part && table.point_mm.is_some() {
         let hint = "remove it: the tip of the tool cut the part (tool_mm)";
         report(
@@ -222,6 +237,16 @@ file = "loads.csv"
         assert_eq!(kinds, [Kind::Part(5.0 * 1e-6), Kind::LoadTests]);
         assert_eq!(journal.measurements[1].point, journal.tool_point);
         assert!(schema().contains("temperature_c"));
+        let bar = GOOD.replace("kind = \"part\"", "kind = \"ball-bar\"\ncalibrated = true");
+        let bar = read("arm.toml", bar.as_bytes()).unwrap().measurements[0].kind;
+        let is_calibrated = true;
+        assert_eq!(
+            bar,
+            Kind::BallBar {
+                u: 5.0 * 1e-6,
+                is_calibrated
+            }
+        );
     }
 
     #[test]
@@ -229,7 +254,10 @@ file = "loads.csv"
         let bad = GOOD
             .replace("2026-11-24", "24.11.2026")
             .replace("u_um = 5", "sha256 = \"12\"\npoint_mm = [0, 0, 1]")
-            .replace("file = \"loads.csv\"", "file = \"loads.csv\"\nu_um = 3")
+            .replace(
+                "file = \"loads.csv\"",
+                "file = \"loads.csv\"\nu_um = 3\ncalibrated = true",
+            )
             .replace("2028-02-29", "2026-02-29");
         let problems = read("arm.toml", bad.as_bytes()).unwrap_err().to_string();
         for part in [
@@ -240,6 +268,7 @@ file = "loads.csv"
             "the tip of the tool cut",
             "`2026-02-29` is not a day",
             "d_u_mm",
+            "the measurement has no ball-bar",
         ] {
             assert!(problems.contains(part), "{part}: {problems}");
         }
