@@ -82,7 +82,10 @@ pub fn read(files: &[impl AsRef<Path>], requested: &FileOptions) -> Result<Measu
         })?;
         match ballbar::read(&shown, BufReader::new(file), &requested.given) {
             Ok(BallbarFile::Runs(runs)) => recorded.push((shown, runs)),
-            Ok(BallbarFile::Results(found)) => results.push((shown, found)),
+            Ok(BallbarFile::Results(found, runs)) => {
+                recorded.extend(runs.map(|runs| (shown.clone(), runs)));
+                results.push((shown, found));
+            }
             Err(wrong) => problems.extend(wrong),
         }
     }

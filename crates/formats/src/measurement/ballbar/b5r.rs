@@ -1,5 +1,4 @@
-//! Results of a Renishaw QC20-W ball-bar, `.b5r`: XML with the results that Renishaw's software computed, without
-//! radii.
+//! Results of a Renishaw QC20-W ball-bar, `.b5r`: XML with the results that Renishaw's software computed. Radii: `readings`.
 //!
 //! | element | attribute | meaning |
 //! |---|---|---|
@@ -91,11 +90,12 @@ pub fn read(path: &str, text: &str) -> Result<Results, Problems> {
             _ => {}
         }
     }
-    if results.features.is_empty() && problems.is_empty() {
+    let has_readings = document.descendants().any(|node| node.has_tag_name("READINGS"));
+    if results.features.is_empty() && problems.is_empty() && !has_readings {
         let root = document.root_element();
         let hint = "a result file of Renishaw Ballbar 20 (.b5r) is required; radii are read from CSV";
         let message = format!(
-            "<{}> has no FEATURE: not a ball-bar result file",
+            "<{}> has no FEATURE and no READINGS: not a ball-bar result file",
             root.tag_name().name()
         );
         problems.push(source.problem(tag(root), message, Some(hint.to_owned())));

@@ -380,7 +380,7 @@ impl Table {
                 break;
             }
             let angle = match by_index {
-                true => of_indices(&angle, start.unwrap_or(0.0), key.1),
+                true => evenly(angle.len(), start.unwrap_or(0.0), key.1),
                 false => angle,
             };
             let far = |most: f64| angle.iter().any(|a| a.abs() > most);
@@ -435,12 +435,12 @@ impl Table {
     }
 }
 
-/// Angles of samples that are evenly spaced over one turn, from their numbers.
-fn of_indices(numbers: &[f64], start: f64, direction: Direction) -> Vec<f64> {
+/// Angles of `count` samples that are evenly spaced over one turn.
+pub(super) fn evenly(count: usize, start: f64, direction: Direction) -> Vec<f64> {
     // The sample after the last one would be at the first angle again.
-    let step = TAU / numbers.len() as f64;
+    let step = TAU / count as f64;
     let angle = |k: usize| start + direction.sign() * step * k as f64;
-    (0..numbers.len()).map(angle).collect()
+    (0..count).map(angle).collect()
 }
 
 /// Total angle of a run, rad, with jumps of a full turn removed.

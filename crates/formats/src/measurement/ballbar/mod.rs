@@ -1,13 +1,14 @@
 //! Circular tests: radii measured with a ball-bar, or the results of the ball-bar's own software.
 //!
 //! In reading order: `runs` (what a file of radii gives), [`csv`] (radii along the circle, one or several runs),
-//! `columns` (their meaning), `remarks` (comment lines with `#`), [`b5r`] (results of a Renishaw QC20-W, without radii).
+//! `columns` (their meaning), `remarks` (comment lines with `#`), [`b5r`] (results of a Renishaw QC20-W), `readings` (its radii, if the file has them).
 //!
 //! [`read`] reads both: a file that begins with `<` is XML.
 
 pub mod b5r;
 mod columns;
 pub mod csv;
+mod readings;
 mod remarks;
 mod runs;
 #[cfg(test)]
@@ -26,14 +27,14 @@ pub use runs::{BallbarReadOptions, BallbarRuns, direction_of};
 pub enum BallbarFile {
     /// Radii.
     Runs(BallbarRuns),
-    /// Results of other software.
-    Results(Results),
+    /// Results of other software, and the radii if the file has them.
+    Results(Results, Option<BallbarRuns>),
 }
 
 /// Reads the file in `reader`. `path` is the file name shown in problems.
 ///
 /// # Errors
-/// The problems of the file, those of [`csv::read`] or [`b5r::read`].
+/// The problems of the file, those of [`csv::read`] or [`b5r::read`]; readings of a `.b5r` file without direction, radius or start angle.
 pub fn read(
     path: &str,
     mut reader: impl BufRead,
@@ -45,5 +46,8 @@ pub fn read(
     if first != Some(&b'<') {
         return csv::read(path, reader, options).map(BallbarFile::Runs);
     }
-    b5r::read(path, &xml::text_of(path, reader)?).map(BallbarFile::Results)
+    let text = xml::text_of(path, reader)?;
+    let results = b5r::read(path, &text)?;
+    let runs = readings::read(path, &text, options, &results)?;
+    Ok(BallbarFile::Results(results, runs))
 }

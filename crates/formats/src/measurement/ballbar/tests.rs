@@ -29,7 +29,7 @@ const NAMES: &str = "angle_deg,radius_dev_um,direction,run\n";
 fn read_as(text: &str, given: &BallbarReadOptions) -> Result<BallbarRuns, String> {
     match read("bar.csv", text.as_bytes(), given) {
         Ok(BallbarFile::Runs(recorded)) => Ok(recorded),
-        Ok(BallbarFile::Results(_)) => panic!("expected radii"),
+        Ok(BallbarFile::Results(..)) => panic!("expected radii"),
         Err(problems) => Err(problems.to_string()),
     }
 }
@@ -301,7 +301,8 @@ const RESULTS: &str = "<?xml version='1.0'?><BALLBAR><TEST_SPEC NAME='XY 100mm'/
 
 #[test]
 fn results_of_a_ball_bar_are_read_with_their_units() {
-    let Ok(BallbarFile::Results(found)) = read("a.b5r", RESULTS.as_bytes(), &BallbarReadOptions::default())
+    let Ok(BallbarFile::Results(found, None)) =
+        read("a.b5r", RESULTS.as_bytes(), &BallbarReadOptions::default())
     else {
         panic!("expected results");
     };
@@ -327,7 +328,7 @@ fn results_of_a_ball_bar_are_read_with_their_units() {
 fn refuses_xml_that_is_not_a_result_file_at_its_position() {
     for (text, part) in [
         ("<a><b></a>", "not XML"),
-        ("<robot/>", "<robot> has no FEATURE"),
+        ("<robot/>", "<robot> has no FEATURE and no READINGS"),
         ("<r><FEATURE DT='x'>1</FEATURE></r>", "has no attribute `NAME`"),
         ("<r><FEATURE NAME='x'>1e300</FEATURE></r>", "x is 1e300"),
     ] {
@@ -335,5 +336,61 @@ fn refuses_xml_that_is_not_a_result_file_at_its_position() {
             .unwrap_err()
             .to_string();
         assert!(given.contains(part), "no `{part}` in\n{given}");
+    }
+}
+
+/// A file with a run in each direction, of 100 mm with a deviation of 0.01 mm at its first sample.
+fn with_readings(change: impl Fn(String) -> String) -> String {
+    let radii: String = (0..72)
+        .map(|k| format!("{} ", if k == 0 { "100,010" } else { "100.0" }))
+        .collect();
+    let run = |way: &str| {
+        format!("<RUN><RUN_DIRECTION>{way}</RUN_DIRECTION><READINGS>\n{radii}\n</READINGS></RUN>")
+    };
+    change(format!(
+        "<BALLBAR><PLANE TEST_PLANE='XY'/>{}{}</BALLBAR>",
+        run("CCW"),
+        run("CW")
+    ))
+}
+
+#[test]
+fn radii_of_a_result_file_are_runs_with_the_angles_of_the_options() {
+    let options = BallbarReadOptions {
+        radius: Some(0.1),
+        start: Some(0.5),
+        direction: None,
+    };
+    let text = with_readings(|text| text);
+    let Ok(BallbarFile::Results(_, Some(runs))) = read("a.b5r", text.as_bytes(), &options) else {
+        panic!("expected runs");
+    };
+    assert!(runs.plane.as_deref() == Some("XY") && runs.runs.len() == 2 && runs.notes[0].contains("assumed"));
+    let step = TAU / 72.0;
+    for (run, sign) in runs.runs.iter().zip([1.0, -1.0]) {
+        assert!((run.deviation()[0] - 1e-5).abs() < 1e-15 && run.deviation()[1].abs() < 1e-15);
+        assert!((run.angle()[1] - 0.5 - sign * step).abs() < 1e-15);
+    }
+    for (change, options, part) in [
+        (("CCW", "CCW"), BallbarReadOptions::default(), "--radius-mm"),
+        (
+            ("CCW", "CCW"),
+            BallbarReadOptions {
+                start: None,
+                ..options.clone()
+            },
+            "--start-deg",
+        ),
+        (("CCW", "UP"), options.clone(), "--direction"),
+        (("100,010", "much"), options.clone(), "`much` is not a number"),
+        (("100,010", "0.01"), options.clone(), "within 5 mm"),
+        (("100.0", ""), options, "a run of 1 samples"),
+    ] {
+        let text = with_readings(|text| text.replace(change.0, change.1));
+        let given = read("a.b5r", text.as_bytes(), &options).unwrap_err().to_string();
+        assert!(
+            given.contains(part) && given.contains("a.b5r:1:"),
+            "no `{part}` in\n{given}"
+        );
     }
 }
