@@ -9,7 +9,7 @@
 //! points at once), [`map`] (planes, sections, volumes, the region within a tolerance),
 //! [`optimize`] (the posture along a path), `least_squares`, [`identify`] (joint compliances from load tests), [`calibrate`] (geometry
 //! from measured poses), [`learn`] (what calibration leaves), [`update`] (all measurements of an arm at once), [`measure`] (circular tests and repeated poses), [`budget`] (the error budget of
-//! a milled circle), [`torsion`] (of a driven joint, from both encoders and the torque).
+//! a milled circle), [`torsion`] (of a driven joint, from both encoders and the torque), [`motor_torque`] (friction and load from the torque of the motor).
 //!
 //! Symbols and conventions: `docs/notation.md`.
 
@@ -28,6 +28,7 @@ pub mod map;
 pub mod marching_squares;
 pub mod measure;
 pub mod motion;
+pub mod motor_torque;
 pub(crate) mod numbers;
 pub mod optimize;
 pub mod path;

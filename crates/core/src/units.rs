@@ -25,6 +25,11 @@ pub fn to_urad<T: Mul<f64>>(radians: T) -> T::Output {
     radians * 1e6
 }
 
+/// urad in rad.
+pub fn from_urad(urad: f64) -> f64 {
+    urad * 1e-6
+}
+
 /// s in ms.
 pub fn to_ms(seconds: f64) -> f64 {
     seconds * 1e3

@@ -5,7 +5,7 @@
 //! [`tracker`] makes poses of the files of a laser tracker,
 //! [`backlash`] the backlash of the joints from circular tests. [`ballbar`] evaluates circular tests, [`roundness`]
 //! round profiles, [`forces`] records of a dynamometer, [`pose_accuracy`] and [`path_accuracy`] measured poses and
-//! paths ([`path_repeatability`]: paths of which nothing is commanded), [`motion`] joint logs, [`drives`] the torsion of joints with two encoders, [`frf`] frequency response functions. [`data_check`] searches slips in the data of each: signs, order of columns, zeros, units.
+//! paths ([`path_repeatability`]: paths of which nothing is commanded), [`motion`] joint logs, [`drives`] friction and load of joints, and the torsion of those with two encoders, [`frf`] frequency response functions. [`data_check`] searches slips in the data of each: signs, order of columns, zeros, units.
 
 pub mod backlash;
 pub mod ballbar;

@@ -2,7 +2,7 @@
 //!
 //! In reading order: [`comparison`] (errors of one model on one set), [`samples`] (the folder of the measurements), `poses` (of arms, by three models), [`page`].
 //! Sets: `fanuc_load_tests`, `drilled_holes`, `ur10_tracker`, `tx90l_tracker`, `irb120_tracker`, `circle_points`, `iiwa7_payload`, `hilti_column`,
-//! `ur_path`, `irb6640_logs`. Each is a folder of `validation/measured/`: `README.md` says what was measured, what was predicted without it, and what
+//! `ur_path`, `irb6640_logs`, `kr300_encoders`. Each is a folder of `validation/measured/`: `README.md` says what was measured, what was predicted without it, and what
 //! explains the rest; `set.rs` computes the rows of its table.
 //!
 //! The measurements are not part of this repository. They are found in the folder that `ARMILL_SAMPLES` names; without it the
@@ -27,6 +27,8 @@ mod iiwa7_payload;
 mod irb120_tracker;
 #[path = "../../measured/irb6640-logs/set.rs"]
 mod irb6640_logs;
+#[path = "../../measured/kr300-encoders/set.rs"]
+mod kr300_encoders;
 #[path = "../../measured/tx90l-tracker/set.rs"]
 mod tx90l_tracker;
 #[path = "../../measured/ur10-tracker/set.rs"]
@@ -87,5 +89,9 @@ pub const SETS: &[Set] = &[
     Set {
         text: include_str!("../../measured/irb6640-logs/README.md"),
         comparisons: irb6640_logs::comparisons,
+    },
+    Set {
+        text: include_str!("../../measured/kr300-encoders/README.md"),
+        comparisons: kr300_encoders::comparisons,
     },
 ];

@@ -154,7 +154,7 @@ pub(crate) enum Command {
     PathAccuracy(PathAccuracyArguments),
     /// Learn from joint logs how a controller moves an arm: accelerations, smoothing, lag, zones
     Motion(MotionArguments),
-    /// Determine delay, torsion and stiffness of drives from motor encoders, link encoders and torques
+    /// Determine friction, load, torsion and stiffness of drives from motor torques and encoders
     Drives(DrivesArguments),
     /// Determine the modes of a tool or an arm from measured frequency response functions
     Frf(FrfArguments),

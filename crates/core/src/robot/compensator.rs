@@ -127,4 +127,39 @@ mod tests {
         let c = some();
         assert!(c.torque(-c.angle).abs() < 1e-9);
     }
+
+    /// Counterbalance of a KUKA KR 300 R2500 ultra: gas in a cylinder between two points. The spring is a line by least squares (numpy) through nine measured pressures over the length.
+    /// It meets them within 1.6 bar, the rms of their law `p = n R T/(V - A (s - s_0))` from the same source being 1.8 bar, and the torque of that law within 1.2 % of its maximum.
+    /// Source: Weigand, Gajanan, Harttig 2021, data of a KR 300 (MIT licence).
+    #[test]
+    fn a_gas_counterbalance_is_a_spring_between_two_points() {
+        let pressures = [170.0, 167.0, 164.0, 162.0, 164.0, 170.0, 180.0, 190.0, 200.0];
+        let area = std::f64::consts::PI / 4.0 * (0.055_f64.powi(2) - 0.03_f64.powi(2));
+        let spring = Compensator {
+            joint: 1,
+            fixed_radius: 0.8,
+            arm_radius: 0.2,
+            angle: (95.0_f64 - 180.0).to_radians(),
+            free_length: 0.157_38,
+            stiffness: 61_144.7,
+        };
+        let lever = |theta: f64| {
+            let (al, s, (sin, _)) = spring.at(theta);
+            (al * sin / s, s)
+        };
+        for (step, bar) in pressures.into_iter().enumerate() {
+            let theta = (-120.0 + 10.0 * step as f64).to_radians();
+            let found = spring.torque(theta) / lever(theta).0 / area / 1e5;
+            assert!((found - bar).abs() < 1.6, "{theta}: {found} bar for {bar}");
+        }
+        for degree in -120..=-40 {
+            let theta = f64::from(degree).to_radians();
+            let (arm, s) = lever(theta);
+            let gas = 1.01 * 296.8 * 328.0 * 0.159 / (0.000_96 - (s - 0.6) * area) * area * arm;
+            assert!(
+                (spring.torque(theta) - gas).abs() < 0.012 * 6179.0,
+                "{degree}: {gas}"
+            );
+        }
+    }
 }

@@ -19,7 +19,7 @@ const FEWEST: usize = 50;
 /// A value of this many standard uncertainties is found.
 const FOUND: f64 = 3.0;
 /// Correlation above which two values cannot be distinguished.
-const INSEPARABLE: f64 = 0.95;
+pub(crate) const INSEPARABLE: f64 = 0.95;
 /// Names of the values, in the order of the columns.
 const NAMES: [&str; 4] = ["offset", "delay", "compliance", "step at reversal"];
 

@@ -13,14 +13,14 @@ const INDEPENDENT: f64 = 1e-6;
 
 /// A regressor, with the values of its instrument.
 #[derive(Clone, Debug)]
-pub(super) struct Column {
+pub(crate) struct Column {
     pub values: Vec<f64>,
     pub instrument: Vec<f64>,
 }
 
 impl Column {
     /// A regressor without noise.
-    pub(super) fn exact(values: Vec<f64>) -> Column {
+    pub(crate) fn exact(values: Vec<f64>) -> Column {
         Column {
             instrument: values.clone(),
             values,
@@ -30,7 +30,7 @@ impl Column {
 
 /// Estimated coefficients.
 #[derive(Clone, Debug)]
-pub(super) struct Estimated {
+pub(crate) struct Estimated {
     /// Coefficient of each column; `None` if it is not determined.
     pub values: Vec<Option<f64>>,
     /// Standard uncertainty of each; 0 where there is no coefficient.
@@ -44,7 +44,7 @@ pub(super) struct Estimated {
 }
 
 /// Estimates the coefficients of the columns for `target`; `None` if there are fewer independent samples than columns, or no solution.
-pub(super) fn estimate(columns: &[Column], target: &[f64]) -> Option<Estimated> {
+pub(crate) fn estimate(columns: &[Column], target: &[f64]) -> Option<Estimated> {
     let kept = independent(columns);
     let rows = target.len();
     if kept.is_empty() || rows <= kept.len() {
@@ -114,7 +114,7 @@ fn independent(columns: &[Column]) -> Vec<usize> {
 }
 
 /// Number of samples that are as good as one: `1 + 2 sum r_k` up to the first autocorrelation that is not positive.
-pub(super) fn inflation(residuals: &[f64]) -> f64 {
+pub(crate) fn inflation(residuals: &[f64]) -> f64 {
     let mean = residuals.iter().sum::<f64>() / residuals.len().max(1) as f64;
     let centred: Vec<f64> = residuals.iter().map(|residual| residual - mean).collect();
     let power: f64 = centred.iter().map(|value| value * value).sum();

@@ -18,7 +18,8 @@
 //! With the friction `f` between motor and gear and the lost motion `b` of the gear, `h = c f - b/2`: a log gives their difference, never
 //! both. A positive `h` is friction of at least `h/c`; a negative one is lost motion of at least `-2 h`. Viscous friction `n` there (N m s/rad of the joint)
 //! shortens the delay that is found by `c n`. The torque of the motor is that
-//! of the joint divided by the ratio, so that the stiffness at the joint is `u/c`. The torque of the inertia of the motor is not removed.
+//! of the joint divided by the ratio, so that the stiffness at the joint is `u/c`. The torque `J u a` that accelerates the rotor (inertia `J`, kg m^2; acceleration `a` of the
+//! joint, rad/s^2) does not pass the gear: [`without_rotor`] removes it.
 //!
 //! Estimation: the delay by Gauss and Newton (its derivative is the speed of the motor), all others linear. The
 //! torque is noisy, which would attenuate `c`: its instrument is the mean of the torque some samples earlier and later, whose noise is independent.
@@ -33,8 +34,9 @@
 //! [`signals`]: signals and their values between samples. `linear`: estimation with instruments. [`fit`](mod@fit): the model.
 
 pub mod fit;
-mod linear;
+pub(crate) mod linear;
 pub mod signals;
 
+pub(crate) use fit::INSEPARABLE;
 pub use fit::{Estimate, Harmonic, MOST_DELAY, Torsion, fit};
-pub use signals::Signals;
+pub use signals::{Signals, without_rotor};

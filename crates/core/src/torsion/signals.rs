@@ -1,4 +1,6 @@
-//! Signals of a joint, and their values between samples.
+//! Signals of a joint, their values between samples, and their derivatives.
+
+use nalgebra::{Matrix3, Vector3};
 
 /// Signals of one joint, all of one length, at rising times.
 #[derive(Clone, Copy, Debug)]
@@ -38,7 +40,7 @@ impl Signals<'_> {
 }
 
 /// Root mean square about the mean; 0 of none.
-pub(super) fn rms_about_mean(values: &[f64]) -> f64 {
+pub(crate) fn rms_about_mean(values: &[f64]) -> f64 {
     let count = values.len().max(1) as f64;
     let mean = values.iter().sum::<f64>() / count;
     (values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / count).sqrt()
@@ -84,6 +86,65 @@ fn slope(times: &[f64], values: &[f64], index: usize, last: usize) -> f64 {
     (rate(index - 1) * after + rate(index) * before) / (before + after)
 }
 
+/// Half of the time of the parabolas of [`derivatives`], s, and samples of it at least.
+const HALF_TIME: f64 = 0.02;
+const FEWEST_HALF: usize = 3;
+
+/// Samples before and after each instant that [`derivatives`] uses.
+pub(crate) fn half_window(times: &[f64]) -> usize {
+    let last = times.len().saturating_sub(1).max(1);
+    let step = (times.last().unwrap_or(&0.0) - times.first().unwrap_or(&0.0)) / last as f64;
+    let samples = (HALF_TIME / step).round();
+    // A step of zero has no window that is longer than the log.
+    (samples.min(last as f64) as usize).max(FEWEST_HALF)
+}
+
+/// First and second derivative at each instant, of the parabola that fits the samples within [`half_window`] of it best; fewer at the ends.
+///
+/// Not checked: that times rise, and that there are at least four samples.
+pub(crate) fn derivatives(times: &[f64], values: &[f64]) -> Vec<[f64; 2]> {
+    let count = times.len().min(values.len());
+    let half = half_window(&times[..count]);
+    (0..count)
+        .map(|index| {
+            let window = index.saturating_sub(half)..(index + half + 1).min(count);
+            parabola(times[index], &times[window.clone()], &values[window])
+        })
+        .collect()
+}
+
+/// Torque of a motor, N m, less what accelerates its rotor; `rotor`: torque per acceleration of the joint, kg m^2 (inertia times gear ratio).
+///
+/// Not checked: that the signals have one length, at rising times.
+pub fn without_rotor(times: &[f64], motor: &[f64], torque: &[f64], rotor: f64) -> Vec<f64> {
+    if rotor == 0.0 {
+        return torque.to_vec();
+    }
+    let rates = derivatives(times, motor);
+    torque
+        .iter()
+        .zip(rates)
+        .map(|(torque, rate)| torque - rotor * rate[1])
+        .collect()
+}
+
+/// Derivatives at `time` of the parabola through samples by least squares.
+fn parabola(time: f64, times: &[f64], values: &[f64]) -> [f64; 2] {
+    // In units of the window: sums of powers are of the order of 1.
+    let unit = times[times.len() - 1] - times[0];
+    let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
+    for (other, value) in times.iter().zip(values) {
+        let x = (other - time) / unit;
+        let row = Vector3::new(1.0, x, x * x);
+        normal += row * row.transpose();
+        right += row * (value - values[0]);
+    }
+    normal.try_inverse().map_or([0.0; 2], |inverse| {
+        let found = inverse * right;
+        [found.y / unit, 2.0 * found.z / (unit * unit)]
+    })
+}
+
 /// Direction of the last motion at each instant: -1 or 1 from where the speed was above `threshold`, 0 before.
 pub(super) fn directions(speeds: &[f64], threshold: f64) -> Vec<f64> {
     let mut now = 0.0;
@@ -110,6 +171,18 @@ mod tests {
             assert!((rate - (4.0 * time - 1.0)).abs() < 1e-12);
         }
         assert_eq!(at(&times, &values, -1.0)[0], 0.0);
+    }
+
+    #[test]
+    fn derivatives_of_a_parabola_are_exact_at_uneven_samples() {
+        let times: Vec<f64> = (0..40)
+            .map(|k| 0.004 * f64::from(k) + 0.001 * f64::from(k % 3))
+            .collect();
+        let values: Vec<f64> = times.iter().map(|t| 2.0 * t * t - t + 5.0).collect();
+        for (time, [first, second]) in times.iter().zip(derivatives(&times, &values)) {
+            assert!((first - (4.0 * time - 1.0)).abs() < 1e-9, "{time}: {first}");
+            assert!((second - 4.0).abs() < 1e-6, "{time}: {second}");
+        }
     }
 
     #[test]

@@ -5,12 +5,14 @@ use armill_core::units::{to_ms, to_urad};
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use super::estimate::{EstimateAnswer, pairs_text};
+use super::motor::{self, MotorAnswer};
 use super::question::{DriveLog, DrivesQuestion};
 
 /// Orders of the motor shaft.
 const ORDERS: usize = 2;
 
-/// Torsion of the joints of a log.
+/// Torsion, friction and load of the joints of a log.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct DrivesAnswer {
     /// The log.
@@ -23,21 +25,10 @@ pub struct DrivesAnswer {
     pub samples: usize,
     /// The joints with a link encoder.
     pub joints: Vec<DriveAnswer>,
+    /// Friction and load of the joints that move.
+    pub motors: Vec<MotorAnswer>,
     /// What to know of the log and of the result.
     pub notes: Vec<String>,
-}
-
-/// An estimate; found if it is at least three standard uncertainties from 0.
-#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
-pub struct EstimateAnswer {
-    /// Estimated value.
-    // unit: that of the name of its field
-    pub value: f64,
-    /// Standard uncertainty.
-    // unit: that of the name of its field
-    pub u: f64,
-    /// At least three standard uncertainties from 0.
-    pub found: bool,
 }
 
 /// Torsion of a joint.
@@ -88,24 +79,36 @@ pub fn evaluate(log: &DriveLog, compared: Option<&DriveLog>, question: &DrivesQu
     let mut joints = Vec::new();
     let mut torsions = Vec::new();
     for joint in 0..log.joints.len() {
-        let signals = log.signals(joint);
-        let is_constant = |values: &[f64]| values.iter().all(|value| *value == values[0]);
-        if is_constant(signals.link) {
+        let ratio = question.ratios.get(joint).copied();
+        // Torque of the rotor per acceleration of the joint.
+        let rotor = question
+            .rotor_inertias
+            .get(joint)
+            .zip(ratio)
+            .map_or(0.0, |(inertia, ratio)| inertia * ratio);
+        let Some(link) = &log.joints[joint].link else {
+            continue;
+        };
+        if link.iter().all(|value| *value == link[0]) {
             notes.push(format!(
-                "joint {}: the link encoder does not change; not evaluated",
+                "joint {}: the link encoder does not change; its torsion is not evaluated",
                 joint + 1
             ));
             continue;
         }
-        let ratio = question.ratios.get(joint).copied();
-        let Some(torsion) = fit(&signals, ratio.map(|ratio| (ratio, ORDERS))) else {
+        let torque = log.gear_torque(joint, rotor);
+        let fitted = log
+            .signals(joint, &torque)
+            .and_then(|signals| fit(&signals, ratio.map(|ratio| (ratio, ORDERS))));
+        let Some(torsion) = fitted else {
             notes.push(format!("joint {}: the log does not determine the torsion (too few independent samples, or a delay above 100 ms)", joint + 1));
             continue;
         };
         let compared_rms = compared
             .filter(|other| joint < other.joints.len())
             .and_then(|other| {
-                let other = other.signals(joint);
+                let torque = other.gear_torque(joint, rotor);
+                let other = other.signals(joint, &torque)?;
                 let [whole, about_mean] = torsion.prediction_rms(&other)?;
                 Some([other.difference_rms(), whole, about_mean].map(to_urad))
             });
@@ -117,14 +120,21 @@ pub fn evaluate(log: &DriveLog, compared: Option<&DriveLog>, question: &DrivesQu
         });
         torsions.push((joint + 1, torsion));
     }
-    notes.push("friction between motor and gear and lost motion act on the step at a reversal with opposite signs; a log gives their difference".to_owned());
-    notes.push("viscous friction between motor and gear shortens the delay by compliance times damping; a log gives their difference".to_owned());
-    if question.ratios.is_empty() {
-        notes.push(
-            "without gear ratios (--gear) there is no stiffness at the joint and no transmission error"
-                .to_owned(),
-        );
+    if !joints.is_empty() {
+        notes.push("friction between motor and gear and lost motion act on the step at a reversal with opposite signs; a log gives their difference".to_owned());
+        notes.push("viscous friction between motor and gear shortens the delay by compliance times damping; a log gives their difference".to_owned());
+        if question.ratios.is_empty() {
+            notes.push(
+                "without gear ratios (--gear) there is no stiffness at the joint and no transmission error"
+                    .to_owned(),
+            );
+        }
+        if question.rotor_inertias.is_empty() {
+            notes.push("the torque that accelerates the rotors is not removed (--rotor-inertia): it makes a drive appear stiffer".to_owned());
+        }
     }
+    let (motors, of_motors) = motor::evaluate(log, compared, question);
+    notes.extend(of_motors);
     let answer = DrivesAnswer {
         file: log.file.clone(),
         compared: compared.map(|other| other.file.clone()),
@@ -135,20 +145,10 @@ pub fn evaluate(log: &DriveLog, compared: Option<&DriveLog>, question: &DrivesQu
             .map_or(0.0, |(last, first)| last - first),
         samples: log.times.len(),
         joints,
+        motors,
         notes,
     };
     Evaluated { answer, torsions }
-}
-
-impl EstimateAnswer {
-    /// An estimate in other units.
-    fn of(estimate: Estimate, convert: impl Fn(f64) -> f64) -> EstimateAnswer {
-        EstimateAnswer {
-            value: convert(estimate.value),
-            u: convert(estimate.u),
-            found: estimate.is_found(),
-        }
-    }
 }
 
 impl DriveAnswer {
@@ -192,11 +192,7 @@ impl DriveAnswer {
             after_rms_urad: to_urad(torsion.after_rms),
             independent_samples: torsion.independent_samples,
             compared_rms_urad: None,
-            inseparable: torsion
-                .inseparable
-                .iter()
-                .map(|(one, other, correlation)| format!("{one} and {other} (correlation {correlation:.2})"))
-                .collect(),
+            inseparable: pairs_text(&torsion.inseparable),
         }
     }
 

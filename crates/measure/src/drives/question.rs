@@ -3,7 +3,8 @@
 use std::io::{BufReader, Read as _};
 use std::path::Path;
 
-use armill_core::torsion::Signals;
+use armill_core::robot::Robot;
+use armill_core::torsion::{Signals, without_rotor};
 use armill_core::units::from_deg;
 use armill_formats::document::{Problem, Problems};
 use armill_formats::input;
@@ -12,7 +13,7 @@ use armill_formats::measurement::matlab::{self, MatlabArray, MatlabFile};
 use armill_study::StudyError;
 
 /// What a log has to contain.
-const HINT: &str = "use one row per instant: time_s, motor_j1_deg, ..., link_j1_deg, ..., torque_j1_nm, ...; or a MATLAB file with --names";
+const HINT: &str = "use one row per instant: time_s, motor_j1_deg, ..., torque_j1_nm, ..., and link_j1_deg, ... of link encoders; or a MATLAB file with --names";
 /// Names of the arrays that are listed in a message at most.
 const MOST_NAMES: usize = 40;
 
@@ -25,14 +26,103 @@ pub struct DrivesQuestion {
     pub names: Option<MatlabNames>,
     /// Gear ratio of each joint; empty if they are not known.
     pub ratios: Vec<f64>,
+    /// Inertia of the rotor of each motor, kg m^2; empty if they are not known.
+    pub rotor_inertias: Vec<f64>,
+    /// The robot, for the functions of the load.
+    pub robot: Option<Robot>,
+}
+
+impl DrivesQuestion {
+    /// Whether ratios, inertias and robot are those of a log of `joints` joints.
+    ///
+    /// # Errors
+    /// Another number of joints; inertias without ratios; a robot with prismatic joints.
+    pub fn check(&self, joints: usize) -> Result<(), StudyError> {
+        for (flag, what, values) in [
+            ("--gear", "ratios", &self.ratios),
+            ("--rotor-inertia", "inertias", &self.rotor_inertias),
+        ] {
+            if !values.is_empty() && values.len() != joints {
+                let message = format!("{flag}: {} {what}, but the log has {joints} joints", values.len());
+                return Err(StudyError::value(
+                    message,
+                    "one for each joint, such as 257,267,252 for --gear",
+                ));
+            }
+        }
+        if !self.rotor_inertias.is_empty() && self.ratios.is_empty() {
+            let hint =
+                "the torque of a rotor is its inertia times the ratio times the acceleration of the joint";
+            return Err(StudyError::value(
+                "--rotor-inertia needs the gear ratios, --gear",
+                hint,
+            ));
+        }
+        let Some(robot) = &self.robot else { return Ok(()) };
+        let own = robot.joints().len();
+        if own != joints {
+            let message = format!(
+                "--robot: {} has {own} joints, but the log has {joints}",
+                robot.name()
+            );
+            return Err(StudyError::value(
+                message,
+                "give the robot of the log, without external axes",
+            ));
+        }
+        match (0..own).find(|joint| robot.slides(*joint)) {
+            Some(joint) => {
+                let name = &robot.joints()[joint].name;
+                let message = format!("--robot: joint {name} of {} is prismatic", robot.name());
+                Err(StudyError::value(
+                    message,
+                    "only logs of revolute joints are evaluated",
+                ))
+            }
+            None => Ok(()),
+        }
+    }
 }
 
 /// Paths of the arrays of a MATLAB file: time (s), motor and link encoders (rad of a name that ends in `_rad`, otherwise deg), torques (N m);
 /// given units take precedence.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MatlabNames {
-    /// In the order of the enumeration above.
-    pub paths: [String; 4],
+    /// Of the times.
+    pub time: String,
+    /// Of the motor encoders.
+    pub motor: String,
+    /// Of the link encoders, if there are any.
+    pub link: Option<String>,
+    /// Of the torques.
+    pub torque: String,
+}
+
+impl MatlabNames {
+    /// Three or four names: time, motor, link if there is one, torque; `None` of another number.
+    pub fn of(names: &[String]) -> Option<MatlabNames> {
+        let (time, motor, link, torque) = match names {
+            [time, motor, torque] => (time, motor, None, torque),
+            [time, motor, link, torque] => (time, motor, Some(link.clone()), torque),
+            _ => return None,
+        };
+        Some(MatlabNames {
+            time: time.clone(),
+            motor: motor.clone(),
+            link,
+            torque: torque.clone(),
+        })
+    }
+
+    /// All names, in the order time, motor, torque, link.
+    fn all(&self) -> Vec<&str> {
+        let link = self.link.as_deref();
+        [&self.time, &self.motor, &self.torque]
+            .into_iter()
+            .map(String::as_str)
+            .chain(link)
+            .collect()
+    }
 }
 
 /// Signals of all joints, each signal as one list.
@@ -42,37 +132,54 @@ pub struct DriveLog {
     pub file: String,
     /// Times, s.
     pub times: Vec<f64>,
-    /// Motor encoders, link encoders (rad) and torques (N m) of each joint.
-    pub joints: Vec<[Vec<f64>; 3]>,
+    /// Its joints.
+    pub joints: Vec<DriveJoint>,
     /// What to know of the log.
     pub notes: Vec<String>,
 }
 
+/// Signals of a joint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DriveJoint {
+    /// Motor encoder, reduced to the joint, rad.
+    pub motor: Vec<f64>,
+    /// Link encoder, rad, if it has one.
+    pub link: Option<Vec<f64>>,
+    /// Torque of the motor, N m.
+    pub torque: Vec<f64>,
+}
+
 impl DriveLog {
-    /// The signals of a joint.
-    pub fn signals(&self, joint: usize) -> Signals<'_> {
-        let [motor, link, torque] = &self.joints[joint];
-        Signals {
+    /// Torque of the motor of a joint that passes its gear, N m, with the torque of the rotor per acceleration of the joint, kg m^2.
+    pub(super) fn gear_torque(&self, joint: usize, rotor: f64) -> Vec<f64> {
+        let DriveJoint { motor, torque, .. } = &self.joints[joint];
+        without_rotor(&self.times, motor, torque, rotor)
+    }
+
+    /// The signals of a joint with a link encoder and this torque, N m.
+    pub(super) fn signals<'a>(&'a self, joint: usize, torque: &'a [f64]) -> Option<Signals<'a>> {
+        let DriveJoint { motor, link, .. } = &self.joints[joint];
+        Some(Signals {
             times: &self.times,
             motor,
-            link,
+            link: link.as_ref()?,
             torque,
-        }
+        })
     }
 
     fn of(file: String, log: JointLog) -> Result<DriveLog, StudyError> {
-        let (Some(link), Some(torque)) = (&log.link, &log.torque) else {
-            let what = if log.link.is_none() {
-                "no column is the position of a link encoder"
-            } else {
-                "no column is the torque of a motor"
-            };
+        let Some(torque) = &log.torque else {
+            let what = "no column is the torque of a motor";
             return Err(Problems::from(vec![Problem::of_file(&file, what, HINT)]).into());
         };
-        let signal =
-            |values: &[f64], joint: usize| values.iter().skip(joint).step_by(log.joints).copied().collect();
-        let joints =
-            (0..log.joints).map(|joint| [&log.positions, link, torque].map(|values| signal(values, joint)));
+        let signal = |values: &[f64], joint: usize| -> Vec<f64> {
+            values.iter().skip(joint).step_by(log.joints).copied().collect()
+        };
+        let joints = (0..log.joints).map(|joint| DriveJoint {
+            motor: signal(&log.positions, joint),
+            link: log.link.as_ref().map(|link| signal(link, joint)),
+            torque: signal(torque, joint),
+        });
         Ok(DriveLog {
             joints: joints.collect(),
             times: log.times,
@@ -97,14 +204,13 @@ pub fn read(path: &Path, question: &DrivesQuestion) -> Result<DriveLog, StudyErr
         let log = joint_log::read(&file, &content[..], None, question.units)?;
         return DriveLog::of(file, log);
     }
-    let wanted: Vec<&str> = question
-        .names
-        .iter()
-        .flat_map(|names| names.paths.iter().map(String::as_str))
-        .collect();
+    let wanted: Vec<&str> = question.names.iter().flat_map(MatlabNames::all).collect();
     let found = matlab::read(&file, &content, &wanted)?;
     let Some(names) = &question.names else {
-        let hint = format!("--names TIME,MOTOR,LINK,TORQUE; its arrays: {}", listed(&found));
+        let hint = format!(
+            "--names TIME,MOTOR,LINK,TORQUE, or without LINK; its arrays: {}",
+            listed(&found)
+        );
         return Err(StudyError::value(
             format!("{file}: no arrays are given for the signals of a MATLAB file"),
             hint,
@@ -135,7 +241,8 @@ fn from_matlab(
     let (names, units) = named;
     let mut problems = Vec::new();
     let mut arrays: Vec<&MatlabArray> = Vec::new();
-    for (name, array) in names.paths.iter().zip(&found.arrays) {
+    let paths = names.all();
+    for (name, array) in paths.iter().zip(&found.arrays) {
         match array {
             Some(array) => arrays.push(array),
             None => problems.push(Problem::of_file(
@@ -144,7 +251,7 @@ fn from_matlab(
                     "there is no numeric array `{name}`; the file has {}",
                     listed(found)
                 ),
-                "give the paths of four of its arrays with --names",
+                "give the paths of its arrays with --names",
             )),
         }
     }
@@ -158,7 +265,7 @@ fn from_matlab(
     {
         let message = format!(
             "`{}`: {} times, which have to be at least 2, finite and rising",
-            names.paths[0],
+            names.time,
             times.len()
         );
         problems.push(Problem::of_file(
@@ -168,7 +275,7 @@ fn from_matlab(
         ));
     }
     let mut signals: Vec<Vec<Vec<f64>>> = Vec::new();
-    for (name, array) in names.paths.iter().zip(&arrays).skip(1) {
+    for (name, array) in paths.iter().zip(&arrays).skip(1) {
         let hint = "give an array with one row or one column for each joint";
         let Some(values) = array.signals(times.len()) else {
             let message = format!(
@@ -200,7 +307,9 @@ fn from_matlab(
         )])
         .into());
     }
-    for (name, signal) in names.paths[1..3].iter().zip(&mut signals) {
+    let mut each = paths[1..].iter().zip(signals);
+    let mut next = || each.next();
+    let in_rad = |(name, mut signal): (&&str, Vec<Vec<f64>>)| {
         let is_rad = units
             .angle
             .map_or(name.ends_with("_rad"), |angle| angle == AngleUnit::Radian);
@@ -210,15 +319,17 @@ fn from_matlab(
                 .flatten()
                 .for_each(|value| *value = from_deg(*value));
         }
-    }
-    let mut each = signals.into_iter();
-    let mut next = || each.next().unwrap_or_default();
-    let (motor, link, torque) = (next(), next(), next());
-    let joints = motor
-        .into_iter()
-        .zip(link)
-        .zip(torque)
-        .map(|((motor, link), torque)| [motor, link, torque]);
+        signal
+    };
+    let motor = next().map(in_rad).unwrap_or_default();
+    let torque = next().map(|(_, torque)| torque).unwrap_or_default();
+    let links = next().map(in_rad);
+    let mut link = links.into_iter().flatten();
+    let joints = motor.into_iter().zip(torque).map(|(motor, torque)| DriveJoint {
+        motor,
+        link: link.next(),
+        torque,
+    });
     Ok(DriveLog {
         file,
         times,
