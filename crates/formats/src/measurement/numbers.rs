@@ -3,9 +3,10 @@
 //! Cells of a text are separated by `;`, tab, `,` or blanks; with `;` or tab, decimal commas are read too. Lines before the first row of numbers are
 //! titles; lines that begin with `#` and empty lines are ignored. Only the requested columns need to be numbers.
 
+use std::collections::BTreeMap;
 use std::io::Cursor;
 
-use calamine::{Data, Reader, Xlsx};
+use calamine::{DataRef, Reader, Xlsx};
 
 use crate::document::lines::Lines;
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
@@ -15,6 +16,8 @@ use crate::table::sheet::{Cell, cells, number};
 const MOST_ROWS: usize = 1_000_000;
 /// Maximum size of a workbook, byte; unpacked it may be eight times as large.
 const LARGEST_WORKBOOK: usize = 64 << 20;
+/// Maximum number of cells of a sheet.
+const MOST_CELLS: usize = 10_000_000;
 /// How an Excel workbook begins: a zip archive.
 const ZIP: &[u8] = b"PK\x03\x04";
 
@@ -160,38 +163,54 @@ fn of_workbook(path: &str, bytes: &[u8], columns: Columns) -> Result<Vec<Vec<f64
     };
     check_unpacked_size(bytes).map_err(|message| damaged(&message))?;
     let mut workbook: Xlsx<_> = Xlsx::new(Cursor::new(bytes)).map_err(|error| damaged(&error))?;
-    let Some(sheet) = workbook.worksheet_range_at(0) else {
+    let Some(name) = workbook.sheet_names().first().cloned() else {
         return Err(damaged(&"it has no sheet"));
     };
-    let sheet = sheet.map_err(|error| damaged(&error))?;
-    let first_row = sheet.start().map_or(0, |(row, _)| row as usize);
-    let mut rows: Vec<Vec<f64>> = Vec::new();
-    let mut problems = Vec::new();
-    for (index, row) in sheet.rows().enumerate() {
-        let end = row
-            .iter()
-            .rposition(|cell| *cell != Data::Empty)
-            .map_or(0, |last| last + 1);
-        let value = |cell: &Data| match cell {
-            Data::Float(value) => Some(*value).filter(|value| value.is_finite()),
-            Data::Int(value) => Some(*value as f64),
-            Data::String(text) => number(text, ';').filter(|value| value.is_finite()),
+    let mut sheet = workbook
+        .worksheet_cells_reader(&name)
+        .map_err(|error| damaged(&error))?;
+    // A cell at the far corner of the sheet must not take the memory of all cells before it.
+    let mut sparse: BTreeMap<u32, Vec<(u32, Option<f64>)>> = BTreeMap::new();
+    let mut count = 0;
+    while let Some(cell) = sheet.next_cell().map_err(|error| damaged(&error))? {
+        let value = match cell.get_value() {
+            DataRef::Empty => continue,
+            DataRef::Float(value) => Some(*value).filter(|value| value.is_finite()),
+            DataRef::Int(value) => Some(*value as f64),
+            DataRef::String(text) => number(text, ';').filter(|value| value.is_finite()),
+            DataRef::SharedString(text) => number(text, ';').filter(|value| value.is_finite()),
             _ => None,
         };
-        let numbers: Option<Vec<Option<f64>>> = columns
-            .of(&row[..end])
-            .map(|cells| cells.iter().map(value).collect());
-        let whole = numbers
-            .as_ref()
-            .and_then(|numbers| numbers.iter().copied().collect::<Option<Vec<f64>>>());
-        match whole {
-            _ if rows.len() == MOST_ROWS || problems.len() == MOST_PROBLEMS => break,
+        count += 1;
+        if count > MOST_CELLS {
+            let message = format!("the sheet has more than {MOST_CELLS} cells");
+            return Err(refused(message, "save the requested columns as CSV"));
+        }
+        let (row, column) = cell.get_position();
+        sparse.entry(row).or_default().push((column, value));
+    }
+    // The table begins at its leftmost cell.
+    let left = sparse
+        .values()
+        .flatten()
+        .map(|(column, _)| *column)
+        .min()
+        .unwrap_or(0);
+    let mut rows: Vec<Vec<f64>> = Vec::new();
+    let mut problems = Vec::new();
+    for (index, mut row) in sparse {
+        if rows.len() == MOST_ROWS || problems.len() == MOST_PROBLEMS {
+            break;
+        }
+        row.sort_by_key(|(column, _)| *column);
+        row.dedup_by_key(|(column, _)| *column);
+        match row_of(&row, left, columns) {
             Some(whole) => rows.push(whole),
-            None if end == 0 || rows.is_empty() => {}
+            None if rows.is_empty() => {}
             None => {
                 let message = format!(
                     "row {} of the sheet is not a row of numbers",
-                    first_row + index + 1
+                    u64::from(index) + 1
                 );
                 problems.push(Problem::of_file(path, message, &hint(columns)));
             }
@@ -199,6 +218,26 @@ fn of_workbook(path: &str, bytes: &[u8], columns: Columns) -> Result<Vec<Vec<f64
     }
     Problems::from(problems).into_result()?;
     Ok(rows)
+}
+
+/// The requested numbers of a row of cells (column, number) that are sorted; `None` if one is missing or not a number.
+fn row_of(row: &[(u32, Option<f64>)], left: u32, columns: Columns) -> Option<Vec<f64>> {
+    let requested = match columns {
+        Columns::First(_) => row,
+        Columns::Last(_) => columns.of(row)?,
+    };
+    let first = match columns {
+        Columns::First(_) => left,
+        Columns::Last(count) => row
+            .last()?
+            .0
+            .checked_sub(u32::try_from(count).ok()?.checked_sub(1)?)?,
+    };
+    let requested = requested.iter().take(columns.count()).enumerate();
+    let numbers: Vec<f64> = requested
+        .map(|(index, (column, number))| number.filter(|_| *column as usize == first as usize + index))
+        .collect::<Option<_>>()?;
+    (numbers.len() == columns.count()).then_some(numbers)
 }
 
 /// Refuses an archive that would unpack to more than eight times the largest workbook.
@@ -267,6 +306,12 @@ mod tests {
 
     /// A workbook with one sheet: titles, two rows of numbers, as a spreadsheet writes it.
     fn workbook() -> Vec<u8> {
+        workbook_of(SHEET)
+    }
+
+    const SHEET: &str = r#"<?xml version="1.0"?><worksheet xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main"><sheetData><row r="1"><c r="A1" t="inlineStr"><is><t>J1</t></is></c></row><row r="2"><c r="A2" t="inlineStr"><is><t>P1</t></is></c><c r="B2"><v>1.5</v></c><c r="C2"><v>-2</v></c></row><row r="3"><c r="A3" t="inlineStr"><is><t>P2</t></is></c><c r="B3"><v>3</v></c><c r="C3"><v>4</v></c></row></sheetData></worksheet>"#;
+
+    fn workbook_of(sheet: &str) -> Vec<u8> {
         let files = [
             (
                 "[Content_Types].xml",
@@ -284,10 +329,7 @@ mod tests {
                 "xl/_rels/workbook.xml.rels",
                 r#"<?xml version="1.0"?><Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Id="r1" Type="http://schemas.openxmlformats.org/officeDocument/2006/relationships/worksheet" Target="worksheets/sheet1.xml"/></Relationships>"#,
             ),
-            (
-                "xl/worksheets/sheet1.xml",
-                r#"<?xml version="1.0"?><worksheet xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main"><sheetData><row r="1"><c r="A1" t="inlineStr"><is><t>J1</t></is></c></row><row r="2"><c r="A2" t="inlineStr"><is><t>P1</t></is></c><c r="B2"><v>1.5</v></c><c r="C2"><v>-2</v></c></row><row r="3"><c r="A3" t="inlineStr"><is><t>P2</t></is></c><c r="B3"><v>3</v></c><c r="C3"><v>4</v></c></row></sheetData></worksheet>"#,
-            ),
+            ("xl/worksheets/sheet1.xml", sheet),
         ];
         let mut bytes = Cursor::new(Vec::new());
         let mut archive = rawzip::ZipArchiveWriter::new(&mut bytes);
@@ -322,5 +364,28 @@ mod tests {
             .unwrap_err()
             .to_string();
         assert!(half.contains("save the sheet as CSV"), "{half}");
+    }
+
+    #[test]
+    fn a_cell_at_the_far_corner_of_a_sheet_takes_no_memory_before_it() {
+        // All cells up to this one would need 400 GB.
+        let far = SHEET.replace(
+            "</sheetData>",
+            "<row r=\"1048576\"><c r=\"XFC1048576\"><v>5</v></c><c r=\"XFD1048576\"><v>6</v></c></row></sheetData>",
+        );
+        let rows = read("far.xlsx", &workbook_of(&far), Columns::Last(2)).unwrap();
+        assert_eq!(rows, [[1.5, -2.0], [3.0, 4.0], [5.0, 6.0]]);
+        let problems = read("far.xlsx", &workbook_of(&far), Columns::Last(3)).unwrap_err();
+        assert!(problems.to_string().contains("no rows of numbers"), "{problems}");
+        // A row with a gap is not a row of numbers.
+        let gap = SHEET.replace("B3", "AA3");
+        let problems = read("gap.xlsx", &workbook_of(&gap), Columns::Last(2)).unwrap_err();
+        assert!(problems.to_string().contains("row 3 of the sheet"), "{problems}");
+        let first = SHEET.replace(
+            "<c r=\"A2\" t=\"inlineStr\"><is><t>P1</t></is></c>",
+            "<c r=\"A2\"><v>7</v></c>",
+        );
+        let problems = read("first.xlsx", &workbook_of(&first), Columns::First(2)).unwrap_err();
+        assert!(problems.to_string().contains("row 3 of the sheet"), "{problems}");
     }
 }
