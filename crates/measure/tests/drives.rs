@@ -155,13 +155,13 @@ fn friction_and_load_of_a_kr_300_are_as_an_independent_script_finds_them() {
     assert!(bad.is_empty(), "{}", bad.join("\n"));
 }
 
-/// Published inertias of the motors, kg m^2, and gear ratios; stiffness within 2 % (other interpolation), of axis 1 in log B only: log A does not determine it.
+/// Published inertias of the motors, kg m^2, and gear ratios; stiffness within 1 % (other interpolation; transmission error in both), of axis 1 in log B only: log A does not determine it.
 #[test]
 fn without_the_torque_of_the_rotors_the_drives_are_as_an_independent_script_finds_them() {
     let Some(folder) = folder() else { return };
     let expected = [
-        ("run_A.mat", "run_B.mat", [0.0, 9.1465e6, 6.2323e6]),
-        ("run_B.mat", "run_A.mat", [7.8023e6, 1.0443e7, 5.4611e6]),
+        ("run_A.mat", "run_B.mat", [0.0, 8.9347e6, 6.2319e6]),
+        ("run_B.mat", "run_A.mat", [8.0731e6, 1.0088e7, 5.3649e6]),
     ];
     for (log, other, expected) in expected {
         let settings = DrivesQuestion {
@@ -180,7 +180,7 @@ fn without_the_torque_of_the_rotors_the_drives_are_as_an_independent_script_find
         for (joint, expected) in found.joints.iter().zip(expected) {
             match joint.stiffness_nm_per_rad {
                 Some(stiffness) => assert!(
-                    (stiffness.value / expected - 1.0).abs() < 0.02,
+                    (stiffness.value / expected - 1.0).abs() < 0.01,
                     "{log}, axis {}: {stiffness:?} for {expected}",
                     joint.joint
                 ),

@@ -14,7 +14,7 @@
 //! | `g` | gravity, along -z of the base | m/s^2 |
 //! | `tau_g` | torque of gravity and of a compensator on the joint, from the masses of the robot file, in the direction of `q` | N m |
 //!
-//! A counterbalance on a joint depends on its position alone. Over the range of a log its torque is nearly one of sine and cosine, so that it cannot be told apart from gravity: it is contained in the load.
+//! A counterbalance on a joint depends on its position alone. Over the range of a log its torque is nearly one of sine and cosine, so that it cannot be distinguished from gravity: it is contained in the load.
 //!
 //! Not checked: that the base of the robot is upright, that the robot has no load at its flange but that of its file, and that no joint is coupled to another.
 
