@@ -145,7 +145,7 @@ impl Design {
                 found.values[new].is_some()
                     && (0..kept.len()).all(|old| found.correlation[(old, new)].abs() <= INSEPARABLE)
             });
-            if is_determined || (kept.len() == first && next <= self.columns.len() - 1) {
+            if is_determined || (kept.len() == first && next < self.columns.len()) {
                 (kept, estimated) = (wider, found);
             }
         }

@@ -103,29 +103,32 @@ fn by_masses(robot: &Robot, positions: &[Vec<f64>]) -> Vec<Vec<LoadTerm>> {
     values.into_iter().map(|values| vec![term(values)]).collect()
 }
 
+/// Axes (base) and rotations of the links at one instant.
+struct LinksAt {
+    axes: Vec<Vector3<f64>>,
+    rotations: Vec<Rotation3<f64>>,
+}
+
+impl LinksAt {
+    fn of(robot: &Robot, q: &[f64]) -> LinksAt {
+        let frames = forward(robot, q);
+        let tcp = frames.base_from_flange.translation.vector.into();
+        let screws = screws_at(robot, &frames, &tcp);
+        LinksAt {
+            axes: screws.iter().map(|screw| screw.angular).collect(),
+            rotations: frames
+                .base_from_joint
+                .iter()
+                .map(|frame| frame.rotation)
+                .collect(),
+        }
+    }
+}
+
 fn by_directions(robot: &Robot, positions: &[Vec<f64>]) -> Vec<Vec<LoadTerm>> {
     let joints = robot.joints().len();
-    // Axes and rotations of the links at each instant.
-    let states: Vec<(Vec<Vector3<f64>>, Vec<Rotation3<f64>>)> = positions
-        .iter()
-        .map(|q| {
-            let frames = forward(robot, q);
-            let tcp = frames.base_from_flange.translation.vector.into();
-            let axes = screws_at(robot, &frames, &tcp)
-                .iter()
-                .map(|screw| screw.angular)
-                .collect();
-            (
-                axes,
-                frames
-                    .base_from_joint
-                    .iter()
-                    .map(|frame| frame.rotation)
-                    .collect(),
-            )
-        })
-        .collect();
-    let Some((axes, rotations)) = states.first() else {
+    let states: Vec<LinksAt> = positions.iter().map(|q| LinksAt::of(robot, q)).collect();
+    let Some(LinksAt { axes, rotations }) = states.first() else {
         return vec![Vec::new(); joints];
     };
     let term = |joint: usize, body: usize| {
@@ -135,7 +138,7 @@ fn by_directions(robot: &Robot, positions: &[Vec<f64>]) -> Vec<Vec<LoadTerm>> {
             let own = rotations[body].inverse() * direction;
             states
                 .iter()
-                .map(|(axes, rotations)| axes[joint].dot(&Vector3::z().cross(&(rotations[body] * own))))
+                .map(|at| at.axes[joint].dot(&Vector3::z().cross(&(at.rotations[body] * own))))
                 .map(|value| if value.abs() < ROUNDING { 0.0 } else { value })
                 .collect()
         });
