@@ -204,7 +204,7 @@ fn of_workbook(path: &str, bytes: &[u8], columns: Columns) -> Result<Vec<Vec<f64
         }
         row.sort_by_key(|(column, _)| *column);
         row.dedup_by_key(|(column, _)| *column);
-        match row_of(&row, left, columns) {
+        match sheet_row(&row, left, columns) {
             Some(whole) => rows.push(whole),
             None if rows.is_empty() => {}
             None => {
@@ -221,7 +221,7 @@ fn of_workbook(path: &str, bytes: &[u8], columns: Columns) -> Result<Vec<Vec<f64
 }
 
 /// The requested numbers of a row of cells (column, number) that are sorted; `None` if one is missing or not a number.
-fn row_of(row: &[(u32, Option<f64>)], left: u32, columns: Columns) -> Option<Vec<f64>> {
+fn sheet_row(row: &[(u32, Option<f64>)], left: u32, columns: Columns) -> Option<Vec<f64>> {
     let requested = match columns {
         Columns::First(_) => row,
         Columns::Last(_) => columns.of(row)?,
