@@ -255,6 +255,9 @@ def drives(
     *,
     names: Sequence[str] | str | None = None,
     gear: npt.ArrayLike | None = None,
+    rotor_inertia: npt.ArrayLike | None = None,
+    robot: RobotLike | None = None,
+    out: Path | None = None,
     compare: TableLike | None = None,
     time_unit: Literal["s", "ms", "us", "ns"] | None = None,
     angle_unit: Literal["deg", "rad"] | None = None,
@@ -263,7 +266,7 @@ def drives(
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> Answer:
-    """log of both encoders and torques -> Answer: delay, torsion and stiffness of the drives."""
+    """log of encoders and torques -> Answer: delay, torsion, stiffness, friction and load of the drives."""
     return call("drives", [log], locals())
 
 
