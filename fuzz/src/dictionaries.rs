@@ -170,7 +170,8 @@ pub const PROFILE: &[&str] = &[
 #[rustfmt::skip]
 pub const BALLBAR: &[&str] = &[
     "angle_deg", "angle_rad", "index", "radius_dev_um", "radius_mm", "direction", "run", "# radius_mm: ", "# start_deg: ", "# run: ", "# direction: ", "CW", "CCW", ";", "\t",
-    "<FEATURE NAME='AF_CIRCULARITY' DT='UT_LENGTH_UM'>", "</FEATURE>", "<PLANE TEST_PLANE='XY'/>", "nan", "1e308",
+    "<FEATURE NAME='AF_CIRCULARITY' DT='UT_LENGTH_UM'>", "</FEATURE>", "<PLANE TEST_PLANE='XY'/>", "<READINGS>", "</READINGS>",
+    "<RUN_DIRECTION>CW</RUN_DIRECTION>", "<NOMINAL_LENGTH>", "<PROGRAMMED_FEEDRATE>", "nan", "1e308",
 ];
 
 /// Names of columns of measured poses.
@@ -191,6 +192,32 @@ pub const JOINT_LOG: &[&str] = &["time_s", "timestamp", "IPOC", "J1_deg", "J2", 
 /// Tags of a MATLAB file, and names of its arrays.
 #[rustfmt::skip]
 pub const MATLAB: &[&str] = &["MATLAB 5.0", "rec", "a", "\u{e}\0\0\0", "\u{f}\0\0\0", "\u{9}\0\0\0", "\u{5}\0\u{4}\0", "\u{6}\0\0\0\u{8}\0\0\0", "\u{2}\0\u{3}\0"];
+
+/// Keys of the journal of an arm.
+#[rustfmt::skip]
+pub const JOURNAL: &[&str] = &[
+    "format = 1\n", "robot = \"a\"\n", "tool_mm = [0, 0, 1]\n", "[prior]\n", "length_mm = ", "angle_deg = ", "factor = ", "[[measurement]]\n", "date = \"2026-02-29\"\n", "temperature_c = ",
+    "kind = \"part\"\n", "kind = \"tracker\"\n", "kind = \"load-tests\"\n", "file = \"a.csv\"\n", "u_um = ", "sha256 = \"", "point_mm = [0, 0, 1]\n", "note = \"\"\n", "nan", "inf", "1e308",
+];
+
+/// Names of columns of conditions.
+#[rustfmt::skip]
+pub const CONDITIONS: &[&str] = &["q1_deg", "S_deg", "q2_rad", "fx_n", "fy_kn", "fz_n", "mx_n_m", "q1_direction", "S_direction", "-1", ";", "\t", "nan", "1e308"];
+
+/// Names of columns of bodies.
+#[rustfmt::skip]
+pub const BODIES: &[&str] = &["x_mm", "Y [um]", "z_in", "q0", "q1", "q2", "q3", "qw", "qx", "m_00", "m_23", "m_33", "theta_1", "q1_deg", "S_deg", "\u{fffd}", ";", "\t", "nan", "1e308"];
+
+/// Pieces of tables of numbers, and names in a workbook.
+#[rustfmt::skip]
+pub const NUMBERS: &[&str] = &[";", "\t", ",", " ", "# ", "1,5", "-3e0", "nan", "inf", "1e308", "PK\u{1}\u{2}", "PK\u{3}\u{4}", "PK\u{5}\u{6}", "xl/workbook.xml", "xl/sharedStrings.xml", "xl/styles.xml"];
+
+/// Elements and attributes of a sheet of a workbook.
+#[rustfmt::skip]
+pub const SHEET: &[&str] = &[
+    "<worksheet>", "<dimension ref=\"A1:XFD1048576\"/>", "<sheetData>", "</sheetData>", "<row r=\"1048576\">", "</row>", "<c r=\"XFD1\">", "<c r=\"A1048576\" t=\"s\">", "<c t=\"inlineStr\">", "<is><t>",
+    "</t></is>", "<v>1</v>", "</c>", " t=\"str\"", " t=\"b\"", " t=\"d\"", " t=\"e\"", " s=\"1\"", "<f>A1</f>", "1e308", "nan", "4294967295", "AAAAAAAA1",
+];
 
 /// Columns of a table of FRFs, and lines of a universal file.
 #[rustfmt::skip]

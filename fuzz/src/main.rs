@@ -22,6 +22,7 @@ mod fixtures;
 mod meshes;
 mod modal;
 mod signal_stack;
+mod tables;
 mod targets;
 mod tracked;
 mod tracked_fixtures;

@@ -5,7 +5,7 @@ use armill_study::file::format::StudyFile;
 
 use crate::dictionaries as words;
 use crate::fixtures;
-use crate::{edited, meshes, modal, tracked, tracked_fixtures, verdicts};
+use crate::{edited, meshes, modal, tables, tracked, tracked_fixtures, verdicts};
 
 /// One parser.
 pub struct Target {
@@ -87,6 +87,11 @@ pub const TARGETS: &[Target] = &[
     target("frf", tracked::frf, tracked_fixtures::frfs, &[], words::FRF),
     target("joint-log", tracked::joint_log, tracked_fixtures::joint_logs, &[], words::JOINT_LOG),
     target("matlab", tracked::matlab, tracked_fixtures::matlab_files, &["mat"], words::MATLAB),
+    target("journal", tables::journal, tables::journals, &[], words::JOURNAL),
+    target("conditions", tables::conditions, tables::condition_tables, &[], words::CONDITIONS),
+    target("bodies", tables::bodies, tables::body_tables, &[], words::BODIES),
+    target("numbers", tables::numbers, tables::number_tables, &["xlsx"], words::NUMBERS),
+    target("sheet", tables::sheet, tables::sheets, &[], words::SHEET),
     target("mesh-stl", meshes::stl, fixtures::mesh_stl, &["stl"], words::MESH_STL),
     target("mesh-obj", meshes::obj, fixtures::mesh_obj, &["obj"], words::MESH_OBJ),
     target("mesh-ply", meshes::ply, fixtures::mesh_ply, &["ply"], words::MESH_PLY),
