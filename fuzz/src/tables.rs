@@ -42,9 +42,20 @@ pub fn conditions(bytes: &[u8]) {
             assert!(!rows.is_empty());
             for row in rows {
                 assert_eq!(row.joints.len(), robot.joints().len());
-                assert!(row.joints.iter().chain(&row.condition.directions).all(|value| value.is_finite()));
+                assert!(
+                    row.joints
+                        .iter()
+                        .chain(&row.condition.directions)
+                        .all(|value| value.is_finite())
+                );
                 let wrench = row.condition.wrench;
-                assert!(wrench.force.iter().chain(&wrench.moment).all(|value| value.is_finite()));
+                assert!(
+                    wrench
+                        .force
+                        .iter()
+                        .chain(&wrench.moment)
+                        .all(|value| value.is_finite())
+                );
             }
         }
     }
@@ -57,8 +68,16 @@ pub fn bodies(bytes: &[u8]) {
         Ok(found) => {
             assert!(!found.positions.is_empty());
             assert!(found.positions.iter().flatten().all(|value| value.is_finite()));
-            assert!(found.rotations.is_none_or(|rotations| rotations.len() == found.positions.len()));
-            assert!(found.joints.is_none_or(|joints| joints.len() == found.positions.len()));
+            assert!(
+                found
+                    .rotations
+                    .is_none_or(|rotations| rotations.len() == found.positions.len())
+            );
+            assert!(
+                found
+                    .joints
+                    .is_none_or(|joints| joints.len() == found.positions.len())
+            );
         }
     }
 }
@@ -111,7 +130,12 @@ pub fn body_tables() -> Vec<Vec<u8>> {
 
 /// Tables of numbers with every separator, and a workbook.
 pub fn number_tables() -> Vec<Vec<u8>> {
-    let mut all = seeds(&["a b c\n1 2.5 -3e0\n  4 5 6\n", "# t\n1,2,3,\n4,5,6\n", "1;2,5;3\n", "P1\t1\t2\t3\n"]);
+    let mut all = seeds(&[
+        "a b c\n1 2.5 -3e0\n  4 5 6\n",
+        "# t\n1,2,3,\n4,5,6\n",
+        "1;2,5;3\n",
+        "P1\t1\t2\t3\n",
+    ]);
     all.extend(sheets().iter().filter_map(|sheet| workbook(sheet).ok()));
     all
 }
