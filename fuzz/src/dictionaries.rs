@@ -171,7 +171,7 @@ pub const PROFILE: &[&str] = &[
 pub const BALLBAR: &[&str] = &[
     "angle_deg", "angle_rad", "index", "radius_dev_um", "radius_mm", "direction", "run", "# radius_mm: ", "# start_deg: ", "# run: ", "# direction: ", "CW", "CCW", ";", "\t",
     "<FEATURE NAME='AF_CIRCULARITY' DT='UT_LENGTH_UM'>", "</FEATURE>", "<PLANE TEST_PLANE='XY'/>", "<READINGS>", "</READINGS>",
-    "<RUN_DIRECTION>CW</RUN_DIRECTION>", "<NOMINAL_LENGTH>", "<PROGRAMMED_FEEDRATE>", "nan", "1e308",
+    "<RUN_DIRECTION>CW</RUN_DIRECTION>", "nan", "1e308",
 ];
 
 /// Names of columns of measured poses.
@@ -197,12 +197,12 @@ pub const MATLAB: &[&str] = &["MATLAB 5.0", "rec", "a", "\u{e}\0\0\0", "\u{f}\0\
 #[rustfmt::skip]
 pub const JOURNAL: &[&str] = &[
     "format = 1\n", "robot = \"a\"\n", "tool_mm = [0, 0, 1]\n", "[prior]\n", "length_mm = ", "angle_deg = ", "factor = ", "[[measurement]]\n", "date = \"2026-02-29\"\n", "temperature_c = ",
-    "kind = \"part\"\n", "kind = \"tracker\"\n", "kind = \"load-tests\"\n", "file = \"a.csv\"\n", "u_um = ", "sha256 = \"", "point_mm = [0, 0, 1]\n", "note = \"\"\n", "nan", "inf", "1e308",
+    "kind = \"part\"\n", "kind = \"tracker\"\n", "kind = \"load-tests\"\n", "kind = \"ball-bar\"\n", "calibrated = true\n", "file = \"a.csv\"\n", "u_um = ", "sha256 = \"", "point_mm = [0, 0, 1]\n", "note = \"\"\n", "nan", "inf", "1e308",
 ];
 
 /// Names of columns of conditions.
 #[rustfmt::skip]
-pub const CONDITIONS: &[&str] = &["q1_deg", "S_deg", "q2_rad", "fx_n", "fy_kn", "fz_n", "mx_n_m", "q1_direction", "S_direction", "-1", ";", "\t", "nan", "1e308"];
+pub const CONDITIONS: &[&str] = &["q1_deg", "S_deg", "q2_rad", "fx_n", "fy_kn", "fz_n", "mx_n_m", "radius_mm", "q1_direction", "S_direction", "-1", ";", "\t", "nan", "1e308"];
 
 /// Names of columns of bodies.
 #[rustfmt::skip]
