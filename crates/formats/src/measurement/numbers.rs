@@ -377,6 +377,11 @@ mod tests {
         assert_eq!(rows, [[1.5, -2.0], [3.0, 4.0], [5.0, 6.0]]);
         let problems = read("far.xlsx", &workbook_of(&far), Columns::Last(3)).unwrap_err();
         assert!(problems.to_string().contains("no rows of numbers"), "{problems}");
+        // A column with more letters than any sheet has: whatever it is taken for, nothing stops.
+        let beyond = SHEET
+            .replace("C3", "AAAAAAAAAA3")
+            .replace("C2", "ZZZZZZZZZZZZ99999999999");
+        let _ = read("beyond.xlsx", &workbook_of(&beyond), Columns::Last(2));
         // A row with a gap is not a row of numbers.
         let gap = SHEET.replace("B3", "AA3");
         let problems = read("gap.xlsx", &workbook_of(&gap), Columns::Last(2)).unwrap_err();
