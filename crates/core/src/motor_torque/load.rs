@@ -20,7 +20,7 @@
 
 use nalgebra::{Rotation3, Vector3};
 
-use crate::frame::Isometry;
+use crate::frame::{Isometry, both_across};
 use crate::robot::forward::forward;
 use crate::robot::jacobian::screws_at;
 use crate::robot::{JointCompliance, Robot};
@@ -132,9 +132,7 @@ fn by_directions(robot: &Robot, positions: &[Vec<f64>]) -> Vec<Vec<LoadTerm>> {
         return vec![Vec::new(); joints];
     };
     let term = |joint: usize, body: usize| {
-        let axis = axes[body];
-        let first = normal_to(axis);
-        let values = [first, axis.cross(&first)].map(|direction| {
+        let values = both_across(&axes[body]).map(|direction| {
             let own = rotations[body].inverse() * direction;
             states
                 .iter()
@@ -157,13 +155,6 @@ fn by_directions(robot: &Robot, positions: &[Vec<f64>]) -> Vec<Vec<LoadTerm>> {
                 .collect()
         })
         .collect()
-}
-
-/// A unit vector at right angles to a unit vector.
-fn normal_to(axis: Vector3<f64>) -> Vector3<f64> {
-    let mut other = Vector3::zeros();
-    other[axis.iamin()] = 1.0;
-    axis.cross(&other).normalize()
 }
 
 #[cfg(test)]
