@@ -323,7 +323,12 @@ fn links_in_result_folders_are_not_followed() {
         (
             &["compensate", "."],
             "compensated",
-            &["side.src", "ring.commanded.csv", ".armill-files"],
+            &[
+                "side.src",
+                "ring.commanded.csv",
+                "ring.to-measure.csv",
+                ".armill-files",
+            ],
         ),
     ] {
         for name in names {

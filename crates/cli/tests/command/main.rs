@@ -51,6 +51,7 @@ mod restricted_space;
 mod robots_check;
 mod rough;
 mod roundness;
+mod rounds;
 mod run;
 mod serve;
 mod shell;

@@ -95,6 +95,48 @@ fn what_is_known_of_backlash_and_geometry_is_compensated() {
 }
 
 #[test]
+fn compliances_and_backlash_of_the_calibrated_robot_are_those_of_the_arm() {
+    let calibrated = CELL.replace("arm.toml\"", "nominal.toml\"\ncalibrated_robot = \"arm.toml\"");
+    let cell = Cell::with_study(&calibrated);
+    let without = |text: &str| {
+        let lines: Vec<&str> = text
+            .lines()
+            .filter(|line| !line.starts_with("compliance_"))
+            .collect();
+        let text = lines.join("\n");
+        let of_compliances =
+            |block: &&str| block.starts_with("sources.paper]") || block.starts_with("sources.assumed]");
+        let blocks: Vec<&str> = text.split("\n[").filter(|block| !of_compliances(block)).collect();
+        blocks.join("\n[")
+    };
+    // A nominal robot without compliances is enough.
+    cell.file("nominal.toml", without(&mh12()));
+    cell.file("arm.toml", with_backlash());
+    let measured = ring(&cell, "measured");
+    cell.file("study.toml", CELL);
+    let alone = ring(&cell, "alone");
+    for key in ["max_in_plane_um", "max_full_um"] {
+        let [measured, alone] = [&measured, &alone].map(|path| number(&path[key]));
+        assert!(
+            (measured - alone).abs() < 1e-6 && alone > 50.0,
+            "{key}: {measured} {alone}"
+        );
+    }
+    assert_eq!(measured["unloaded"]["joints"], alone["unloaded"]["joints"]);
+    let result = cell.result("measured").to_string();
+    assert!(result.contains("actual:paper"), "{result}");
+    // A calibrated geometry without compliances leaves those of the nominal robot.
+    cell.file("study.toml", &calibrated);
+    cell.file("nominal.toml", with_backlash());
+    cell.file("arm.toml", without(&mh12()));
+    let nominal = ring(&cell, "nominal");
+    assert!((number(&nominal["max_in_plane_um"]) - number(&alone["max_in_plane_um"])).abs() < 1e-6);
+    cell.file("nominal.toml", without(&mh12()));
+    let said = cell.armill(&["run", "study.toml", "--no-pictures"]);
+    said.refused(&["no joint compliance is known"]);
+}
+
+#[test]
 fn maps_report_the_worst_case_of_backlash() {
     let map = CELL.split_once("[[analysis]]").unwrap().0;
     let cell = Cell::with_study(map);

@@ -94,6 +94,8 @@ pub struct Commanded<'a> {
     pub given: CompensatedPath,
     /// The table, as CSV.
     pub csv: Vec<u8>,
+    /// The table to be completed with measured positions, as CSV; none for holes.
+    pub to_measure: Option<Vec<u8>>,
     /// Before and after along the path, as SVG; none for holes.
     pub picture: Option<String>,
     /// The holes, if it is not a path.
@@ -108,6 +110,10 @@ impl Commanded<'_> {
     /// Its files: the table, the picture, and the program that the path came from, each by its name.
     pub fn files(&self) -> Vec<(String, &[u8])> {
         let mut files = vec![(self.given.file.clone(), &self.csv[..])];
+        if let Some(table) = &self.to_measure {
+            let name = self.given.file.replace(".commanded.csv", ".to-measure.csv");
+            files.push((name, table));
+        }
         if let Some(svg) = self.picture.as_ref().filter(|_| self.given.rounds > 0) {
             let picture = self.given.file.replace(".commanded.csv", "-compensated.svg");
             files.push((picture, svg.as_bytes()));
@@ -186,7 +192,7 @@ pub(super) fn caution(name: &str, largest_correction_um: f64) -> Option<String> 
     })
 }
 
-fn column(name: &str, unit: Option<&str>, (decimals, data): (u8, ColumnData)) -> Column {
+pub(super) fn column(name: &str, unit: Option<&str>, (decimals, data): (u8, ColumnData)) -> Column {
     Column {
         name: name.to_owned(),
         unit: unit.map(str::to_owned),

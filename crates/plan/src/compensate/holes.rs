@@ -98,6 +98,7 @@ pub(super) fn of_holes<'a>(
     Ok(Commanded {
         setting: &path.setting,
         csv: csv::write(&table),
+        to_measure: None,
         picture: None,
         path: (commanded.track, commanded.along.answers),
         top: holes.path.track.top(),

@@ -12,7 +12,7 @@
 //! For a path from a robot program, that program is returned too, with changed targets ([`in_place`]).
 //!
 //! `answer`: the result of all paths, in numbers and sentences; `commanded`: a commanded path or set of holes; `error_answer`: the distances from the path; `holes`: holes instead of a
-//! path; `in_place`: the program that a path is from, rewritten.
+//! path; `in_place`: the program that a path is from, rewritten; `to_measure`: what acted on the arm at each point, for its journal.
 //!
 //! The correction is the elastic deviation (and that of gravity, backlash and the calibrated robot, if known)
 //! under the mean of the load cases, of a cut under its nominal force; the difference of the cases is reported as
@@ -23,6 +23,7 @@ mod commanded;
 pub mod error_answer;
 mod holes;
 pub mod in_place;
+mod to_measure;
 
 pub use answer::CompensationAnswer;
 pub use commanded::{CollisionsAnswer, Commanded, CompensatedPath};
@@ -45,6 +46,7 @@ use armill_study::file::resolve::Study;
 use self::commanded::{caution, table};
 use self::holes::of_holes;
 use self::in_place::{RewrittenProgram, in_place};
+use self::to_measure::to_measure;
 
 /// Compensates every path and set of holes of the study, or the one called `name`. A circle is closed: its first point is commanded
 /// again at its end.
@@ -171,6 +173,7 @@ fn of_path<'a>(
         holes: None,
         refused: Vec::new(),
         csv: csv::write(&table(name, &found.track)?),
+        to_measure: Some(csv::write(&to_measure(name, runner.robot, drawn, &found.along)?)),
         setting: &path.setting,
         path: (found.track, found.along.answers),
         top: drawn.top(),

@@ -1,13 +1,20 @@
-//! `calibrated_robot`: the calibrated arm, in addition to the nominal model that its controller uses.
+//! `calibrated_robot`: the arm as it was measured, in addition to the nominal model that its controller uses.
+//!
+//! | of the study | taken from |
+//! |---|---|
+//! | where the controller takes the tool, limits, speeds, bodies | `robot` |
+//! | where the tool is | `calibrated_robot` |
+//! | compliances, springs, masses, backlash, repeatability | `calibrated_robot` if it has compliances, otherwise `robot` |
+//! | learnt residual | `calibrated_robot` |
 
 use std::path::Path;
 use std::sync::Arc;
 
 use armill_core::frame::Isometry;
-use armill_core::robot::{Joint, Robot};
+use armill_core::robot::{Joint, Robot, RobotError, Structure};
 use armill_core::source::geometric::displacement;
 use armill_core::units::to_mm;
-use armill_formats::robot::RobotDescription;
+use armill_formats::robot::{JointNote, RobotDescription};
 use armill_formats::sources::Source;
 
 use crate::error::StudyError;
@@ -19,6 +26,8 @@ use crate::robots;
 /// The calibrated robot.
 pub(super) struct CalibratedArm {
     pub robot: Arc<Robot>,
+    /// Key of the source of each compliance.
+    compliance_sources: Vec<JointNote>,
     /// Source of the values.
     pub sources: Vec<Source>,
 }
@@ -89,11 +98,44 @@ pub(super) fn find_calibrated(
         return Ok(None);
     }
     let sources = found.sources.into_iter().map(|source| Source {
-        key: format!("actual:{}", source.key),
+        key: of_actual(&source.key),
         ..source
     });
     Ok(Some(CalibratedArm {
         robot: Arc::new(found.robot),
+        compliance_sources: found.joint_notes,
         sources: sources.collect(),
     }))
+}
+
+/// Key of a source of the calibrated arm in the list of all sources.
+fn of_actual(key: &str) -> String {
+    format!("actual:{key}")
+}
+
+impl CalibratedArm {
+    /// `believed` with what was measured of this arm besides its geometry.
+    ///
+    /// # Errors
+    /// Never for arms with the same joints, as was checked.
+    pub(super) fn measured_on(&self, mut believed: RobotDescription) -> Result<RobotDescription, StudyError> {
+        let refused = |error: RobotError| StudyError::value(error.to_string(), "calibrate this arm again");
+        let Some(compliance) = self.robot.compliance() else {
+            let structure = Structure {
+                learnt: self.robot.structure().learnt.clone(),
+                ..believed.robot.structure().clone()
+            };
+            believed.robot = believed.robot.with_structure(structure).map_err(refused)?;
+            return Ok(believed);
+        };
+        let with = believed.robot.with_structure(self.robot.structure().clone());
+        let with = with.map_err(refused)?;
+        believed.robot = with.with_compliance(compliance.to_vec()).map_err(refused)?;
+        let key = |key: &Option<String>| key.as_deref().map(of_actual);
+        for (note, of) in believed.joint_notes.iter_mut().zip(&self.compliance_sources) {
+            note.compliance_source = key(&of.compliance_source);
+            note.compliance_u_source = key(&of.compliance_u_source);
+        }
+        Ok(believed)
+    }
 }

@@ -193,6 +193,10 @@ impl Parsed {
             Some(robot) => find_calibrated(&mut log, file, robot, folder)?,
             None => None,
         };
+        if let Some(actual) = &actual {
+            robot = robot.map(|arm| actual.measured_on(arm)).transpose()?;
+        }
+        robot = (robot.map(|arm| with_own_compliance(&mut log, file, arm))).transpose()?;
         if let Some((table, arm)) = file.positioner.as_ref().zip(robot.as_ref())
             && let Some(found) = positioner::find(&mut log, table, folder, &arm.robot)?
         {
@@ -371,7 +375,7 @@ fn find_robot(
     file: &StudyFile,
     folder: &Path,
 ) -> Result<Option<RobotDescription>, StudyError> {
-    let mut found = match robots::find(&file.robot, folder) {
+    let found = match robots::find(&file.robot, folder) {
         Ok(found) => found,
         Err(StudyError::Value { message, hint }) => {
             log.problem("robot", message, &hint);
@@ -385,6 +389,15 @@ fn find_robot(
         let hint = "a tool at any pose requires six joints; `armill pose` accepts the joint positions";
         log.problem("robot", message, hint);
     }
+    Ok(Some(found))
+}
+
+/// `found` with the compliances of `[compliance]`, if there are any; otherwise it must have its own.
+fn with_own_compliance(
+    log: &mut ProblemLog<'_>,
+    file: &StudyFile,
+    mut found: RobotDescription,
+) -> Result<RobotDescription, StudyError> {
     let own = compliance::of_study(log, file, &found.robot)?;
     if let Some(joints) = own {
         let refused = |error: armill_core::robot::RobotError| {
@@ -393,5 +406,5 @@ fn find_robot(
         };
         found.robot = found.robot.with_other_compliance(joints).map_err(refused)?;
     }
-    Ok(Some(found))
+    Ok(found)
 }

@@ -9,7 +9,7 @@
 //! | `repeatability_mm` | how the arm scatters, in place of the robot file's |
 //! | `load_dependent` | whether the load acts on the deflected arm |
 //! | `[thermal]` | thermal growth of the links since the calibration |
-//! | `calibrated_robot` | the calibrated arm, if its controller uses a nominal model; its learnt residual, if it has one |
+//! | `calibrated_robot` | the calibrated geometry, if the controller uses a nominal model |
 
 use std::sync::Arc;
 
@@ -50,9 +50,6 @@ pub fn model(
     // All problems are reported, so whether there are new ones is evaluated at the end.
     let before = log.problems.len();
     let mut structure = robot.structure().clone();
-    if let Some(learnt) = actual.and_then(|actual| actual.structure().learnt.clone()) {
-        structure.learnt = Some(learnt);
-    }
     if let Some(pose_mm) = given.repeatability_mm {
         structure.repeatability = repeatability::deviation_of(from_mm(pose_mm));
     }
