@@ -142,6 +142,7 @@ fn friction_and_load_are_found_without_link_encoders() {
             "{value} for {given}"
         );
     }
+    assert_eq!(motor["loads"][0]["unit"], "nm");
     assert!(number(&motor["compared_rms_nm"][1]) < 0.1, "{out}");
     let (_, out, _) = armill(folder.path(), &["drives", "log.csv"]);
     assert!(

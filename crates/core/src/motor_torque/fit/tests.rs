@@ -90,6 +90,7 @@ fn simulated_values_are_found_within_their_uncertainty() {
             within[index][1] += usize::from(apart < 2.0);
         }
         assert!(found.left_out.is_empty() && found.inseparable.is_empty());
+        assert!(found.loads.iter().all(|load| load.unit == LoadUnit::Torque));
     }
     assert!(
         within.iter().all(|[one, two]| *one >= 54 && *two >= 88),
