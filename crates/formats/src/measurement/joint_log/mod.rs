@@ -18,8 +18,8 @@
 use std::io::BufRead;
 
 use crate::document::lines::{Line, Lines};
-use crate::document::{MOST_PROBLEMS, Problem, Problems};
-use crate::table::sheet::{Cell, cells, is_blank_row, number, separator_of};
+use crate::document::{Problem, Problems};
+use crate::table::sheet::{Cell, RowLimit, cells, each_row, number, separator_of};
 
 mod columns;
 mod convert;
@@ -32,8 +32,11 @@ pub use unit::{AngleUnit, TimeUnit};
 use columns::{Columns, Meaning};
 use log::HINT;
 
-/// Maximum number of instants.
-const MOST_ROWS: usize = 2_000_000;
+const LIMIT: RowLimit = RowLimit {
+    most: 2_000_000,
+    rows: "instants",
+    hint: "divide the log",
+};
 /// Maximum absolute value of a cell, in its own unit.
 const LARGEST: f64 = 1e19;
 
@@ -63,32 +66,13 @@ pub fn read(
         moves: columns.has(Meaning::Move).then(Vec::new),
         ..JointLog::default()
     };
-    let (mut problems, mut repeated) = (Vec::new(), 0_usize);
-    let mut before: Option<f64> = None;
-    while problems.len() < MOST_PROBLEMS {
-        let line = match lines.next_row() {
-            Ok(None) => break,
-            Ok(Some(line)) => line,
-            Err(wrong) => {
-                problems.extend(wrong);
-                break;
-            }
-        };
-        if is_blank_row(&line.text, separator) {
-            continue;
-        }
-        if log.times.len() == MOST_ROWS {
-            let hint = "divide the log";
-            let whole = 0..line.text.len();
-            problems.push(line.problem(path, whole, format!("more than {MOST_ROWS} instants"), hint));
-            break;
-        }
-        let (row, wrong) = read_row(path, &line, separator, &columns);
-        let is_complete = wrong.is_empty();
-        problems.extend(wrong);
-        // The time of a row with other problems counts too, so that all rows that go back are reported at once.
+    let (mut before, mut repeated) = (None::<f64>, 0_usize);
+    each_row(&mut lines, separator, LIMIT, |line| {
+        let (row, mut problems) = read_row(path, line, separator, &columns);
+        let is_complete = problems.is_empty();
+        // The time of a row with other problems is compared too, so that all rows that go back are reported at once.
         let Some((time, cell)) = row.time.clone() else {
-            continue;
+            return Problems::from(problems).into_result();
         };
         match before {
             Some(before) if time < before => {
@@ -104,8 +88,8 @@ pub fn read(
                 }
             }
         }
-    }
-    Problems::from(problems).into_result()?;
+        Problems::from(problems).into_result()
+    })?;
     if log.times.len() < 2 {
         let message = format!("a log of {} instants", log.times.len());
         return Err(Problem::of_file(path, message, HINT).into());
