@@ -31,7 +31,7 @@ const LEVEL_7_3: u16 = 0x0200;
 /// Beginning of an HDF5 file without a header of MATLAB.
 const HDF5: &[u8] = b"\x89HDF\r\n";
 /// How to save a file that can be read.
-const HINT: &str = "save it in MATLAB with `save('file.mat', ..., '-v7')`, or export a table with one column for each signal (CSV)";
+const HINT: &str = "save the arrays that are needed in MATLAB with `save('file.mat', ..., '-v7')`, or export a table with one column for each signal (CSV)";
 
 /// Reads the arrays `wanted` of the file `content`. `path` is the file name shown in problems.
 ///
