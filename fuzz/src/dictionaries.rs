@@ -189,9 +189,9 @@ pub const TRACE: &[&str] = &["run", "x_mm", "y_um", "z_in", "x_m", ";", "\t", "#
 #[rustfmt::skip]
 pub const JOINT_LOG: &[&str] = &["time_s", "timestamp", "IPOC", "J1_deg", "J2", "A1", "actual_q_0", "target_q_1", "AIPos.A1", "ASPos.A2", "fb_j1", "planned_j2", "link_j1_deg", "torque_j1_nm", "cmd_num", "[rad]", ";", "\t", " ", "nan", "1e308"];
 
-/// Tags of a MATLAB file, and names of its arrays.
+/// Tags of a MATLAB file, signatures and messages of HDF5, and names of its arrays.
 #[rustfmt::skip]
-pub const MATLAB: &[&str] = &["MATLAB 5.0", "rec", "a", "\u{e}\0\0\0", "\u{f}\0\0\0", "\u{9}\0\0\0", "\u{5}\0\u{4}\0", "\u{6}\0\0\0\u{8}\0\0\0", "\u{2}\0\u{3}\0"];
+pub const MATLAB: &[&str] = &["MATLAB 5.0", "rec", "a", "\u{e}\0\0\0", "\u{f}\0\0\0", "\u{9}\0\0\0", "\u{5}\0\u{4}\0", "\u{6}\0\0\0\u{8}\0\0\0", "\u{2}\0\u{3}\0", "TREE", "SNOD", "HEAP", "GCOL", "MATLAB_class", "MATLAB_empty", "MATLAB_sparse"];
 
 /// Keys of the journal of an arm.
 #[rustfmt::skip]

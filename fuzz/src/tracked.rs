@@ -87,14 +87,15 @@ pub fn frf(bytes: &[u8]) {
     }
 }
 
-/// Arrays of a MATLAB file.
+/// Arrays of a MATLAB file, of level 5 or HDF5.
 pub fn matlab(bytes: &[u8]) {
-    let found = match matlab::read("log.mat", bytes, &["rec.a", "b"]) {
+    let found = match matlab::read("log.mat", bytes.to_vec(), &["rec.a", "rec.more.flat"]) {
         Err(problems) => return refused(&problems),
         Ok(found) => found,
     };
-    assert!(found.arrays.len() == 2);
-    for array in found.arrays.into_iter().flatten() {
+    assert!(found.requested.len() == 2);
+    for found in found.requested {
+        let matlab::Requested::Array(array) = found else { continue };
         assert!(array.dimensions.iter().product::<usize>() == array.values.len());
     }
 }

@@ -10,7 +10,7 @@ pub fn joint_logs() -> Vec<Vec<u8>> {
     ])
 }
 
-/// A MATLAB file with one structure, and one array in it.
+/// A MATLAB file with one structure, and one array in it; one of version 7.3, from the tests.
 pub fn matlab_files() -> Vec<Vec<u8>> {
     let element = |code: u32, data: &[u8]| {
         let mut bytes = [code.to_le_bytes(), (data.len() as u32).to_le_bytes()].concat();
@@ -28,7 +28,7 @@ pub fn matlab_files() -> Vec<Vec<u8>> {
     file.resize(124, b' ');
     file.extend([0, 1, b'I', b'M']);
     file.extend(element(14, &[head(2, 1, "rec"), fields, array].concat()));
-    vec![file]
+    vec![file, include_bytes!("../../crates/formats/tests/seeds/arrays_7_3.mat").to_vec()]
 }
 
 /// FRFs as tables and as universal files.

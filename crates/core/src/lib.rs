@@ -3,7 +3,7 @@
 //! Pure mathematics: no files, no clock, no printing, no randomness. SI units throughout (m, N, N m, rad, s).
 //!
 //! Read [`predict`] first: it is the main idea in one function. Then, in the order of the computation:
-//! [`frame`] and [`spatial`] (poses, twists, wrenches), [`roundness`] (circles of measured points, without a
+//! [`frame`] and [`spatial`] (poses, twists, wrenches), `statistics` (medians), [`roundness`] (circles of measured points, without a
 //! robot), [`marching_squares`] (level lines and areas on a grid), [`robot`] (chain, postures), [`compliance`],
 //! [`dynamics`] (vibration), [`load`], [`stability`] (of a cut against chatter), [`source`] (sources of the deviation), [`workpiece`] and [`path`] (points), [`motion`] (speed, time, rounded corners), [`kernel`] (many
 //! points at once), [`map`] (planes, sections, volumes, the region within a tolerance),
@@ -38,6 +38,7 @@ pub mod roundness;
 pub mod source;
 pub mod spatial;
 pub mod stability;
+pub(crate) mod statistics;
 pub mod torsion;
 pub mod units;
 pub mod update;

@@ -8,7 +8,7 @@
 use armill_core::robot::Robot;
 use armill_formats::measurement::joint_log::LogReadOptions;
 use armill_measure::drives::answer::DriveAnswer;
-use armill_measure::drives::motor::MotorAnswer;
+use armill_measure::drives::motor::{LoadUnitAnswer, MotorAnswer};
 use armill_measure::drives::{
     DrivesAnswer, DrivesQuestion, EstimateAnswer, MatlabNames, evaluate, picture, read, robot_file,
 };
@@ -163,12 +163,10 @@ fn motor_text(motor: &MotorAnswer) -> String {
 
 fn load_texts(motor: &MotorAnswer, compared: Option<&str>) -> Vec<String> {
     let loads = motor.loads.iter().map(|load| {
-        let unit = if load.name.starts_with("torque") {
-            "N m per N m at the joint"
-        } else {
-            "N m"
+        let (unit, decimals) = match load.unit {
+            LoadUnitAnswer::Torque => ("N m", 3),
+            LoadUnitAnswer::PerTorque => ("N m per N m at the joint", 6),
         };
-        let decimals = if load.name.starts_with("torque") { 6 } else { 3 };
         format!(
             "load, {}: {}",
             load.name,

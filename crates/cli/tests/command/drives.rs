@@ -142,6 +142,7 @@ fn friction_and_load_are_found_without_link_encoders() {
             "{value} for {given}"
         );
     }
+    assert_eq!(motor["loads"][0]["unit"], "nm");
     assert!(number(&motor["compared_rms_nm"][1]) < 0.1, "{out}");
     let (_, out, _) = armill(folder.path(), &["drives", "log.csv"]);
     assert!(
@@ -157,8 +158,10 @@ fn wrong_options_and_logs_are_refused() {
     std::fs::write(at.join("plain.csv"), log().replace("link_j1_deg", "other")).unwrap();
     std::fs::write(at.join("bare.csv"), log().replace("torque_j1_nm", "other")).unwrap();
     std::fs::write(at.join("lever.toml"), LEVER).unwrap();
-    std::fs::write(at.join("new.mat"), b"\x89HDF\r\n\x1a\n").unwrap();
-    let cases: [(&[&str], &str); 11] = [
+    std::fs::write(at.join("cut.mat"), b"\x89HDF\r\n\x1a\n").unwrap();
+    let arrays = include_bytes!("../../../formats/tests/seeds/arrays_7_3.mat");
+    std::fs::write(at.join("new.mat"), arrays).unwrap();
+    let cases: [(&[&str], &str); 14] = [
         (&["log.csv", "--gear", "0"], "--gear"),
         (
             &["log.csv", "--gear", "250,250"],
@@ -183,7 +186,16 @@ fn wrong_options_and_logs_are_refused() {
             &["plain.csv", "--robot", "lever.toml", "--out", "found.toml"],
             "neither a stiffness nor lost motion was found",
         ),
-        (&["new.mat"], "-v7"),
+        (&["cut.mat"], "-v7"),
+        (&["new.mat"], "its arrays: rec.a, rec.count,"),
+        (
+            &["new.mat", "--names", "rec.a,rec.text,rec.none"],
+            "`rec.text` is of class char, not a numeric array",
+        ),
+        (
+            &["new.mat", "--names", "rec.a,rec.text,rec.none"],
+            "there is no array `rec.none`",
+        ),
         (&["log.csv", "--drawing", "t.pdf"], ".svg or .png"),
     ];
     for (arguments, words) in cases {

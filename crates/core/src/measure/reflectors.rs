@@ -21,6 +21,7 @@ use nalgebra::Vector3;
 
 use crate::frame::Isometry;
 use crate::least_squares::superposed;
+use crate::statistics::{median, robust_scatter};
 
 /// Distances that deviate by more than this many robust standard deviations are wrong.
 const FAR: f64 = 8.0;
@@ -28,8 +29,6 @@ const FAR: f64 = 8.0;
 const LEAST: f64 = 2e-5;
 /// A body whose distances vary by more than this part of them is not rigid.
 const FLEXIBLE: f64 = 2e-3;
-/// Ratio of the median absolute deviation of a normal distribution to its standard deviation.
-const NORMAL: f64 = 1.4826;
 /// Stretches of the readings for slow changes.
 const STRETCHES: usize = 14;
 /// Weight of a reflector that is replaced: it only decides what the two others leave open.
@@ -110,8 +109,8 @@ impl Body {
         });
         let middle = [0, 1, 2].map(|pair| median(&distances[pair]));
         let spread = [0, 1, 2].map(|pair| {
-            let off: Vec<f64> = distances[pair].iter().map(|d| (d - middle[pair]).abs()).collect();
-            NORMAL * median(&off)
+            let off: Vec<f64> = distances[pair].iter().map(|d| d - middle[pair]).collect();
+            robust_scatter(&off)
         });
         let wrong = |pose: usize| {
             [0, 1, 2].map(|pair: usize| {
@@ -231,22 +230,9 @@ fn triangle([c, b, a]: [f64; 3]) -> Option<Readings> {
     Some(corners.map(|corner| corner - middle))
 }
 
-fn median(values: &[f64]) -> f64 {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let half = sorted.len() / 2;
-    match sorted.len() % 2 {
-        1 => sorted[half],
-        _ => 0.5 * (sorted[half - 1] + sorted[half]),
-    }
-}
-
 fn short_scatter(distances: &[f64]) -> f64 {
-    let steps: Vec<f64> = distances.windows(2).map(|two| (two[1] - two[0]).abs()).collect();
-    match steps.is_empty() {
-        true => 0.0,
-        false => NORMAL * median(&steps) / std::f64::consts::SQRT_2,
-    }
+    let steps: Vec<f64> = distances.windows(2).map(|two| two[1] - two[0]).collect();
+    robust_scatter(&steps) / std::f64::consts::SQRT_2
 }
 
 fn slow_change(distances: &[f64], states: &[State]) -> f64 {

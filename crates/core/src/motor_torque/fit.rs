@@ -1,6 +1,6 @@
 //! Friction, inertia and load, fitted to a log.
 
-use super::load::LoadTerm;
+use super::load::{LoadTerm, LoadUnit};
 use crate::torsion::linear::{self, Column, Estimated};
 use crate::torsion::signals::{derivatives, half_window, rms_about_mean};
 use crate::torsion::{Estimate, INSEPARABLE};
@@ -27,13 +27,15 @@ pub struct MotorSignals<'a> {
     pub loads: &'a [LoadTerm],
 }
 
-/// An estimate with its name.
+/// The coefficient of a load.
 #[derive(Clone, Debug, PartialEq)]
-pub struct NamedEstimate {
+pub struct LoadEstimate {
     /// Name of its function.
     pub name: String,
-    /// Its coefficient.
-    // unit: N m, or N m per N m of gravity
+    /// Unit of the coefficient.
+    pub unit: LoadUnit,
+    /// The coefficient.
+    // unit: that of `unit`
     pub estimate: Estimate,
 }
 
@@ -47,7 +49,7 @@ pub struct MotorTorque {
     /// Torque per acceleration of the joint, kg m^2.
     pub inertia: Option<Estimate>,
     /// Coefficients of the loads that the log determines.
-    pub loads: Vec<NamedEstimate>,
+    pub loads: Vec<LoadEstimate>,
     /// Constant part, N m.
     pub constant: Option<Estimate>,
     /// Terms that the log does not determine.
@@ -76,8 +78,9 @@ pub fn fit(signals: &MotorSignals<'_>) -> Option<MotorTorque> {
 /// Regressors and target of the instants in motion.
 struct Design {
     names: Vec<String>,
-    /// Number of columns of each load.
+    /// Number of columns of each load, and the unit of each of these columns.
     loads: Vec<usize>,
+    load_units: Vec<LoadUnit>,
     columns: Vec<Column>,
     torques: Vec<f64>,
 }
@@ -111,15 +114,18 @@ impl Design {
             column(&|index| rates[index][1]),
         ];
         let mut names = OF_MOTION.map(str::to_owned).to_vec();
+        let mut load_units = Vec::new();
         for load in loads {
             columns.extend(load.values.iter().map(|values| column(&|index| values[index])));
             names.extend(load.names.iter().cloned());
+            load_units.extend(load.values.iter().map(|_| load.unit));
         }
         columns.push(column(&|_| 1.0));
         names.push(CONSTANT.to_owned());
         Some(Design {
             names,
             loads: loads.iter().map(|load| load.values.len()).collect(),
+            load_units,
             columns,
             torques: moving.iter().map(|index| torque[*index]).collect(),
         })
@@ -181,9 +187,11 @@ impl MotorTorque {
             viscous: all[1],
             inertia: all[2],
             loads: (OF_MOTION.len()..last)
-                .filter_map(|column| {
-                    all[column].map(|estimate| NamedEstimate {
+                .zip(&design.load_units)
+                .filter_map(|(column, unit)| {
+                    all[column].map(|estimate| LoadEstimate {
                         name: design.names[column].clone(),
+                        unit: *unit,
                         estimate,
                     })
                 })

@@ -32,11 +32,22 @@ const PARALLEL: f64 = 1e-6;
 /// Values of a function below this are rounding.
 const ROUNDING: f64 = 1e-9;
 
+/// Unit of the coefficients of a load.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LoadUnit {
+    /// N m of the motor.
+    Torque,
+    /// N m of the motor per N m at the joint.
+    PerTorque,
+}
+
 /// One or two functions of the positions that belong together, at each instant.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoadTerm {
     /// Name of each function.
     pub names: Vec<String>,
+    /// Unit of their coefficients.
+    pub unit: LoadUnit,
     /// Values of each function.
     // unit: those of the header
     pub values: Vec<Vec<f64>>,
@@ -49,6 +60,7 @@ pub fn of_own_position(positions: &[f64]) -> Vec<LoadTerm> {
         names: ["cosine", "sine"]
             .map(|of| format!("{of} of the position"))
             .to_vec(),
+        unit: LoadUnit::Torque,
         values: values.to_vec(),
     }]
 }
@@ -98,6 +110,7 @@ fn by_masses(robot: &Robot, positions: &[Vec<f64>]) -> Vec<Vec<LoadTerm>> {
     }
     let term = |values: Vec<f64>| LoadTerm {
         names: vec!["torque of gravity".to_owned()],
+        unit: LoadUnit::PerTorque,
         values: vec![values],
     };
     values.into_iter().map(|values| vec![term(values)]).collect()
@@ -144,6 +157,7 @@ fn by_directions(robot: &Robot, positions: &[Vec<f64>]) -> Vec<Vec<LoadTerm>> {
             names: ["first", "second"]
                 .map(|which| format!("{which} direction of link {}", body + 1))
                 .to_vec(),
+            unit: LoadUnit::Torque,
             values: values.to_vec(),
         }
     };
@@ -200,6 +214,10 @@ mod tests {
                 .all(|value| *value == 0.0)
         );
         assert_eq!([1, 2].map(|joint| directions[joint].len()), [2, 1]);
+        assert_eq!(
+            [&directions, &torques].map(|terms| terms[1][0].unit),
+            [LoadUnit::Torque, LoadUnit::PerTorque]
+        );
         for joint in [1, 2] {
             let columns: Vec<&Vec<f64>> = directions[joint].iter().flat_map(|term| &term.values).collect();
             let x = DMatrix::from_fn(all.len(), columns.len(), |row, column| columns[column][row]);

@@ -28,5 +28,5 @@
 pub mod fit;
 pub mod load;
 
-pub use fit::{MotorSignals, MotorTorque, NamedEstimate, fit};
-pub use load::LoadTerm;
+pub use fit::{LoadEstimate, MotorSignals, MotorTorque, fit};
+pub use load::{LoadTerm, LoadUnit};

@@ -21,6 +21,8 @@
 //! that of noise (12 scatters were exceeded by none of 100 000 values of noise on an ellipse with a step). Why a
 //! twentieth: less changes no reported quantity of a profile, and a profile as smooth as its rounding has no dirt.
 
+use crate::statistics::{median, robust_scatter};
+
 /// Number of values in a row whose median is used.
 const ROW: usize = 5;
 /// More than this multiple of the scatter is not noise.
@@ -31,8 +33,6 @@ const LITTLE: f64 = 0.05;
 const ROUNDED: f64 = 2.0;
 /// Less than this is never an outlier, m: a nanometre.
 const NOTHING: f64 = 1e-9;
-/// From median size to standard deviation, of a normal distribution.
-const NORMAL: f64 = 1.4826;
 /// With fewer values the scatter is not known.
 const LEAST_COUNT: usize = 4 * ROW;
 
@@ -60,8 +60,7 @@ pub fn outlying(values: &[f64], ends: Ends) -> Vec<Option<f64>> {
         .map(|at| values[(at + count - beyond) % count])
         .collect();
     let off = &differences(&round)[beyond..beyond + count];
-    let mut sizes: Vec<f64> = off.iter().map(|off| off.abs()).collect();
-    let scatter = NORMAL * median(&mut sizes);
+    let scatter = robust_scatter(off);
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
     let range = sorted[count - 1] - sorted[0];
@@ -76,7 +75,7 @@ pub fn outlying(values: &[f64], ends: Ends) -> Vec<Option<f64>> {
 /// Difference of each value from the nearest prediction by its neighbours.
 fn differences(values: &[f64]) -> Vec<f64> {
     // Medians of five in a row, by the place of the first.
-    let rows: Vec<f64> = values.windows(ROW).map(|row| median(&mut row.to_vec())).collect();
+    let rows: Vec<f64> = values.windows(ROW).map(median).collect();
     let row = |from: Option<usize>| from.and_then(|from| rows.get(from)).copied();
     let difference = |at: usize| {
         let [before, earlier] = [row(at.checked_sub(ROW)), row(at.checked_sub(2 * ROW))];
@@ -91,15 +90,6 @@ fn differences(values: &[f64]) -> Vec<f64> {
             .unwrap_or(0.0)
     };
     (0..values.len()).map(difference).collect()
-}
-
-/// The middle value; 0 of none.
-fn median(values: &mut [f64]) -> f64 {
-    let middle = values.len() / 2;
-    if values.is_empty() {
-        return 0.0;
-    }
-    *values.select_nth_unstable_by(middle, f64::total_cmp).1
 }
 
 #[cfg(test)]

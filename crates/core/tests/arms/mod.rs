@@ -107,6 +107,32 @@ impl Stream {
     }
 }
 
+/// Noise of first order, as in the signals of a sensor: each value contains 0.9 of the one before.
+pub struct CorrelatedNoise {
+    stream: Stream,
+    last: f64,
+}
+
+impl CorrelatedNoise {
+    pub fn new(seed: u64) -> CorrelatedNoise {
+        CorrelatedNoise {
+            stream: Stream(seed),
+            last: 0.0,
+        }
+    }
+
+    /// The next value; `scatter` is the standard deviation of what is new in it.
+    pub fn next(&mut self, scatter: f64) -> f64 {
+        self.last = 0.9 * self.last + scatter * self.stream.normal();
+        self.last
+    }
+}
+
+/// Times of a log of `count` instants, every 4 ms, s.
+pub fn log_times(count: u32) -> Vec<f64> {
+    (0..count).map(|k| f64::from(k) * 0.004).collect()
+}
+
 /// Joint positions at these parts of the ranges of their joints.
 pub fn positions(robot: &Robot, unit: &[f64; 6]) -> Vec<f64> {
     let at = |(joint, part): (&Joint, &f64)| {

@@ -18,11 +18,14 @@ use armill_core::robot::Robot;
 use super::poses::columns::{self, Quantity};
 use super::profile::LengthUnit;
 use crate::document::lines::{Line, Lines};
-use crate::document::{MOST_PROBLEMS, Problem, Problems};
-use crate::table::sheet::{is_blank_row, named_columns, number, row_cells, separator_of};
+use crate::document::{Problem, Problems};
+use crate::table::sheet::{RowLimit, each_row, named_columns, number, row_cells, separator_of};
 
-/// Maximum number of rows.
-const MOST_ROWS: usize = 1_000_000;
+const LIMIT: RowLimit = RowLimit {
+    most: 1_000_000,
+    rows: "rows",
+    hint: "a few hundred poses are sufficient",
+};
 /// Maximum length that a tracker measures, m.
 const FARTHEST: f64 = 1e4;
 /// Deviation of a quaternion or matrix from a rotation that is rounding of its digits.
@@ -81,33 +84,9 @@ pub fn read(path: &str, bytes: &[u8], robot: &Robot) -> Result<Bodies, Problems>
         joints: table.has_joints.then(Vec::new),
         unused: named.unused,
     };
-    let mut problems = Vec::new();
-    while problems.len() < MOST_PROBLEMS {
-        match lines.next_row() {
-            Ok(None) => break,
-            Err(wrong) => {
-                problems.extend(wrong);
-                break;
-            }
-            Ok(Some(line)) if is_blank_row(&line.text, separator) => {}
-            Ok(Some(line)) if bodies.positions.len() == MOST_ROWS => {
-                let message = format!("more than {MOST_ROWS} rows");
-                problems.push(line.problem(
-                    path,
-                    0..line.text.len(),
-                    message,
-                    "a few hundred poses are sufficient",
-                ));
-                break;
-            }
-            Ok(Some(line)) => {
-                if let Err(wrong) = table.row(&line, separator, &mut bodies) {
-                    problems.extend(wrong);
-                }
-            }
-        }
-    }
-    Problems::from(problems).into_result()?;
+    each_row(&mut lines, separator, LIMIT, |line| {
+        table.row(line, separator, &mut bodies)
+    })?;
     match bodies.positions.is_empty() {
         true => Err(Problem::of_file(path, "the file has no rows", HINT).into()),
         false => Ok(bodies),

@@ -20,11 +20,14 @@ use armill_core::update::Condition;
 use super::poses::columns::{self, Quantity};
 use super::profile::LengthUnit;
 use crate::document::lines::{Line, Lines};
-use crate::document::{MOST_PROBLEMS, Problem, Problems};
-use crate::table::sheet::{is_blank_row, named_columns, number, row_cells, separator_of};
+use crate::document::{Problem, Problems};
+use crate::table::sheet::{RowLimit, each_row, named_columns, number, row_cells, separator_of};
 
-/// Maximum number of rows.
-const MOST_ROWS: usize = 1_000_000;
+const LIMIT: RowLimit = RowLimit {
+    most: 1_000_000,
+    rows: "rows",
+    hint: "a few hundred points are sufficient",
+};
 /// Largest force, N, and moment, N m: beyond that of any robot.
 const LARGEST: f64 = 1e6;
 /// Longest ball-bar, m.
@@ -93,32 +96,10 @@ pub fn read(path: &str, reader: impl BufRead, robot: &Robot) -> Result<Vec<Condi
         return Err(header.problem(path, 0..header.text.len(), message, HINT).into());
     }
     let mut rows = Vec::new();
-    let mut problems = Vec::new();
-    while problems.len() < MOST_PROBLEMS {
-        match lines.next_row() {
-            Ok(None) => break,
-            Err(wrong) => {
-                problems.extend(wrong);
-                break;
-            }
-            Ok(Some(line)) if is_blank_row(&line.text, separator) => {}
-            Ok(Some(line)) if rows.len() == MOST_ROWS => {
-                let message = format!("more than {MOST_ROWS} rows");
-                problems.push(line.problem(
-                    path,
-                    0..line.text.len(),
-                    message,
-                    "a few hundred points are sufficient",
-                ));
-                break;
-            }
-            Ok(Some(line)) => match row(path, &line, &named.columns, (separator, robot)) {
-                Ok(row) => rows.push(row),
-                Err(wrong) => problems.extend(wrong),
-            },
-        }
-    }
-    Problems::from(problems).into_result()?;
+    each_row(&mut lines, separator, LIMIT, |line| {
+        rows.push(row(path, line, &named.columns, (separator, robot))?);
+        Ok(())
+    })?;
     match rows.is_empty() {
         true => Err(Problem::of_file(path, "the file has no rows", HINT).into()),
         false => Ok(rows),

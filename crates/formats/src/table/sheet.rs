@@ -4,11 +4,12 @@
 //! numbers may have a decimal comma. Lines that begin with `#` and empty ones are remarks.
 
 use std::borrow::Cow;
+use std::io::BufRead;
 use std::ops::Range;
 
 use super::csv::is_formula;
-use crate::document::lines::Line;
-use crate::document::{Problem, Problems};
+use crate::document::lines::{Line, Lines};
+use crate::document::{MOST_PROBLEMS, Problem, Problems};
 
 /// One cell: its text, and its position in the line, bytes.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -89,6 +90,57 @@ pub(crate) fn row_cells<'l>(
         _ => "every row needs one cell per column; an empty cell is written as two separators in a row",
     };
     Err(line.problem(path, 0..line.text.len(), message, hint).into())
+}
+
+/// Most rows of a table.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RowLimit {
+    pub most: usize,
+    /// What a row is, in the plural.
+    pub rows: &'static str,
+    /// What to do with a longer table.
+    pub hint: &'static str,
+}
+
+impl RowLimit {
+    /// The problem of the first line beyond the limit, of the file `path`.
+    pub fn exceeded(self, path: &str, line: &Line) -> Problem {
+        let message = format!("more than {} {}", self.most, self.rows);
+        line.problem(path, 0..line.text.len(), message, self.hint)
+    }
+}
+
+/// Calls `take` for each of the remaining rows that is not blank.
+///
+/// # Errors
+/// All problems of the rows, at most 200 and those of the last row; a row beyond the limit.
+pub(crate) fn each_row(
+    lines: &mut Lines<impl BufRead>,
+    separator: char,
+    limit: RowLimit,
+    mut take: impl FnMut(&Line) -> Result<(), Problems>,
+) -> Result<(), Problems> {
+    let (mut problems, mut count) = (Vec::new(), 0_usize);
+    while problems.len() < MOST_PROBLEMS {
+        let line = match lines.next_row() {
+            Ok(None) => break,
+            Ok(Some(line)) => line,
+            Err(wrong) => {
+                problems.extend(wrong);
+                break;
+            }
+        };
+        if is_blank_row(&line.text, separator) {
+            continue;
+        }
+        if count == limit.most {
+            problems.push(limit.exceeded(lines.name(), &line));
+            break;
+        }
+        count += 1;
+        problems.extend(take(&line).err().into_iter().flatten());
+    }
+    Problems::from(problems).into_result()
 }
 
 /// The meaning of the columns of a table.
@@ -173,6 +225,40 @@ mod tests {
             ("a", ','),
         ] {
             assert_eq!(separator_of(line), separator, "{line}");
+        }
+    }
+
+    #[test]
+    fn rows_are_read_up_to_the_limit_and_their_problems_are_reported_together() {
+        let limit = RowLimit {
+            most: 3,
+            rows: "points",
+            hint: "divide it",
+        };
+        let read = |text: &str| {
+            let mut taken = Vec::new();
+            let read = each_row(&mut Lines::new("p.csv", text.as_bytes()), ',', limit, |line| {
+                taken.push(line.text.clone());
+                match line.text.contains('x') {
+                    true => Err(line.problem("p.csv", 0..1, "bad", "hint").into()),
+                    false => Ok(()),
+                }
+            });
+            (taken, read.err().map(|problems| problems.to_string()))
+        };
+        assert_eq!(
+            read("1\n,,\n2\n\n3\n"),
+            (["1", "2", "3"].map(str::to_owned).to_vec(), None)
+        );
+        let (taken, problems) = read("1\nx2\n,,\nx3\n4\n5\n");
+        let problems = problems.unwrap();
+        assert_eq!(taken.len(), 3);
+        for part in [
+            "p.csv:2:1: bad",
+            "p.csv:4:1: bad",
+            "p.csv:5:1: more than 3 points",
+        ] {
+            assert!(problems.contains(part), "{part}: {problems}");
         }
     }
 

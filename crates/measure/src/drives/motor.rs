@@ -1,7 +1,7 @@
 //! Friction, load and inertia of each joint, from the torque of its motor.
 
-use armill_core::motor_torque::load::{LoadTerm, of_own_position, of_robot};
-use armill_core::motor_torque::{MotorSignals, MotorTorque, fit};
+use armill_core::motor_torque::load::{of_own_position, of_robot};
+use armill_core::motor_torque::{LoadTerm, LoadUnit, MotorSignals, MotorTorque, fit};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -42,8 +42,30 @@ pub struct MotorAnswer {
 pub struct LoadAnswer {
     /// Function of the joint positions.
     pub name: String,
-    /// Torque of the motor, N m, per unit of the function; of the torque of gravity per N m at the joint.
+    /// Unit of the coefficient.
+    pub unit: LoadUnitAnswer,
+    /// Torque of the motor per unit of the function.
     pub coefficient: EstimateAnswer,
+}
+
+/// Unit of the coefficient of a load.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+pub enum LoadUnitAnswer {
+    /// N m.
+    #[serde(rename = "nm")]
+    Torque,
+    /// N m of the motor per N m at the joint.
+    #[serde(rename = "nm_per_nm")]
+    PerTorque,
+}
+
+impl From<LoadUnit> for LoadUnitAnswer {
+    fn from(unit: LoadUnit) -> LoadUnitAnswer {
+        match unit {
+            LoadUnit::Torque => LoadUnitAnswer::Torque,
+            LoadUnit::PerTorque => LoadUnitAnswer::PerTorque,
+        }
+    }
 }
 
 /// The answers of all joints that move, and notes on the others.
@@ -111,6 +133,7 @@ impl MotorAnswer {
                 .iter()
                 .map(|load| LoadAnswer {
                     name: load.name.clone(),
+                    unit: load.unit.into(),
                     coefficient: same(load.estimate),
                 })
                 .collect(),

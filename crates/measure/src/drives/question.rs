@@ -9,7 +9,7 @@ use armill_core::units::from_deg;
 use armill_formats::document::{Problem, Problems};
 use armill_formats::input;
 use armill_formats::measurement::joint_log::{self, AngleUnit, JointLog, LogReadOptions};
-use armill_formats::measurement::matlab::{self, MatlabArray, MatlabFile};
+use armill_formats::measurement::matlab::{self, MatlabArray, MatlabFile, Requested};
 use armill_study::StudyError;
 
 /// What a log has to contain.
@@ -205,7 +205,7 @@ pub fn read(path: &Path, question: &DrivesQuestion) -> Result<DriveLog, StudyErr
         return DriveLog::of(file, log);
     }
     let wanted: Vec<&str> = question.names.iter().flat_map(MatlabNames::all).collect();
-    let found = matlab::read(&file, &content, &wanted)?;
+    let found = matlab::read(&file, content, &wanted)?;
     let Some(names) = &question.names else {
         let hint = format!(
             "--names TIME,MOTOR,LINK,TORQUE, or without LINK; its arrays: {}",
@@ -242,18 +242,20 @@ fn from_matlab(
     let mut problems = Vec::new();
     let mut arrays: Vec<&MatlabArray> = Vec::new();
     let paths = names.all();
-    for (name, array) in paths.iter().zip(&found.arrays) {
-        match array {
-            Some(array) => arrays.push(array),
-            None => problems.push(Problem::of_file(
-                &file,
-                format!(
-                    "there is no numeric array `{name}`; the file has {}",
-                    listed(found)
-                ),
-                "give the paths of its arrays with --names",
-            )),
-        }
+    for (name, found_there) in paths.iter().zip(&found.requested) {
+        let message = match found_there {
+            Requested::Array(array) => {
+                arrays.push(array);
+                continue;
+            }
+            Requested::Other(class) => format!("`{name}` is of class {class}, not a numeric array"),
+            Requested::Absent => format!("there is no array `{name}`"),
+        };
+        problems.push(Problem::of_file(
+            &file,
+            format!("{message}; the numeric arrays of the file are {}", listed(found)),
+            "give the paths of its arrays with --names",
+        ));
     }
     Problems::from(problems).into_result()?;
     let mut problems = Vec::new();

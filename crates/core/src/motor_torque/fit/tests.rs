@@ -1,4 +1,5 @@
 use super::*;
+use crate::arms::{CorrelatedNoise, log_times};
 use crate::motor_torque::load::of_own_position;
 
 const COULOMB: f64 = 1.5;
@@ -17,13 +18,7 @@ struct Simulated {
 
 impl Simulated {
     fn of(constant: f64, amplitude: f64, seed: u64) -> Simulated {
-        let mut state = seed;
-        let mut noise = || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            ((state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5) * 12.0_f64.sqrt()
-        };
+        let mut noise = CorrelatedNoise::new(seed);
         let motion = |t: f64| {
             let [a, b] = [amplitude, amplitude / 4.0];
             let [w, v] = [0.9, 3.1];
@@ -33,10 +28,8 @@ impl Simulated {
                 -a * w * w * (w * t).sin() - b * v * v * (v * t).sin(),
             ]
         };
-        let times: Vec<f64> = (0..5000).map(|k| f64::from(k) * 0.004).collect();
-        let mut slow = 0.0;
+        let times = log_times(5000);
         let torque = times.iter().map(|t| {
-            slow = 0.9 * slow + 0.1 * noise();
             let [q, v, a] = motion(*t);
             COULOMB * v.signum()
                 + VISCOUS * v
@@ -44,7 +37,7 @@ impl Simulated {
                 + COSINE * q.cos()
                 + SINE * q.sin()
                 + constant
-                + slow
+                + noise.next(0.1)
         });
         let motor: Vec<f64> = times.iter().map(|t| motion(*t)[0]).collect();
         Simulated {
@@ -90,6 +83,7 @@ fn simulated_values_are_found_within_their_uncertainty() {
             within[index][1] += usize::from(apart < 2.0);
         }
         assert!(found.left_out.is_empty() && found.inseparable.is_empty());
+        assert!(found.loads.iter().all(|load| load.unit == LoadUnit::Torque));
     }
     assert!(
         within.iter().all(|[one, two]| *one >= 54 && *two >= 88),

@@ -1,17 +1,5 @@
 use super::*;
-
-/// Uniform noise of standard deviation 1, from a linear congruential generator.
-struct Noise(u64);
-
-impl Noise {
-    fn next(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        ((self.0 >> 11) as f64 / (1_u64 << 53) as f64 - 0.5) * 12.0_f64.sqrt()
-    }
-}
+use crate::arms::{CorrelatedNoise, Stream, log_times};
 
 /// A simulated log: motion in closed form, so that the delayed signal is exact.
 struct Simulated {
@@ -27,24 +15,19 @@ const OFFSET: f64 = 1e-3;
 
 impl Simulated {
     fn of(delay: f64, torque_noise: f64, seed: u64) -> Simulated {
-        let mut noise = Noise(seed);
+        let (mut noise, mut slow) = (Stream(seed), CorrelatedNoise::new(seed + 1_000_000));
         let motor = |t: f64| 0.4 * (1.3 * t).sin() + 0.1 * (4.1 * t).sin();
         let speed = |t: f64| 0.52 * (1.3 * t).cos() + 0.41 * (4.1 * t).cos();
         let torque = |t: f64| 8.0 * (2.1 * t).cos() + 5.0 * (0.7 * t).sin() + 3.0 * (5.3 * t).sin();
-        let times: Vec<f64> = (0..2500).map(|k| f64::from(k) * 0.004).collect();
+        let times = log_times(2500);
         let true_link = |t: f64| motor(t) + OFFSET - COMPLIANCE * torque(t) + STEP * speed(t).signum();
-        // Correlated noise of first order.
-        let mut slow = 0.0;
-        let link = times.iter().map(|t| {
-            slow = 0.9 * slow + 3e-6 * noise.next();
-            true_link(t - delay) + slow
-        });
+        let link = times.iter().map(|t| true_link(t - delay) + slow.next(3e-6));
         Simulated {
             link: link.collect(),
             motor: times.iter().map(|t| motor(*t)).collect(),
             torque: times
                 .iter()
-                .map(|t| torque(*t) + torque_noise * noise.next())
+                .map(|t| torque(*t) + torque_noise * noise.normal())
                 .collect(),
             times,
         }
@@ -98,11 +81,11 @@ fn noise_alone_has_no_compliance_and_no_step() {
     let mut found = 0;
     for seed in 0..40 {
         let mut simulated = Simulated::of(0.0, 1.0, seed);
-        let mut noise = Noise(seed + 1000);
+        let mut noise = Stream(seed + 1000);
         simulated.link = simulated
             .motor
             .iter()
-            .map(|motor| motor + 1e-5 * noise.next())
+            .map(|motor| motor + 1e-5 * noise.normal())
             .collect();
         let torsion = fit(&simulated.signals(), Some((100.0, 2))).unwrap();
         let all = [

@@ -21,8 +21,8 @@ use super::measured::{MOST_FREQUENCIES, MeasuredFrfs, SignedDof};
 use super::quantity::{Quantity, Samples};
 use super::unit;
 use crate::document::lines::{Line, Lines};
-use crate::document::{MOST_PROBLEMS, Problem, Problems};
-use crate::table::sheet::{is_blank_row, named_columns, number, row_cells, separator_of};
+use crate::document::{Problem, Problems};
+use crate::table::sheet::{RowLimit, each_row, named_columns, number, row_cells, separator_of};
 
 const HINT: &str = "columns such as frequency_hz, receptance_real_um_per_n, receptance_imag_um_per_n; or accelerance_magnitude_g_per_n, phase_deg";
 
@@ -122,35 +122,15 @@ pub(super) fn read(path: &str, reader: impl BufRead) -> Result<MeasuredFrfs, Pro
         _ => None,
     });
     let mut samples: Vec<Samples> = Vec::new();
-    let (mut problems, mut count) = (Vec::new(), 0);
-    while problems.len() < MOST_PROBLEMS {
-        let line = match lines.next_row() {
-            Ok(None) => break,
-            Ok(Some(line)) => line,
-            Err(wrong) => {
-                problems.extend(wrong);
-                break;
-            }
-        };
-        if is_blank_row(&line.text, separator) {
-            continue;
-        }
-        count += 1;
-        let whole = 0..line.text.len();
-        if count > MOST_FREQUENCIES {
-            let message = format!("more than {MOST_FREQUENCIES} frequencies");
-            problems.push(line.problem(path, whole, message, "divide the file"));
-            break;
-        }
-        let row = match row(path, &line, separator, &columns) {
-            Ok(row) => row,
-            Err(wrong) => {
-                problems.extend(wrong);
-                continue;
-            }
-        };
+    let limit = RowLimit {
+        most: MOST_FREQUENCIES,
+        rows: "frequencies",
+        hint: "divide the file",
+    };
+    each_row(&mut lines, separator, limit, |line| {
+        let row = row(path, line, separator, &columns)?;
         let [Some(response), Some(reference)] = row.dofs else {
-            continue;
+            return Ok(());
         };
         let own = samples
             .iter()
@@ -171,8 +151,7 @@ pub(super) fn read(path: &str, reader: impl BufRead) -> Result<MeasuredFrfs, Pro
         if own.angular_frequencies.last().is_some_and(|before| w <= *before) {
             let message = format!("the frequency {} Hz does not rise", row.frequency);
             let hint = "sort the rows of each FRF by frequency";
-            problems.push(line.problem(path, whole, message, hint));
-            continue;
+            return Err(line.problem(path, 0..line.text.len(), message, hint).into());
         }
         own.angular_frequencies.push(w);
         own.values.push(match is_polar {
@@ -182,8 +161,8 @@ pub(super) fn read(path: &str, reader: impl BufRead) -> Result<MeasuredFrfs, Pro
         if let Some(coherence) = &mut own.coherence {
             coherence.push(row.coherence);
         }
-    }
-    Problems::from(problems).into_result()?;
+        Ok(())
+    })?;
     if samples.is_empty() {
         return Err(Problem::of_file(path, "the file has no frequencies", HINT).into());
     }

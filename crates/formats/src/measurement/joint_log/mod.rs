@@ -18,8 +18,8 @@
 use std::io::BufRead;
 
 use crate::document::lines::{Line, Lines};
-use crate::document::{MOST_PROBLEMS, Problem, Problems};
-use crate::table::sheet::{Cell, cells, is_blank_row, number, separator_of};
+use crate::document::{Problem, Problems};
+use crate::table::sheet::{Cell, RowLimit, cells, each_row, number, separator_of};
 
 mod columns;
 mod convert;
@@ -32,8 +32,11 @@ pub use unit::{AngleUnit, TimeUnit};
 use columns::{Columns, Meaning};
 use log::HINT;
 
-/// Maximum number of instants.
-const MOST_ROWS: usize = 2_000_000;
+const LIMIT: RowLimit = RowLimit {
+    most: 2_000_000,
+    rows: "instants",
+    hint: "divide the log",
+};
 /// Maximum absolute value of a cell, in its own unit.
 const LARGEST: f64 = 1e19;
 
@@ -63,43 +66,30 @@ pub fn read(
         moves: columns.has(Meaning::Move).then(Vec::new),
         ..JointLog::default()
     };
-    let (mut problems, mut repeated) = (Vec::new(), 0_usize);
-    while problems.len() < MOST_PROBLEMS {
-        let line = match lines.next_row() {
-            Ok(None) => break,
-            Ok(Some(line)) => line,
-            Err(wrong) => {
-                problems.extend(wrong);
-                break;
-            }
+    let (mut before, mut repeated) = (None::<f64>, 0_usize);
+    each_row(&mut lines, separator, LIMIT, |line| {
+        let (row, mut problems) = read_row(path, line, separator, &columns);
+        let is_complete = problems.is_empty();
+        // The time of a row with other problems is compared too, so that all rows that go back are reported at once.
+        let Some((time, cell)) = row.time.clone() else {
+            return Problems::from(problems).into_result();
         };
-        if is_blank_row(&line.text, separator) {
-            continue;
-        }
-        if log.times.len() == MOST_ROWS {
-            let hint = "divide the log";
-            let whole = 0..line.text.len();
-            problems.push(line.problem(path, whole, format!("more than {MOST_ROWS} instants"), hint));
-            break;
-        }
-        let row = match row(path, &line, separator, &columns) {
-            Ok(row) => row,
-            Err(wrong) => {
-                problems.extend(wrong);
-                continue;
-            }
-        };
-        match log.times.last() {
-            Some(before) if row.time < *before => {
-                let message = format!("time goes back: {} after {before}", row.time);
+        match before {
+            Some(before) if time < before => {
+                let message = format!("time goes back: {time} after {before}");
                 let hint = "sort the rows by time, or divide the log where the clock was reset";
-                problems.push(line.problem(path, row.time_cell, message, hint));
+                problems.push(line.problem(path, cell, message, hint));
             }
-            Some(before) if row.time == *before => repeated += 1,
-            _ => log.take(row, line.number),
+            Some(before) if time == before => repeated += 1,
+            _ => {
+                before = Some(time);
+                if is_complete {
+                    log.take(time, row, line.number);
+                }
+            }
         }
-    }
-    Problems::from(problems).into_result()?;
+        Problems::from(problems).into_result()
+    })?;
     if log.times.len() < 2 {
         let message = format!("a log of {} instants", log.times.len());
         return Err(Problem::of_file(path, message, HINT).into());
@@ -120,8 +110,8 @@ pub fn read(
 
 /// What is read of a row, in the units of the file.
 struct Row {
-    time: f64,
-    time_cell: std::ops::Range<usize>,
+    /// With the place of its cell.
+    time: Option<(f64, std::ops::Range<usize>)>,
     actual: Vec<f64>,
     commanded: Vec<f64>,
     link: Vec<f64>,
@@ -130,8 +120,8 @@ struct Row {
 }
 
 impl JointLog {
-    fn take(&mut self, row: Row, line: usize) {
-        self.times.push(row.time);
+    fn take(&mut self, time: f64, row: Row, line: usize) {
+        self.times.push(time);
         self.lines.push(line);
         match &mut self.commanded {
             Some(commanded) => {
@@ -177,8 +167,18 @@ fn split(line: &str, separator: char) -> Vec<Cell<'_>> {
         .collect()
 }
 
-fn row(path: &str, line: &Line, separator: char, columns: &Columns) -> Result<Row, Problems> {
+/// What a row has, and its problems.
+fn read_row(path: &str, line: &Line, separator: char, columns: &Columns) -> (Row, Vec<Problem>) {
     let found = split(&line.text, separator);
+    let empty = |first: Meaning| vec![0.0; if columns.has(first) { columns.joints } else { 0 }];
+    let mut row = Row {
+        time: None,
+        actual: empty(Meaning::Actual(0)),
+        commanded: empty(Meaning::Commanded(0)),
+        link: empty(Meaning::Link(0)),
+        torque: empty(Meaning::Torque(0)),
+        number: None,
+    };
     if found.len() != columns.meanings.len() {
         let message = format!(
             "{} cells, but the table has {} columns",
@@ -186,18 +186,8 @@ fn row(path: &str, line: &Line, separator: char, columns: &Columns) -> Result<Ro
             columns.meanings.len()
         );
         let hint = "every row needs one cell per column";
-        return Err(line.problem(path, 0..line.text.len(), message, hint).into());
+        return (row, vec![line.problem(path, 0..line.text.len(), message, hint)]);
     }
-    let empty = |first: Meaning| vec![0.0; if columns.has(first) { columns.joints } else { 0 }];
-    let mut row = Row {
-        time: 0.0,
-        time_cell: 0..0,
-        actual: empty(Meaning::Actual(0)),
-        commanded: empty(Meaning::Commanded(0)),
-        link: empty(Meaning::Link(0)),
-        torque: empty(Meaning::Torque(0)),
-        number: None,
-    };
     let mut problems = Vec::new();
     for (cell, meaning) in found.iter().zip(&columns.meanings) {
         let Some(meaning) = meaning else { continue };
@@ -209,7 +199,7 @@ fn row(path: &str, line: &Line, separator: char, columns: &Columns) -> Result<Ro
             continue;
         };
         match meaning {
-            Meaning::Time => (row.time, row.time_cell) = (value, cell.span.clone()),
+            Meaning::Time => row.time = Some((value, cell.span.clone())),
             Meaning::Actual(joint) => row.actual[*joint] = value,
             Meaning::Commanded(joint) => row.commanded[*joint] = value,
             Meaning::Link(joint) => row.link[*joint] = value,
@@ -222,8 +212,7 @@ fn row(path: &str, line: &Line, separator: char, columns: &Columns) -> Result<Ro
             }
         }
     }
-    Problems::from(problems).into_result()?;
-    Ok(row)
+    (row, problems)
 }
 
 #[cfg(test)]

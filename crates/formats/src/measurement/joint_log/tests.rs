@@ -115,7 +115,7 @@ fn repeated_times_are_left_out_and_gaps_are_named() {
 #[test]
 fn all_problems_are_reported_with_their_positions() {
     let found = refused(
-        "time_s,J1_deg,J2_deg\n0,1,x\n0.1,NaN,2\n0.2,1\n0.3,1,2\n0.25,1,2\n0.4,1e30,2\n",
+        "time_s,J1_deg,J2_deg\n0,1,x\n0.1,NaN,2\n0.2,1\n0.3,1,2\n0.25,1,2\n0.4,1e30,2\n0.39,1,2\n0.1,x,2\n",
         2,
     );
     for said in [
@@ -124,6 +124,9 @@ fn all_problems_are_reported_with_their_positions() {
         "log.csv:4:1: 2 cells, but the table has 3 columns",
         "log.csv:6:1: time goes back: 0.25 after 0.3",
         "log.csv:7:5: `1e30` is not a finite number",
+        "log.csv:8:1: time goes back: 0.39 after 0.4",
+        "log.csv:9:5: `x` is not a finite number",
+        "log.csv:9:1: time goes back: 0.1 after 0.4",
     ] {
         assert!(found.contains(said), "{said}: {found}");
     }

@@ -46,20 +46,27 @@ fn sample() -> Vec<u8> {
     file
 }
 
+fn array(found: &MatlabFile, index: usize) -> Option<&MatlabArray> {
+    match &found.requested[index] {
+        Requested::Array(array) => Some(array),
+        _ => None,
+    }
+}
+
 #[test]
 fn arrays_in_structures_are_found_by_their_paths() {
     let found = read(
         "log.mat",
-        &sample(),
+        sample(),
         &["rec.a", "rec.count", "rec.more.deep", "rec.none"],
     )
     .unwrap();
     assert_eq!(found.names, ["rec.a", "rec.count", "rec.more.deep"]);
-    let values = |index: usize| found.arrays[index].as_ref().map(|array| array.values.clone());
+    let values = |index: usize| array(&found, index).map(|array| array.values.clone());
     assert_eq!(values(1), Some(vec![7.0, 8.0, 9.0]));
     assert_eq!(values(2), Some(vec![5.0]));
     assert_eq!(values(3), None);
-    let array = found.arrays[0].as_ref().unwrap();
+    let array = array(&found, 0).unwrap();
     assert_eq!(
         array.signals(3),
         Some(vec![vec![1.0, 3.0, 5.0], vec![2.0, 4.0, 6.0]])
@@ -72,15 +79,38 @@ fn arrays_in_structures_are_found_by_their_paths() {
 }
 
 #[test]
+fn variables_of_other_classes_are_named() {
+    let mut file = sample();
+    for (class, name) in [(1, "c"), (4, "t"), (5, "s")] {
+        file.extend(element(14, &head(class, 1, 1, name)));
+    }
+    let found = read("log.mat", file, &["c", "t", "s", "rec", "rec.none"]).unwrap();
+    let other = |class: &str| Requested::Other(class.to_owned());
+    assert_eq!(
+        found.requested,
+        [
+            other("cell"),
+            other("char"),
+            other("sparse"),
+            other("struct"),
+            Requested::Absent
+        ]
+    );
+}
+
+#[test]
 fn other_files_are_refused_with_the_way_to_save_them() {
-    let refused = |bytes: &[u8]| read("log.mat", bytes, &[]).unwrap_err().to_string();
+    let refused = |bytes: &[u8]| read("log.mat", bytes.to_vec(), &[]).unwrap_err().to_string();
     let mut newer = sample();
     newer[125] = 2;
+    let mut older = sample();
+    older[125] = 0;
     for (bytes, words) in [
-        (&newer[..], "7.3 (HDF5) is not supported"),
-        (b"\x89HDF\r\n\x1a\n", "7.3 (HDF5) is not supported"),
+        (&newer[..], "the HDF5 file cannot be read"),
+        (&older[..], "version 0x0000 of the MATLAB file is not supported"),
+        (b"\x89HDF\r\n\x1a\n", "the HDF5 file cannot be read"),
         (b"MATLAB", "a header of 128 bytes"),
-        (&[0; 200], "not a MATLAB file of level 5"),
+        (&[0; 200], "not a MATLAB file of level 5 or 7.3"),
     ] {
         let text = refused(bytes);
         assert!(text.contains(words), "{text}");
@@ -97,13 +127,17 @@ fn a_variable_that_is_cut_off_is_named() {
         .position(|word| word == [9, 0, 0, 0, 48, 0, 0, 0])
         .unwrap();
     bytes[at + 4] = 40;
-    let text = read("log.mat", &bytes, &["rec.a"]).unwrap_err().to_string();
+    let text = read("log.mat", bytes.clone(), &["rec.a"])
+        .unwrap_err()
+        .to_string();
     assert!(
         text.contains("`rec.a`: 5 values, but its size is [2, 3]"),
         "{text}"
     );
     bytes[at + 4] = 200;
-    let text = read("log.mat", &bytes, &["rec.a"]).unwrap_err().to_string();
+    let text = read("log.mat", bytes.clone(), &["rec.a"])
+        .unwrap_err()
+        .to_string();
     assert!(text.contains("`rec.a`") && text.contains("cut off"), "{text}");
 }
 
@@ -119,11 +153,11 @@ fn a_compressed_variable_is_that_of_the_same_file() {
     file.extend(&packed);
     // The same name twice is the same array twice.
     let wanted = ["rec.a", "rec.a"];
-    let found = read("log.mat", &file, &wanted).unwrap();
-    assert_eq!(found, read("log.mat", &plain, &wanted).unwrap());
-    assert!(found.arrays.iter().all(Option::is_some));
+    let found = read("log.mat", file.clone(), &wanted).unwrap();
+    assert_eq!(found, read("log.mat", plain, &wanted).unwrap());
+    assert!((0..2).all(|index| array(&found, index).is_some()));
     file[140] ^= 0xff;
-    let text = read("log.mat", &file, &wanted).unwrap_err().to_string();
+    let text = read("log.mat", file.clone(), &wanted).unwrap_err().to_string();
     assert!(text.contains("damaged") || text.contains("cut off"), "{text}");
 }
 
@@ -133,7 +167,9 @@ fn sizes_beyond_all_memory_are_refused() {
     let size = [5, 0, 0, 0, 8, 0, 0, 0, 2, 0, 0, 0, 3, 0, 0, 0];
     let at = bytes.windows(16).position(|window| window == size).unwrap();
     bytes[at + 8..at + 16].fill(0x7f);
-    let text = read("log.mat", &bytes, &["rec.a"]).unwrap_err().to_string();
+    let text = read("log.mat", bytes.clone(), &["rec.a"])
+        .unwrap_err()
+        .to_string();
     assert!(text.contains("6 values, but its size is"), "{text}");
 }
 
@@ -145,8 +181,8 @@ proptest! {
             let at = at.index(bytes.len());
             bytes[at] = *byte;
         }
-        let _ = read("log.mat", &bytes, &["rec.a", "rec.count"]);
+        let _ = read("log.mat", bytes.clone(), &["rec.a", "rec.count"]);
         let end = cut.index(bytes.len());
-        let _ = read("log.mat", &bytes[..end], &["rec.a", "rec.count"]);
+        let _ = read("log.mat", bytes[..end].to_vec(), &["rec.a", "rec.count"]);
     }
 }

@@ -19,15 +19,18 @@ use armill_core::units::to_deg;
 
 use super::columns::{Column, Mapping, Quantity, missing, named, of_data_set};
 use crate::document::lines::{Line, Lines};
-use crate::document::{MOST_PROBLEMS, Problem, Problems};
-use crate::table::sheet::{cells, is_blank_row, named_columns, number, row_cells, separator_of};
+use crate::document::{Problem, Problems};
+use crate::table::sheet::{RowLimit, cells, each_row, named_columns, number, row_cells, separator_of};
 
 /// Maximum length that a tracker measures, m.
 const FARTHEST: f64 = 1e4;
 /// Maximum angle of a joint or body, rad. A larger value must be in degrees.
 const MOST_TURN: f64 = 4.0 * std::f64::consts::PI;
-/// Maximum number of poses.
-const MOST_POSES: usize = 1_000_000;
+const LIMIT: RowLimit = RowLimit {
+    most: 1_000_000,
+    rows: "poses",
+    hint: "a few hundred poses are sufficient",
+};
 const COLUMNS_HINT: &str = "use one row per pose: joint positions (`q1_deg` ...), the measured point \
     (`x_mm,y_mm,z_mm`), and its orientation if it was measured (`rx_deg,ry_deg,rz_deg`); columns with other names can \
     be mapped";
@@ -109,29 +112,9 @@ pub fn read(
         unused: table.unused.clone(),
         not_measured: 0,
     };
-    let mut problems = Vec::new();
-    while problems.len() < MOST_PROBLEMS {
-        match lines.next_row() {
-            Ok(None) => break,
-            Err(wrong) => {
-                problems.extend(wrong);
-                break;
-            }
-            Ok(Some(line)) if is_blank_row(&line.text, table.separator) => {}
-            Ok(Some(line)) if measured.poses.len() == MOST_POSES => {
-                let message = format!("more than {MOST_POSES} poses");
-                let whole = 0..line.text.len();
-                problems.push(line.problem(path, whole, message, "a few hundred poses are sufficient"));
-                break;
-            }
-            Ok(Some(line)) => {
-                if let Err(wrong) = table.row(&line, &mut measured) {
-                    problems.extend(wrong);
-                }
-            }
-        }
-    }
-    Problems::from(problems).into_result()?;
+    each_row(&mut lines, table.separator, LIMIT, |line| {
+        table.row(line, &mut measured)
+    })?;
     if measured.poses.is_empty() {
         return Err(Problem::of_file(path, "the file has no poses", COLUMNS_HINT).into());
     }

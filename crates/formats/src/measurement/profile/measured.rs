@@ -3,8 +3,7 @@
 use armill_core::nalgebra::{Point2, Point3};
 
 use super::length_unit::LengthUnit;
-use crate::document::Problem;
-use crate::document::lines::Line;
+use crate::table::sheet::RowLimit;
 
 /// Format of a file of points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,7 +58,11 @@ pub struct MeasuredProfile {
 }
 
 /// Maximum number of points: an hour of an instrument that takes 10 000 per second.
-pub(super) const MOST_POINTS: usize = 20_000_000;
+pub(super) const LIMIT: RowLimit = RowLimit {
+    most: 20_000_000,
+    rows: "points",
+    hint: "keep every tenth point, for example",
+};
 
 impl Points {
     /// Number of points.
@@ -77,15 +80,4 @@ impl Points {
             Points::Space(points) => points.push(Point3::new(x, y, z)),
         }
     }
-}
-
-/// A problem of the first line beyond the maximum.
-pub(super) fn too_many(path: &str, line: &Line) -> Problem {
-    let message = format!("more than {MOST_POINTS} points");
-    line.problem(
-        path,
-        0..line.text.len(),
-        message,
-        "keep every tenth point, for example",
-    )
 }

@@ -13,7 +13,7 @@ use std::io::BufRead;
 
 use super::columns::Layout;
 use super::length_unit::LengthUnit;
-use super::measured::{Format, MOST_POINTS, MeasuredProfile, Points, ProfileReadOptions, too_many};
+use super::measured::{Format, LIMIT, MeasuredProfile, Points, ProfileReadOptions};
 use crate::document::lines::{Line, Lines};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
 use crate::table::sheet::number;
@@ -74,8 +74,8 @@ pub(super) fn read(
         && problems.len() < MOST_PROBLEMS
     {
         rows += 1;
-        if rows > MOST_POINTS {
-            problems.push(too_many(path, &line));
+        if rows > LIMIT.most {
+            problems.push(LIMIT.exceeded(path, &line));
             break;
         }
         match point(path, &line, layout, factor) {

@@ -12,10 +12,10 @@
 use std::io::BufRead;
 
 use super::columns::{COLUMNS_HINT, Column, Layout, Quantity, named};
-use super::measured::{Format, MOST_POINTS, MeasuredProfile, Points, ProfileReadOptions, too_many};
+use super::measured::{Format, LIMIT, MeasuredProfile, Points, ProfileReadOptions};
 use crate::document::lines::{Line, Lines};
-use crate::document::{MOST_PROBLEMS, Problem, Problems};
-use crate::table::sheet::{is_blank_row, named_columns, number, row_cells, separator_of};
+use crate::document::{Problem, Problems};
+use crate::table::sheet::{each_row, named_columns, number, row_cells, separator_of};
 
 /// Reads the table below the header line `first`.
 ///
@@ -38,29 +38,12 @@ pub(super) fn read(
         lines: Vec::new(),
         unused: table.unused.clone(),
     };
-    let mut problems = Vec::new();
-    while problems.len() < MOST_PROBLEMS {
-        match lines.next_row() {
-            Ok(None) => break,
-            Err(wrong) => {
-                problems.extend(wrong);
-                break;
-            }
-            Ok(Some(line)) if is_blank_row(&line.text, table.separator) => {}
-            Ok(Some(line)) if measured.points.count() == MOST_POINTS => {
-                problems.push(too_many(path, &line));
-                break;
-            }
-            Ok(Some(line)) => match table.point(&line) {
-                Ok(point) => {
-                    measured.points.push(point);
-                    measured.lines.push(line.number);
-                }
-                Err(wrong) => problems.extend(wrong),
-            },
-        }
-    }
-    Problems::from(problems).into_result()?;
+    each_row(&mut lines, table.separator, LIMIT, |line| {
+        let point = table.point(line)?;
+        measured.points.push(point);
+        measured.lines.push(line.number);
+        Ok(())
+    })?;
     if measured.points.count() == 0 {
         return Err(Problem::of_file(path, "the file has no points", COLUMNS_HINT).into());
     }

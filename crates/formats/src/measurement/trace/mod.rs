@@ -23,13 +23,13 @@ use std::io::BufRead;
 
 use armill_core::nalgebra::Vector3;
 
-use runs::{FARTHEST, MOST_POINTS};
+use runs::{FARTHEST, LIMIT};
 pub use runs::{Trace, Traces};
 
 use super::profile::LengthUnit;
 use crate::document::lines::{Line, Lines};
-use crate::document::{MOST_PROBLEMS, Problem, Problems};
-use crate::table::sheet::{is_blank_row, named_columns, number, row_cells, separator_of};
+use crate::document::{Problem, Problems};
+use crate::table::sheet::{each_row, named_columns, number, row_cells, separator_of};
 
 const HINT: &str = "use one row per point, `x_mm,y_mm,z_mm`, and `run` if the file has several runs";
 
@@ -56,35 +56,11 @@ pub fn read(path: &str, reader: impl BufRead) -> Result<Traces, Problems> {
     }
     let mut found = Traces::default();
     let table = Table::of(path, &first, &mut found.unused)?;
-    let (mut problems, mut count) = (Vec::new(), 0);
-    while problems.len() < MOST_PROBLEMS {
-        match lines.next_row() {
-            Ok(None) => break,
-            Err(wrong) => {
-                problems.extend(wrong);
-                break;
-            }
-            Ok(Some(line)) if is_blank_row(&line.text, table.separator) => {}
-            Ok(Some(line)) if count == MOST_POINTS => {
-                let message = format!("more than {MOST_POINTS} points");
-                problems.push(line.problem(
-                    path,
-                    0..line.text.len(),
-                    message,
-                    "keep every tenth point, for example",
-                ));
-                break;
-            }
-            Ok(Some(line)) => match table.row(&line) {
-                Ok((run, point)) => {
-                    count += 1;
-                    found.take(run, point, line.number);
-                }
-                Err(wrong) => problems.extend(wrong),
-            },
-        }
-    }
-    Problems::from(problems).into_result()?;
+    each_row(&mut lines, table.separator, LIMIT, |line| {
+        let (run, point) = table.row(line)?;
+        found.take(run, point, line.number);
+        Ok(())
+    })?;
     match found.runs.is_empty() {
         true => Err(Problem::of_file(path, "the file has no points", HINT).into()),
         false => Ok(found),

@@ -2,10 +2,15 @@
 
 use armill_core::nalgebra::Vector3;
 
+use crate::table::sheet::RowLimit;
+
 /// Maximum length that a tracker measures, m.
 pub(super) const FARTHEST: f64 = 1e4;
-/// Maximum number of points.
-pub(super) const MOST_POINTS: usize = 5_000_000;
+pub(super) const LIMIT: RowLimit = RowLimit {
+    most: 5_000_000,
+    rows: "points",
+    hint: "keep every tenth point, for example",
+};
 
 /// Points of one run, in order.
 #[derive(Clone, Debug, Default, PartialEq)]

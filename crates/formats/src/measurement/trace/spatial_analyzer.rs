@@ -21,7 +21,7 @@ use std::io::BufRead;
 use armill_core::nalgebra::Vector3;
 
 use super::super::profile::LengthUnit;
-use super::runs::{FARTHEST, MOST_POINTS, Traces};
+use super::runs::{FARTHEST, LIMIT, Traces};
 use crate::document::lines::{Line, Lines};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
 use crate::table::sheet::{cells, number};
@@ -56,18 +56,12 @@ pub(super) fn read(path: &str, line: Line, mut lines: Lines<impl BufRead>) -> Re
             }
         } else if let Some(factor) = factor {
             match point(path, &line, factor) {
-                Ok((run, point)) if count < MOST_POINTS => {
+                Ok((run, point)) if count < LIMIT.most => {
                     count += 1;
                     found.take(run, point, line.number);
                 }
                 Ok(_) => {
-                    let message = format!("more than {MOST_POINTS} points");
-                    problems.push(line.problem(
-                        path,
-                        0..line.text.len(),
-                        message,
-                        "export every tenth point",
-                    ));
+                    problems.push(LIMIT.exceeded(path, &line));
                     break;
                 }
                 Err(wrong) => problems.extend(wrong),
