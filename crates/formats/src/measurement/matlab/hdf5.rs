@@ -7,7 +7,7 @@
 //! same way: each numeric data set is an array.
 //!
 //! The crate `hdf5-pure` reads HDF5. Its memory and time are limited here: the size of an array and of its chunks before its data are read,
-//! and what is read in total (`metered`).
+//! and what is read in total (`metered`). It returns an error for what is malformed: no panic is known, and none is caught here.
 
 use hdf5_pure::{AttrValue, DType, Dataset, Error, File, Group};
 
