@@ -6,11 +6,13 @@
 
 use std::path::Path;
 
-use armill_core::nalgebra::Vector3;
+use armill_core::nalgebra::{DMatrix, Vector3};
 use armill_core::optimize::Compensation;
-use armill_core::robot::{LearntAxes, LearntSettings, ResidualAt};
+use armill_core::robot::{LearntAxes, LearntSettings, ResidualAt, SmallMotion, UncertainGeometry};
 use armill_core::watch::Watch;
-use armill_formats::robot::armill::{self, LearntTable, residuals_file, with_residual};
+use armill_formats::robot::armill::{
+    self, Geometry, GeometryCovarianceTable, LearntTable, residuals_file, with_geometry, with_residual,
+};
 use armill_plan::compensate::compensate;
 use armill_study::live::{PoseTarget, PostureQuestion, StudyText, answer_json, postures};
 use serde_json::Value;
@@ -126,12 +128,30 @@ fn cell() -> tempfile::TempDir {
         .replace("compliance_u_source = \"assumed\"\n", backlash)
         .replace("compliance_rad_per_n_m = 2.1e-6\ncompliance_u_rad_per_n_m = 4.2e-7\ncompliance_source = \"paper\"\n", curve)
         .replacen("compliance_u_source = \"assumed\"\n", "", 1);
-    std::fs::write(folder.path().join("worn.toml"), worn + PARTS).unwrap();
-    let calibrated = mh12.replace("length_mm = 614", "length_mm = 614.4");
-    let (calibrated, residuals) = with_learnt_residual(&calibrated);
+    let worn = worn + PARTS;
+    let calibrated = worn.replace("length_mm = 614", "length_mm = 614.4");
+    std::fs::write(folder.path().join("worn.toml"), worn).unwrap();
+    let (calibrated, residuals) = with_learnt_residual(&with_uncertain_geometry(&calibrated));
     std::fs::write(folder.path().join("calibrated.toml"), calibrated).unwrap();
     std::fs::write(folder.path().join("residuals.csv"), residuals).unwrap();
     folder
+}
+
+/// The robot file with a calibration that left its lengths and angles uncertain.
+fn with_uncertain_geometry(text: &str) -> String {
+    let robot = armill::read("calibrated.toml", "", text).unwrap().robot;
+    let motions = [(0, 3), (1, 0), (1, 4), (3, 2)];
+    let motions = motions.map(|(after, component)| SmallMotion { after, component });
+    let root = DMatrix::from_fn(4, 4, |i, j| 4e-5 * ((3 * i + 2 * j) as f64).cos());
+    let covariance = &root * root.transpose() + DMatrix::identity(4, 4) * 1e-10;
+    let geometry = UncertainGeometry::new(motions.to_vec(), &covariance).unwrap();
+    let calibrated = Geometry {
+        after: Vec::new(),
+        what: "made up".to_owned(),
+        place: "this test".to_owned(),
+        covariance: Some(GeometryCovarianceTable::of(&robot, &geometry, Geometry::SOURCE)),
+    };
+    with_geometry("calibrated.toml", text, &calibrated).unwrap()
 }
 
 /// The robot file with a residual that twelve poses have shown, and the file of these residuals.

@@ -68,6 +68,9 @@ pub fn inputs_without_uncertainty(arm: &Arm<'_>) -> Vec<String> {
     if inputs.contains(&InputWithoutUncertainty::Thermal) {
         all.push("the thermal growth".to_owned());
     }
+    if inputs.contains(&InputWithoutUncertainty::Geometry) {
+        all.push("the calibrated geometry".to_owned());
+    }
     all
 }
 

@@ -15,19 +15,19 @@
 //!
 //! Source: Mooring, Roth and Driels 1991; Everett, Driels and Mooring 1987; `docs/theory/calibration.md`.
 
-use nalgebra::{DMatrix, Matrix3, Unit, UnitQuaternion, Vector3};
+use nalgebra::{DMatrix, Matrix3, Matrix3xX, Unit, UnitQuaternion, Vector3};
 
 use super::arm::Arm;
 use super::errors::PoseErrors;
 use super::pose::MeasuredPose;
 use super::prior::{Prior, PriorWeights};
 use super::select::{Redundant, select};
-use super::unknown::{ParameterLocation, ParameterSet, Unknown, unknowns};
+use super::unknown::{ParameterLocation, ParameterSet, Unknown, uncertain_motions, unknowns};
 use crate::frame::Isometry;
 use crate::least_squares::{Problem, Triangle, descend, solve, superposed};
 use crate::robot::chain::{Amount, Motion};
 use crate::robot::forward::forward;
-use crate::robot::{Robot, RobotError};
+use crate::robot::{Robot, RobotError, UncertainGeometry};
 
 /// Rounds of scatter and geometry with a prior, and the change of the variance that ends them.
 const MOST_ROUNDS: usize = 40;
@@ -159,15 +159,38 @@ impl Calibrated {
         Robot::new(robot.name(), self.motions(robot), robot.joints().to_vec())
     }
 
+    /// Uncertainty of the small motions of the chain; `None` if none was estimated.
+    pub fn uncertainty(&self) -> Option<UncertainGeometry> {
+        let unknowns = self.estimates.iter().map(|estimate| estimate.unknown);
+        uncertain_motions(unknowns.enumerate(), &self.covariance)
+    }
+
+    /// Derivatives of the measured position (axes of the tracker) by each of the estimates at these joint positions, one column each.
+    pub(crate) fn derivatives(&self, robot: &Robot, joints: &[f64]) -> Matrix3xX<f64> {
+        let unknowns: Vec<Unknown> = self.estimates.iter().map(|estimate| estimate.unknown).collect();
+        let pose = MeasuredPose {
+            joints: joints.to_vec(),
+            position: Vector3::zeros(),
+            rotation: None,
+        };
+        let rows = self.arm(robot).rows(&unknowns, &pose, 1.0);
+        Matrix3xX::from_fn(unknowns.len(), |row, column| rows[(row, column)])
+    }
+
+    /// The calibrated arm between its frames.
+    fn arm<'a>(&self, robot: &'a Robot) -> Arm<'a> {
+        let mut arm = Arm::nominal(robot, self.tracker_from_base, self.flange_from_point);
+        arm.small.clone_from(&self.small);
+        arm
+    }
+
     /// Errors of other poses of `robot`, predicted by this geometry.
     ///
     /// # Errors
     /// A pose of another robot, or with a number that is not valid.
     pub fn errors_of(&self, robot: &Robot, poses: &[MeasuredPose]) -> Result<PoseErrors, Refusal> {
         check(robot, poses)?;
-        let mut arm = Arm::nominal(robot, self.tracker_from_base, self.flange_from_point);
-        arm.small.clone_from(&self.small);
-        Ok(errors_of(&arm, poses))
+        Ok(errors_of(&self.arm(robot), poses))
     }
 }
 

@@ -20,5 +20,5 @@ pub use fit::{Calibrated, Estimate, Question, Refusal, fit};
 pub use pose::MeasuredPose;
 pub use prior::Prior;
 pub use select::Redundant;
-pub(crate) use unknown::unknowns;
 pub use unknown::{ParameterLocation, ParameterSet, Unknown};
+pub(crate) use unknown::{uncertain_motions, unknowns};

@@ -5,8 +5,10 @@
 //! covers every error by constant lengths and angles, skew or nearly parallel axes and wrong zeros; some of them twice,
 //! which `select` finds.
 
+use nalgebra::DMatrix;
+
 use crate::robot::chain::{Axis, Motion};
-use crate::robot::{Amount, Robot};
+use crate::robot::{Amount, Robot, SmallMotion, UncertainGeometry};
 
 /// Location of an unknown in the chain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -96,6 +98,28 @@ pub(crate) fn unknowns(robot: &Robot, requested: ParameterSet, turns_measured: b
         all.extend(others.iter().filter(|unknown| unknown.turns()));
     }
     all
+}
+
+/// Uncertainty of the small motions among these unknowns with this covariance, each by its row; `None` without any, or where the covariance is
+/// beyond small motions.
+pub(crate) fn uncertain_motions(
+    unknowns: impl Iterator<Item = (usize, Unknown)>,
+    covariance: &DMatrix<f64>,
+) -> Option<UncertainGeometry> {
+    let small = |(row, unknown): (usize, Unknown)| match unknown.place {
+        ParameterLocation::After(after) => {
+            let component = unknown.component;
+            Some((row, SmallMotion { after, component }))
+        }
+        ParameterLocation::Base | ParameterLocation::Tool => None,
+    };
+    let (rows, motions): (Vec<usize>, Vec<SmallMotion>) = unknowns.filter_map(small).unzip();
+    let of = DMatrix::from_fn(rows.len(), rows.len(), |i, j| {
+        let (i, j) = (rows[i], rows[j]);
+        0.5 * (covariance[(i, j)] + covariance[(j, i)])
+    });
+    let found = UncertainGeometry::new(motions, &of).ok()?;
+    (found.inputs() > 0).then_some(found)
 }
 
 #[cfg(test)]

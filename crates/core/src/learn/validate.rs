@@ -4,11 +4,11 @@
 //! together. For each stretch base and tool (nominal), the geometry (calibrated) and the residual with all its settings (learnt)
 //! are found from the others alone: no number that is chosen has seen the pose it is tried on.
 
-use nalgebra::Vector3;
+use nalgebra::{DMatrix, Matrix3xX, Vector3};
 use rayon::prelude::*;
 
 use super::residual::{learn, residuals};
-use crate::calibrate::{Calibrated, MeasuredPose, ParameterSet, Question, Refusal, fit};
+use crate::calibrate::{Calibrated, MeasuredPose, ParameterLocation, ParameterSet, Question, Refusal, fit};
 use crate::robot::Robot;
 use crate::robot::learnt::{Learnt, LearntError, LearntResidual};
 use crate::watch::Watch;
@@ -25,7 +25,7 @@ pub struct HeldOut {
     pub calibrated: Vec<Vector3<f64>>,
     /// With the learnt residual in addition.
     pub learnt: Vec<Vector3<f64>>,
-    /// Fraction of all components within the 95 % interval of the learnt model.
+    /// Fraction of all components within the 95 % interval of the learnt model and its geometry.
     pub coverage: f64,
 }
 
@@ -146,12 +146,15 @@ fn without(
     let learnt = learn(robot, &residuals(robot, &calibrated, &training).map_err(refused)?)?;
     let left = residuals(robot, &calibrated, held).map_err(refused)?;
     let tracker_from_base = calibrated.tracker_from_base.rotation;
+    let base_from_tracker = tracker_from_base.inverse().to_rotation_matrix().into_inner();
+    let geometry = root_of(&calibrated.covariance);
     let mut inside = 0;
     let mut after = Vec::with_capacity(held.len());
     for pose in &left {
         let here = learnt.at(&pose.joints);
         let error = pose.residual - here.mean;
-        inside += components_inside(&here, &error);
+        let by_geometry = base_from_tracker * calibrated.derivatives(robot, &pose.joints) * &geometry;
+        inside += components_inside(&here, &by_geometry, &error);
         after.push(tracker_from_base * error);
     }
     let errors = |of: &Calibrated| {
@@ -228,9 +231,16 @@ pub fn on_other_poses(
         found = fit(&with_chain, &without, &frames)?;
     }
     let base_from_tracker = found.tracker_from_base.rotation.inverse();
-    let each = poses.iter().zip(&found.errors.position);
+    let by_geometry = by_geometry(robot, calibrated, (&with_chain, &found), poses);
+    let each = poses.iter().zip(&found.errors.position).zip(&by_geometry);
     let inside: usize = each
-        .map(|(pose, error)| components_inside(&learnt.at(&pose.joints), &(base_from_tracker * error)))
+        .map(|((pose, error), by_geometry)| {
+            components_inside(
+                &learnt.at(&pose.joints),
+                by_geometry,
+                &(base_from_tracker * error),
+            )
+        })
         .sum();
     Ok(HeldOut {
         nominal: nominal.errors.position,
@@ -240,12 +250,76 @@ pub fn on_other_poses(
     })
 }
 
+/// Directions of frames with less than this part of the largest effect are none.
+const INDEPENDENT: f64 = 1e-9;
 /// Rounds of frames and residual: the axes of the base change by microradians.
 const ROUNDS: usize = 2;
 
-/// How many components of `error` (m, base) are within the 95 % interval of this residual.
-pub fn components_inside(here: &LearntResidual, error: &Vector3<f64>) -> usize {
-    let inside = |u: &&Vector3<f64>| error.dot(u).abs() <= NORMAL_95 * u.norm_squared();
+/// Displacement of the point (m, base) at each pose by one standard uncertainty of each independent input of the calibrated chain, less what base and
+/// point, which are found from these poses, take of it.
+fn by_geometry(
+    robot: &Robot,
+    calibrated: &Calibrated,
+    (with_chain, found): (&Robot, &Calibrated),
+    poses: &[MeasuredPose],
+) -> Vec<Matrix3xX<f64>> {
+    let of_chain = |k: &usize| {
+        matches!(
+            calibrated.estimates[*k].unknown.place,
+            ParameterLocation::After(_)
+        )
+    };
+    let chain: Vec<usize> = (0..calibrated.estimates.len()).filter(of_chain).collect();
+    let root = root_of(&DMatrix::from_fn(chain.len(), chain.len(), |i, j| {
+        calibrated.covariance[(chain[i], chain[j])]
+    }));
+    let in_base = |of: &Calibrated| {
+        of.tracker_from_base
+            .rotation
+            .inverse()
+            .to_rotation_matrix()
+            .into_inner()
+    };
+    let mut all = DMatrix::zeros(3 * poses.len(), root.ncols());
+    let mut frames = DMatrix::zeros(3 * poses.len(), found.estimates.len());
+    for (k, pose) in poses.iter().enumerate() {
+        let here = in_base(calibrated) * calibrated.derivatives(robot, &pose.joints).select_columns(&chain);
+        all.rows_mut(3 * k, 3).copy_from(&(here * &root));
+        let here = in_base(found) * found.derivatives(with_chain, &pose.joints);
+        frames.rows_mut(3 * k, 3).copy_from(&here);
+    }
+    let basis = orthonormal(frames);
+    all -= &basis * basis.tr_mul(&all);
+    (0..poses.len())
+        .map(|k| Matrix3xX::from_fn(root.ncols(), |axis, input| all[(3 * k + axis, input)]))
+        .collect()
+}
+
+/// An orthonormal basis of the columns.
+fn orthonormal(columns: DMatrix<f64>) -> DMatrix<f64> {
+    let parts = columns.svd(true, false);
+    let least = INDEPENDENT * parts.singular_values.max();
+    let kept: Vec<usize> = (0..parts.singular_values.len())
+        .filter(|k| parts.singular_values[*k] > least)
+        .collect();
+    (parts.u).map_or_else(|| DMatrix::zeros(0, 0), |u| u.select_columns(&kept))
+}
+
+/// A matrix whose square (times its transpose) is this covariance.
+fn root_of(covariance: &DMatrix<f64>) -> DMatrix<f64> {
+    let axes = covariance.clone().symmetric_eigen();
+    let lengths = axes.eigenvalues.map(|variance| variance.max(0.0).sqrt());
+    axes.eigenvectors * DMatrix::from_diagonal(&lengths)
+}
+
+/// How many components of `error` (m, base) are within the 95 % interval of this residual and of the geometry, whose independent inputs displace the
+/// point by the columns of `by_geometry`.
+fn components_inside(here: &LearntResidual, by_geometry: &Matrix3xX<f64>, error: &Vector3<f64>) -> usize {
+    let inside = |u: &&Vector3<f64>| {
+        let axis = u.normalize();
+        let variance = u.norm_squared() + by_geometry.tr_mul(&axis).norm_squared();
+        error.dot(&axis).abs() <= NORMAL_95 * variance.sqrt()
+    };
     here.uncertainty.iter().filter(inside).count()
 }
 

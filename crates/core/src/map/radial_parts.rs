@@ -80,7 +80,7 @@ pub fn radial_without_load(
 }
 
 /// Outward displacement (m) of the unloaded circle by one standard uncertainty of each backlash, in proportion to the
-/// backlash, of the thermal growth, and of the learnt residual.
+/// backlash, of the thermal growth, of the learnt residual, and of each independent input of the geometry.
 fn backlash_uncertainties(
     arm: &Arm<'_>,
     track: &Track,
@@ -100,6 +100,8 @@ fn backlash_uncertainties(
     let mut thermal = Vec::with_capacity(track.len());
     let learnt = arm.model.structure.learnt.as_ref();
     let mut by_learnt: [Vec<f64>; 3] = Default::default();
+    let inputs = (arm.model.structure.geometry.as_ref()).map_or(0, |geometry| geometry.inputs());
+    let mut by_geometry = vec![Vec::with_capacity(track.len()); inputs];
     for index in 0..track.len() {
         arm_state.set_joints(found.answers.joints_at(index));
         let outward = outwards(track, index, centre);
@@ -109,6 +111,9 @@ fn backlash_uncertainties(
             curve.push(moved.dot(&outward) * relative);
         }
         thermal.push(arm_state.thermal_uncertainty().dot(&outward));
+        for (curve, moved) in by_geometry.iter_mut().zip(arm_state.geometry_uncertainty()) {
+            curve.push(moved.linear.dot(&outward));
+        }
         let here = learnt.map(|learnt| learnt.at(found.answers.joints_at(index)).uncertainty);
         for (curve, u) in by_learnt.iter_mut().zip(here.into_iter().flatten()) {
             curve.push(u.dot(&outward));
@@ -124,6 +129,7 @@ fn backlash_uncertainties(
     if learnt.is_some() {
         curves.extend(by_learnt);
     }
+    curves.extend(by_geometry);
     curves
 }
 

@@ -33,6 +33,8 @@ pub enum InputKind {
     Thermal,
     /// The learnt residual along one of its axes.
     Learnt(usize),
+    /// An independent input of the geometry.
+    Geometry(usize),
     /// Position of the TCP along the tool axis.
     ToolLength,
     /// Size of the load.
@@ -98,6 +100,7 @@ pub fn sensitivity(
             UncertainInput::Mass(mass, _) => InputKind::Mass(*mass),
             UncertainInput::Thermal(_) => InputKind::Thermal,
             UncertainInput::Learnt(component) => InputKind::Learnt(*component),
+            UncertainInput::Geometry(input) => InputKind::Geometry(*input),
             UncertainInput::ToolLength(_) => InputKind::ToolLength,
             UncertainInput::LoadSize(_) => InputKind::LoadSize,
             UncertainInput::Force(_) => {
@@ -128,7 +131,8 @@ impl Sensitivity {
             | InputKind::Backlash(_)
             | InputKind::Mass(_)
             | InputKind::Thermal
-            | InputKind::Learnt(_) => shared == SharedInputs::OneRobot,
+            | InputKind::Learnt(_)
+            | InputKind::Geometry(_) => shared == SharedInputs::OneRobot,
         };
         let in_other = |kind: InputKind| {
             let found = other.changes.iter().find(|(there, _)| *there == kind);

@@ -164,6 +164,8 @@ fn structure_read_back(arm: &Positioner<'_>) -> Structure {
         repeatability: own.repeatability,
         model_error: own.model_error,
         learnt: own.learnt.clone(),
+        // Its small motions are not those of the chain read back.
+        geometry: None,
     }
 }
 

@@ -1,7 +1,7 @@
 //! The robot: kinematics, structure and postures.
 //!
 //! In reading order: [`chain`] (elementary motions and their inner form), [`joint`] (limits, signs, zeros, compliance),
-//! [`structure_error`] (why a structure is not valid), [`spring`], [`compensator`] (and masses), [`motor`], [`damping`], [`torque_curve`], [`backlash`],
+//! [`structure_error`] (why a structure is not valid), [`spring`], [`compensator`] (and masses), [`motor`], [`damping`], [`torque_curve`], [`backlash`], [`uncertain_geometry`],
 //! [`learnt`] (what the model leaves of measured positions; `learnt_of_robot`: of a robot),
 //! [`structure`] (the parts other than drives), [`ground`] (the link that does not move), [`model`] (the robot as one
 //! value), [`positioner`] (an arm and the positioner of the part as one chain), [`hand`] (an arm that holds the part), [`forward`] (joint positions to frames), [`jacobian`] (screws at the tool), `forward_of_eight` (both for eight postures at once, along the chain by
@@ -35,6 +35,7 @@ pub mod spring;
 pub mod structure;
 pub mod structure_error;
 pub mod torque_curve;
+pub mod uncertain_geometry;
 pub mod unreachable;
 
 pub use backlash::{Backlash, BacklashSide, STANDSTILL};
@@ -53,4 +54,5 @@ pub use spring::{Attachment, Spring};
 pub use structure::Structure;
 pub use structure_error::StructureError;
 pub use torque_curve::{JointCurve, TorqueCurve};
+pub use uncertain_geometry::{SmallMotion, UncertainGeometry, UncertainGeometryError};
 pub use unreachable::{Overrun, Unreachable};

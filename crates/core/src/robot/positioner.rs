@@ -18,6 +18,8 @@
 //!
 //! Source: a chain read from its other end, `(A_1 A_2 ... A_m)^-1 = A_m^-1 ... A_2^-1 A_1^-1`; virtual work.
 
+use std::sync::Arc;
+
 use nalgebra::DMatrix;
 
 use super::backlash::Backlash;
@@ -209,6 +211,7 @@ impl Robot {
             repeatability: own.repeatability,
             model_error: own.model_error,
             learnt: own.learnt.clone(),
+            geometry: (own.geometry.as_ref()).map(|geometry| Arc::new(geometry.behind(count))),
         }
     }
 }

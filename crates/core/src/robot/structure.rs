@@ -1,5 +1,5 @@
 //! The structure of an arm in addition to its drives: springs, masses, motors, damping, compensator, torque curves,
-//! backlash, repeatability, model error, and learnt residual.
+//! backlash, repeatability, model error, learnt residual, and uncertainty of the geometry.
 //!
 //! Empty for the simple model, in which only joints deflect, each about its own axis.
 
@@ -17,6 +17,7 @@ use super::motor::{HEAVIEST_ROTOR, Motor};
 use super::spring::{Attachment, Spring};
 use super::structure_error::{StructureError, WIDEST, WIDEST_SCATTER, WORST_MODEL};
 use super::torque_curve::JointCurve;
+use super::uncertain_geometry::{UncertainGeometry, UncertainGeometryError};
 
 /// Springs, masses, backlash and other properties in addition to the drives.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,6 +46,8 @@ pub struct Structure {
     pub model_error: f64,
     /// What the model of the chain leaves of the measured positions, if it was learnt.
     pub learnt: Option<Arc<Learnt>>,
+    /// How uncertain the geometry is, if it is known.
+    pub geometry: Option<Arc<UncertainGeometry>>,
 }
 
 /// Radii of a compensator that differ by less let its spring shrink to length zero, m.
@@ -64,6 +67,7 @@ impl Structure {
         repeatability: 0.0,
         model_error: 0.0,
         learnt: None,
+        geometry: None,
     };
 
     /// The torque curve of joint `index`, if it has one.
@@ -171,6 +175,14 @@ impl Structure {
         }
         if let Some(learnt) = &self.learnt {
             check_learnt(learnt, chain)?;
+        }
+        if let Some(geometry) = &self.geometry
+            && let Some(wrong) = geometry
+                .motions()
+                .iter()
+                .position(|motion| motion.after >= joints)
+        {
+            return Err(UncertainGeometryError::Motion(wrong).into());
         }
         if let Some(c) = &self.compensator {
             turns("the compensator", c.joint)?;

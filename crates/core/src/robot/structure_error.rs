@@ -2,6 +2,7 @@
 
 use super::joint::SOFTEST;
 use super::learnt::LearntError;
+use super::uncertain_geometry::UncertainGeometryError;
 
 /// Greatest backlash, rad (m).
 pub const WIDEST: f64 = 0.1;
@@ -95,6 +96,9 @@ pub enum StructureError {
     /// A learnt residual of another arm.
     #[error(transparent)]
     Learnt(#[from] LearntError),
+    /// An uncertainty of the geometry of another arm.
+    #[error(transparent)]
+    Geometry(#[from] UncertainGeometryError),
     /// A model error out of range.
     #[error("a model error of {0} is not a fraction from 0 to {WORST_MODEL}")]
     ModelError(f64),

@@ -25,6 +25,8 @@ pub enum InputWithoutUncertainty {
     Backlash(usize),
     /// The thermal growth of the links.
     Thermal,
+    /// The calibrated geometry.
+    Geometry,
 }
 
 /// The inputs of an arm, with and without uncertainty.
@@ -93,6 +95,10 @@ impl Arm<'_> {
             inputs.others_with += uncertain.count();
         }
         inputs.others_with += usize::from(structure.learnt.is_some());
+        inputs.others_with += usize::from(structure.geometry.is_some());
+        if self.model.actual.is_some() && structure.geometry.is_none() {
+            inputs.without.push(InputWithoutUncertainty::Geometry);
+        }
         match self.model.thermal {
             Some(growth) if growth.standard_uncertainty > 0.0 => inputs.others_with += 1,
             Some(growth) if growth.growth != 0.0 => inputs.without.push(InputWithoutUncertainty::Thermal),
@@ -106,7 +112,7 @@ impl Arm<'_> {
 mod tests {
     use nalgebra::{DMatrix, Vector3};
 
-    use super::InputWithoutUncertainty::{Backlash, Joint, Spring, Thermal};
+    use super::InputWithoutUncertainty::{Backlash, Geometry, Joint, Spring, Thermal};
     use super::*;
     use crate::arms;
     use crate::robot::{self, Attachment, BacklashSide, JointCompliance};
@@ -182,6 +188,12 @@ mod tests {
         });
         let with = [compliance(1e-6, 1e-7); 6];
         assert_eq!(decided(&with, &model), (true, vec![Backlash(1), Thermal]));
+        model.actual = Some(std::sync::Arc::new(arms::mh12()));
+        assert_eq!(
+            decided(&with, &model),
+            (true, vec![Backlash(1), Geometry, Thermal])
+        );
+        model.actual = None;
         // Known backlash is not enough where the deflection is unknown, and is where nothing deflects.
         assert!(!decided(&[compliance(1e-6, 0.0); 6], &model).0);
         assert!(decided(&[compliance(0.0, 0.0); 6], &model).0);

@@ -64,12 +64,13 @@ impl StiffnessModel {
         !self.load_dependent && self.structure.curves.iter().all(Option::is_none)
     }
 
-    /// Whether the tool has deviations that do not depend on the load: backlash, geometry, thermal growth, learnt residual.
+    /// Whether the tool has deviations that do not depend on the load, or uncertainties of such: backlash, geometry, thermal growth, learnt residual.
     pub fn has_unloaded_deviation(&self) -> bool {
         self.structure.joints_with_backlash().next().is_some()
             || self.actual.is_some()
             || self.thermal.is_some()
             || self.structure.learnt.is_some()
+            || self.structure.geometry.is_some()
     }
 
     /// The contributors to the deviation: every joint, then base, flange and tool where they have springs, then the

@@ -36,6 +36,8 @@ pub enum UncertainInput {
     Thermal(f64),
     /// Shift of the learnt residual along one of its axes by its standard uncertainty, in every posture.
     Learnt(usize),
+    /// Change of the geometry by one standard uncertainty of this independent input of it.
+    Geometry(usize),
     /// Change of the position of the TCP along the tool axis, m.
     ToolLength(f64),
     /// Relative change of the load.
@@ -79,6 +81,12 @@ impl UncertainInput {
             .flat_map(|_| arm.model.structure.masses.iter().enumerate());
         let masses = weights.map(|(index, mass)| UncertainInput::Mass(index, mass.relative_uncertainty));
         let learnt = arm.model.structure.learnt.iter().flat_map(|_| 0..3);
+        let geometry = arm
+            .model
+            .structure
+            .geometry
+            .iter()
+            .flat_map(|geometry| 0..geometry.inputs());
         let compliances = compliance_changes(arm).into_iter();
         compliances
             .filter(|changes| changes.iter().any(|by| *by != 0.0))
@@ -89,6 +97,7 @@ impl UncertainInput {
             )
             .chain(masses)
             .chain(learnt.map(UncertainInput::Learnt))
+            .chain(geometry.map(UncertainInput::Geometry))
             .chain([
                 UncertainInput::Thermal(thermal),
                 UncertainInput::ToolLength(load.tool_length),
@@ -108,7 +117,7 @@ impl UncertainInput {
             | UncertainInput::ToolLength(by)
             | UncertainInput::LoadSize(by) => *by == 0.0,
             UncertainInput::Force(by) => *by == Vector3::zeros(),
-            UncertainInput::Learnt(_) => false,
+            UncertainInput::Learnt(_) | UncertainInput::Geometry(_) => false,
         }
     }
 
@@ -139,6 +148,12 @@ impl UncertainInput {
             UncertainInput::Learnt(component) => {
                 let learnt = &mut changed.model.structure.learnt;
                 *learnt = learnt.as_ref().map(|learnt| Arc::new(learnt.shifted(*component)));
+            }
+            UncertainInput::Geometry(input) => {
+                let geometry = &mut changed.model.structure.geometry;
+                *geometry = geometry
+                    .as_ref()
+                    .map(|geometry| Arc::new(geometry.shifted(*input)));
             }
             UncertainInput::ToolLength(by) => {
                 changed.flange_from_tool *= Translation3::new(0.0, 0.0, *by);
@@ -196,11 +211,11 @@ pub(crate) fn compliance_changes(arm: &Arm<'_>) -> Vec<Vec<f64>> {
 mod tests {
     use super::*;
     use crate::arms;
-    use crate::robot::{Attachment, Backlash, BacklashSide, Mass, Spring};
-    use crate::source::ThermalGrowth;
+    use crate::robot::{Attachment, Backlash, BacklashSide, Mass, SmallMotion, Spring, UncertainGeometry};
     use crate::source::stiffness_model::Gravity;
+    use crate::source::{ArmState, ThermalGrowth};
     use crate::spatial::Wrench;
-    use nalgebra::Point3;
+    use nalgebra::{Matrix3, Point3};
 
     fn model() -> StiffnessModel {
         let mut model = StiffnessModel::DRIVES.clone();
@@ -241,7 +256,7 @@ mod tests {
         );
         let along = Vector3::new(0.48, -0.6, 0.64);
         let elastic = |arm: &Arm<'_>| {
-            let mut arm_state = crate::source::ArmState::new(*arm);
+            let mut arm_state = ArmState::new(*arm);
             arm_state.set_joints(&q);
             let deviation = arm_state.elastic(&load).unwrap().linear.dot(&along);
             (deviation, arm_state.variance_along(&along))
@@ -286,7 +301,7 @@ mod tests {
         };
         let along = Vector3::new(0.48, -0.6, 0.64);
         let sag = |arm: &Arm<'_>| {
-            let mut arm_state = crate::source::ArmState::new(*arm);
+            let mut arm_state = ArmState::new(*arm);
             arm_state.set_joints(&[0.4, -0.3, 0.2, 0.5, -0.8, 0.1]);
             arm_state.elastic(&Wrench::ZERO).unwrap();
             let sag = arm_state.gravity().unwrap().unwrap().linear.dot(&along);
@@ -330,6 +345,49 @@ mod tests {
             (by_matrix / variance - 1.0).abs() < 1e-12,
             "{by_matrix} {variance}"
         );
+    }
+
+    #[test]
+    fn changes_of_the_geometry_give_its_part_of_the_variance() {
+        let (robot, mut model, tool) = (&arms::ALL[0], model(), arms::bent_tool());
+        (model.thermal, model.structure.backlash) = (None, Vec::new());
+        let motions = [(0, 3), (1, 0), (1, 4), (2, 5), (4, 1)];
+        let motions = motions
+            .map(|(after, component)| SmallMotion { after, component })
+            .to_vec();
+        let root = DMatrix::from_fn(5, 5, |i, j| 1e-4 * ((2 * i + 3 * j) as f64).cos());
+        let covariance = &root * root.transpose() + DMatrix::identity(5, 5) * 1e-9;
+        let geometry = UncertainGeometry::new(motions, &covariance).unwrap();
+        model.structure.geometry = Some(Arc::new(geometry));
+        let arm = Arm {
+            robot,
+            compliance: robot.compliance().unwrap(),
+            model: &model,
+            flange_from_tool: &tool,
+        };
+        let moved = |arm: &Arm<'_>| {
+            let mut arm_state = ArmState::new(*arm);
+            arm_state.set_joints(&[0.4, -0.3, 0.2, 0.5, -0.8, 0.1]);
+            let mut covariance = Matrix3::zeros();
+            arm_state.each_unloaded(&[0.0; 6], &Wrench::ZERO, |_, _, u| {
+                covariance += u * u.transpose()
+            });
+            (arm_state.geometric().linear, covariance)
+        };
+        let (nominal, covariance) = moved(&arm);
+        assert_eq!(nominal, Vector3::zeros());
+        let inputs = UncertainInput::all(&arm, &InputUncertainty::NONE);
+        let of_geometry = inputs
+            .iter()
+            .filter(|input| matches!(input, UncertainInput::Geometry(_)));
+        assert_eq!(of_geometry.clone().count(), 5);
+        let sum: Matrix3<f64> = of_geometry
+            .map(|input| {
+                let by = moved(&input.changed(&arm).arm(robot)).0;
+                by * by.transpose()
+            })
+            .sum();
+        assert!(covariance.norm() > 1e-9 && (sum - covariance).norm() < 1e-12 * covariance.norm());
     }
 
     #[test]

@@ -24,10 +24,10 @@ use nalgebra::{DMatrix, DVector};
 use super::measurement::{Campaign, Observed};
 use super::parameter::{Knowledge, Parameter};
 use super::state::{Model, State, residual};
-use crate::calibrate::{self, Arm, ParameterLocation};
+use crate::calibrate::{self, Arm, ParameterLocation, uncertain_motions};
 use crate::least_squares::{Problem, Triangle, descend, solve};
-use crate::robot::Robot;
 use crate::robot::chain::Motion;
+use crate::robot::{Robot, UncertainGeometry};
 
 /// Rounds of scales and values, and the change of the scales that ends them.
 const MOST_ROUNDS: usize = 40;
@@ -178,6 +178,16 @@ impl Posterior {
     pub fn from_measurements(&self, index: usize) -> f64 {
         let ratio = self.knowledge[index].deviation / self.prior[index].deviation;
         (1.0 - ratio * ratio).clamp(0.0, 1.0)
+    }
+
+    /// Uncertainty of the small motions of the chain; `None` if there are none.
+    pub fn geometry(&self) -> Option<UncertainGeometry> {
+        let unknown = |(row, known): (usize, &Knowledge)| match known.parameter {
+            Parameter::Geometry(unknown) => Some((row, unknown)),
+            Parameter::Drive(_) | Parameter::Backlash(_) => None,
+        };
+        let unknowns = self.knowledge.iter().enumerate().filter_map(unknown);
+        uncertain_motions(unknowns, &self.covariance)
     }
 
     /// The small motions right after joint `joint`.

@@ -9,7 +9,7 @@ use std::fmt::Write;
 use armill_core::calibrate::PoseErrors;
 use armill_core::robot::Robot;
 use armill_core::units::to_mm;
-use armill_formats::robot::armill::{Geometry, with_geometry};
+use armill_formats::robot::armill::{Geometry, GeometryCovarianceTable, with_geometry};
 use armill_report::{ErrorDistribution, ErrorSet, ModelErrors};
 use armill_study::StudyError;
 
@@ -103,6 +103,8 @@ pub fn robot_file(
         after,
         what,
         place: calibration.training.file.clone(),
+        covariance: (calibration.after.uncertainty())
+            .map(|geometry| GeometryCovarianceTable::of(robot, &geometry, Geometry::SOURCE)),
     };
     Ok(with_geometry(path, text, &geometry)?)
 }

@@ -2,8 +2,8 @@
 
 use armill_core::update::{Parameter, Posterior};
 use armill_formats::robot::armill::{
-    Geometry, Identified, IdentifiedSpring, JointBacklash, MeasuredBacklash, with_backlash, with_geometry,
-    with_springs,
+    Geometry, GeometryCovarianceTable, Identified, IdentifiedSpring, JointBacklash, MeasuredBacklash,
+    with_backlash, with_geometry, with_springs,
 };
 use armill_formats::robot::spring_tables::SpringKind;
 use armill_study::StudyError;
@@ -45,6 +45,8 @@ pub fn robot_file(
         after,
         what: what("geometry"),
         place: measurements.file.clone(),
+        covariance: (posterior.geometry())
+            .map(|geometry| GeometryCovarianceTable::of(robot, &geometry, Geometry::SOURCE)),
     };
     let mut written = with_geometry(path, text, &geometry)?;
     if let Some(identified) = drives(measurements, posterior, what("compliances of the drives")) {

@@ -4,7 +4,9 @@ use armill_core::learn::HeldOut;
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::Robot;
 use armill_core::units::to_mm;
-use armill_formats::robot::armill::{Geometry, LearntTable, residuals_file, with_geometry, with_residual};
+use armill_formats::robot::armill::{
+    Geometry, GeometryCovarianceTable, LearntTable, residuals_file, with_geometry, with_residual,
+};
 use armill_report::{ErrorDistribution, ErrorSet, ModelErrors};
 use armill_study::StudyError;
 
@@ -79,6 +81,8 @@ pub fn robot_file(
                 rms(&learning.held_out.calibrated)
             ),
             place: learning.file.clone(),
+            covariance: (learning.calibrated.uncertainty())
+                .map(|geometry| GeometryCovarianceTable::of(robot, &geometry, Geometry::SOURCE)),
         };
         text = with_geometry(path, &text, &geometry)?;
     }

@@ -77,6 +77,7 @@ fn arm() -> Robot {
         repeatability: 3e-5,
         model_error: 0.05,
         learnt: None,
+        geometry: None,
     };
     arms::r2000ic().with_structure(structure).unwrap()
 }

@@ -58,6 +58,7 @@ fn sound() -> Structure {
         repeatability: 2e-5,
         model_error: 0.1,
         learnt: None,
+        geometry: None,
     }
 }
 

@@ -5,6 +5,7 @@ use nalgebra::{Matrix3, Point3, Vector2, Vector3};
 
 use super::ArmState;
 use crate::robot::Attachment;
+use crate::robot::forward::forward;
 use crate::source::{Contributor, backlash, geometric};
 use crate::spatial::{Twist, Wrench};
 
@@ -42,8 +43,22 @@ impl ArmState<'_> {
     /// Displacement of the tool because the arm differs from the model in its controller.
     pub fn geometric(&self) -> Twist {
         let (arm, model) = (&self.arm, self.arm.model);
-        model.actual.as_ref().map_or(Twist::ZERO, |actual| {
+        let known = model.actual.as_ref().map_or(Twist::ZERO, |actual| {
             geometric::displacement(arm.robot, actual, arm.flange_from_tool, &self.joints)
+        });
+        let shift = model.structure.geometry.as_deref().map(|geometry| {
+            let tip = self.base_from_tool.translation.vector.into();
+            geometry.shift(&forward(arm.robot, &self.joints).base_from_joint, &tip)
+        });
+        known + shift.unwrap_or(Twist::ZERO)
+    }
+
+    /// Displacement of the tool by one standard uncertainty of each independent input of the geometry, base.
+    pub fn geometry_uncertainty(&self) -> Vec<Twist> {
+        let geometry = self.arm.model.structure.geometry.as_deref();
+        geometry.map_or_else(Vec::new, |geometry| {
+            let tip = self.base_from_tool.translation.vector.into();
+            geometry.displacements(&forward(self.arm.robot, &self.joints).base_from_joint, &tip)
         })
     }
 
@@ -146,7 +161,7 @@ impl ArmState<'_> {
     }
 
     /// Calls `take` with each part that does not depend on the load and its standard uncertainty (m, base; its components are fully correlated). The
-    /// uncertainty of a backlash is relative; the calibrated geometry has none.
+    /// uncertainty of a backlash is relative.
     pub(crate) fn each_unloaded(
         &self,
         kept: &[f64],
@@ -160,6 +175,9 @@ impl ArmState<'_> {
         }
         if self.arm.model.actual.is_some() {
             take(Contributor::Geometry, self.geometric(), Vector3::zeros());
+        }
+        for moved in self.geometry_uncertainty() {
+            take(Contributor::Geometry, Twist::ZERO, moved.linear);
         }
         if self.arm.model.thermal.is_some() {
             take(Contributor::Thermal, self.thermal(), self.thermal_uncertainty());

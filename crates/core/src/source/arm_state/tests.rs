@@ -80,6 +80,7 @@ fn everything() -> StiffnessModel {
             repeatability: 0.0,
             model_error: 0.0,
             learnt: None,
+            geometry: None,
         },
         gravity: Some(Gravity {
             acceleration: -Vector3::z() * FREE_FALL,

@@ -7,6 +7,7 @@ use armill_core::robot::{Amount, Axis, Motion};
 use armill_core::units::{to_deg, to_mm};
 use toml_edit::{Array, DocumentMut, InlineTable, Item, Value, value};
 
+use super::geometry_covariance::GeometryCovarianceTable;
 use super::identified::set_sources;
 use crate::document::{Document, Problems};
 
@@ -19,6 +20,13 @@ pub struct Geometry {
     pub what: String,
     /// Where these poses are kept.
     pub place: String,
+    /// How uncertain the chain with these motions is; its source is [`Geometry::SOURCE`].
+    pub covariance: Option<GeometryCovarianceTable>,
+}
+
+impl Geometry {
+    /// Key of the source of what was calibrated.
+    pub const SOURCE: &str = KEY;
 }
 
 /// Key of the source, and mark of each motion.
@@ -60,6 +68,11 @@ pub fn with_geometry(path: &str, text: &str, geometry: &Geometry) -> Result<Stri
         None => geometry.what.clone(),
     };
     set_sources(&mut document, KEY, [&what, &geometry.place])?;
+    // That of an earlier calibration is not true of this chain.
+    document.remove("geometry_covariance");
+    if let Some(covariance) = &geometry.covariance {
+        document.insert("geometry_covariance", covariance.item());
+    }
     let text = document.to_string();
     super::read(&format!("{path} (calibrated)"), "", &text)?;
     Ok(text)
@@ -138,6 +151,7 @@ mod tests {
         Geometry {
             after: vec![("A".to_owned(), small)],
             what: "20 poses".to_owned(),
+            covariance: None,
             place: "poses.csv".to_owned(),
         }
     }

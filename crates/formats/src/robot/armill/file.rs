@@ -4,6 +4,7 @@ use armill_core::units::{from_deg, from_mm, from_um};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::geometry_covariance::GeometryCovarianceTable;
 use crate::controller::ControllerTable;
 use crate::motion::MotionTable;
 use crate::robot::armill::learnt_table::LearntTable;
@@ -58,6 +59,8 @@ pub(super) struct RobotFile {
     pub compensator: Option<CompensatorTable>,
     /// Covariance of compliances that were identified together.
     pub covariance: Option<CovarianceTable>,
+    /// Covariance of the chain, if it was calibrated.
+    pub geometry_covariance: Option<GeometryCovarianceTable>,
     /// Pose repeatability of the arm.
     pub repeatability: Option<RepeatabilityTable>,
     /// Standard uncertainty of the model itself.

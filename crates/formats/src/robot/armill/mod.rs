@@ -4,7 +4,7 @@
 //! deflects and has mass in addition to the drives (springs, masses, compensator, torque curves, covariance) is read by
 //! `structure`.
 //!
-//! In reading order: `file` (the tables as written), `checks` (what no schema can say, and SI), `structure`, `vibration`, `bodies`; `spelling`,
+//! In reading order: `file` (the tables as written), `checks` (what no schema can say, and SI), `geometry_covariance`, `structure`, `vibration`, `bodies`; `spelling`,
 //! `write_bodies`, `write_masses`, `write` (a robot of another format as such a file), `identified` (such a file with compliances that were identified),
 //! `calibrated` (with small motions that were), `backlash` (with backlash that was measured), `learned` (with values of `[motion]` from joint logs),
 //! `learnt_table`, `learnt` (with the residual that was learnt, and its file of residuals).
@@ -15,7 +15,7 @@
 //! [chain]       source, motions = [{ about = "z", joint = "S" }, { along = "z", length_mm = 450 }, ...]
 //! [[joint]]     name, sign, zero_offset_deg, limits_deg, max_speed_deg_per_s, compliance_rad_per_n_m, ...
 //! [[body]]      at, name, capsule_mm, accuracy_mm, source: the outline of a link; [clearance] apart
-//! [[frame]] [[spring]] [[mass]] [[motor]] [damping] [compensator] [covariance] [repeatability] [model_error] [learnt] [payload] [controller] [motion]    each may be left out
+//! [[frame]] [[spring]] [[mass]] [[motor]] [damping] [compensator] [covariance] [geometry_covariance] [repeatability] [model_error] [learnt] [payload] [controller] [motion]    each may be left out
 //! [sources.KEY] what, where, licence: every KEY that a `source` names, and no other
 //! ```
 //!
@@ -26,6 +26,7 @@ mod bodies;
 mod calibrated;
 mod checks;
 mod file;
+mod geometry_covariance;
 mod identified;
 mod learned;
 mod learnt;
@@ -54,6 +55,7 @@ use crate::sources;
 
 pub use self::backlash::{JointBacklash, MeasuredBacklash, with_backlash};
 pub use self::calibrated::{Geometry, with_geometry};
+pub use self::geometry_covariance::GeometryCovarianceTable;
 pub use self::identified::{Identified, IdentifiedSpring, with_given_springs, with_springs};
 pub use self::learned::{LearnedMotion, with_motion};
 pub(super) use self::learnt::with_residuals_of_its_file;

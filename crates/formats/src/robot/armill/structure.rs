@@ -1,9 +1,11 @@
 //! What a robot file specifies of an arm in addition to its drives: springs, masses, motors, damping, compensator, torque curves,
-//! covariance, backlash, repeatability, model error.
+//! covariance, backlash, repeatability, model error, uncertainty of the geometry.
 //!
 //! Compliances have the order of the core: the drives in the order of the joints, then the springs in the
 //! order of their tables, of which one with a whole matrix gives up to six. A covariance names its compliances; all
 //! others stay independent, with their own standard uncertainty.
+
+use std::sync::Arc;
 
 use armill_core::nalgebra::DMatrix;
 use armill_core::robot::{Backlash, BacklashSide, Compensator, JointCurve, Structure, TorqueCurve};
@@ -55,6 +57,7 @@ impl Checks<'_> {
         if let Some(table) = &file.covariance {
             structure.covariance = self.covariance(table, &names, &structure, file);
         }
+        structure.geometry = self.geometry_covariance(file).map(Arc::new);
         structure
     }
 

@@ -210,7 +210,7 @@ impl ModelConstants {
             return None;
         }
         let covariance = structure.covariance.as_ref();
-        if unloaded && structure.learnt.is_some() {
+        if unloaded && (structure.learnt.is_some() || structure.geometry.is_some()) {
             return None;
         }
         let actual = model.actual.as_deref().filter(|_| unloaded);

@@ -197,6 +197,7 @@ fn bodies_survive_an_identification_and_a_calibration() {
         )],
         what: "poses".to_owned(),
         place: "poses.csv".to_owned(),
+        covariance: None,
     };
     let with_springs = with_springs("lever.toml", ARM, &identified).unwrap();
     let with_both = with_geometry("lever.toml", &with_springs, &geometry).unwrap();
