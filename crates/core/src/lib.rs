@@ -33,6 +33,7 @@ pub(crate) mod numbers;
 pub mod optimize;
 pub mod path;
 pub mod predict;
+pub mod removal;
 pub mod robot;
 pub mod roundness;
 pub mod source;
