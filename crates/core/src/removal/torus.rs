@@ -51,6 +51,9 @@ const MOST_STEPS: usize = 80;
 impl Torus {
     /// Where `a w + b v` is largest; `None` where the slice is empty. `a` is not negative.
     pub(super) fn farthest(&self, a: f64, b: f64) -> Option<Farthest> {
+        if a == 0.0 && self.cos == 0.0 {
+            return self.end_of(b);
+        }
         let [mut low, mut high] = self.range;
         // Beyond the largest radius nothing is left.
         let widest = self.disc + self.corner;
@@ -116,6 +119,24 @@ impl Torus {
             v = next;
         }
         best.map(|(_, farthest)| farthest)
+    }
+
+    /// The least `v` of the slice by a plane through the direction of the axis, where `b` is negative, or else the greatest.
+    fn end_of(&self, b: f64) -> Option<Farthest> {
+        let out = self.y.abs() - self.disc;
+        let [low, high] = self.range;
+        let mut v = if b < 0.0 { low } else { high };
+        if out > self.corner {
+            return None;
+        }
+        if b < 0.0 && out > 0.0 {
+            let down = ((self.corner - out) * (self.corner + out)).sqrt();
+            v = v.max((self.corner - down - self.h) / self.sin);
+        }
+        let square = self.square(v);
+        let w = square.max(0.0).sqrt();
+        let inside = v > low && v < high;
+        (inside || square >= 0.0).then_some(Farthest { w, v, inside })
     }
 
     /// `w^2` at `v`, m^2.
