@@ -36,6 +36,13 @@ pub struct MoveRemoval {
     pub contact: f64,
 }
 
+impl MoveRemoval {
+    /// Whether the move is a rapid and met material.
+    pub fn is_rapid_in_material(&self, tool_move: &ToolMove) -> bool {
+        tool_move.is_rapid && (self.longest > 0.0 || self.contact > 0.0)
+    }
+}
+
 /// Strokes that are cut at once, and those of one move more: it limits the memory.
 const STROKES_AT_ONCE: usize = 1 << 17;
 /// Strokes of a tile between two checks for cancellation.
@@ -67,15 +74,32 @@ impl DexelPart {
                 strokes.extend(moves[end].strokes(tool.cutting, turn_tolerance, end as u32));
                 end += 1;
             }
-            let lists: Vec<TileLists> = self.grids.iter().map(|grid| TileLists::new(grid, &strokes, tool)).collect();
+            let lists: Vec<TileLists> = self
+                .grids
+                .iter()
+                .map(|grid| TileLists::new(grid, &strokes, tool))
+                .collect();
             let progress = Progress {
                 moves: end - first,
-                entries: lists.iter().map(|lists| lists.numbers.len()).sum::<usize>().max(1),
+                entries: lists
+                    .iter()
+                    .map(|lists| lists.numbers.len())
+                    .sum::<usize>()
+                    .max(1),
                 done: AtomicUsize::new(0),
                 watch,
             };
             for (grid, lists) in self.grids.iter_mut().zip(&lists) {
-                cut_grid(grid, &Work { strokes: &strokes, lists, tool }, &progress, &mut removals)?;
+                cut_grid(
+                    grid,
+                    &Work {
+                        strokes: &strokes,
+                        lists,
+                        tool,
+                    },
+                    &progress,
+                    &mut removals,
+                )?;
             }
             progress.add(progress.entries - progress.done.load(Ordering::Relaxed));
             first = end;
@@ -98,7 +122,10 @@ fn cut_grid(
     removals: &mut [MoveRemoval],
 ) -> Result<(), Cancelled> {
     let mut tiles = std::mem::take(&mut grid.tiles);
-    let cutter = TileCutter { grid, tool: work.tool };
+    let cutter = TileCutter {
+        grid,
+        tool: work.tool,
+    };
     let cut = |(number, tile): (usize, &mut Tile)| {
         let mut changes: Vec<Change> = Vec::new();
         for block in work.lists.of(number).chunks(BLOCK) {
@@ -115,11 +142,19 @@ fn cut_grid(
         }
         Ok(changes)
     };
-    let changes: Result<Vec<Vec<Change>>, Cancelled> =
-        tiles.par_iter_mut().enumerate().with_max_len(1).map(cut).collect();
+    let changes: Result<Vec<Vec<Change>>, Cancelled> = tiles
+        .par_iter_mut()
+        .enumerate()
+        .with_max_len(1)
+        .map(cut)
+        .collect();
     grid.tiles = tiles;
     // Added in the order of the tiles, so that sums do not depend on the number of threads.
-    let area = if grid.k == 2 { grid.sides[0] * grid.sides[1] } else { 0.0 };
+    let area = if grid.k == 2 {
+        grid.sides[0] * grid.sides[1]
+    } else {
+        0.0
+    };
     for change in changes?.into_iter().flatten() {
         let removal = &mut removals[change.place as usize];
         removal.volume += change.removed * area;
@@ -140,10 +175,10 @@ impl TileLists {
     fn new(grid: &DexelGrid, strokes: &[Stroke], tool: &RotatingTool) -> TileLists {
         let reached = |stroke: &Stroke| {
             let solids = std::iter::once(tool.cutting).chain(tool.clear);
-            let ranges = solids.filter_map(|solid| MovingBox::new(solid, stroke.ends, &stroke.axis).tiles(grid));
-            ranges.reduce(|one, other| {
-                [0, 1].map(|n| [one[n][0].min(other[n][0]), one[n][1].max(other[n][1])])
-            })
+            let ranges =
+                solids.filter_map(|solid| MovingBox::new(solid, stroke.ends, &stroke.axis).tiles(grid));
+            ranges
+                .reduce(|one, other| [0, 1].map(|n| [one[n][0].min(other[n][0]), one[n][1].max(other[n][1])]))
         };
         let ranges: Vec<Option<[[usize; 2]; 2]>> = strokes.par_iter().map(reached).collect();
         let tiles = |range: [[usize; 2]; 2]| {
@@ -199,7 +234,10 @@ fn check(moves: &[ToolMove]) -> Result<(), RemovalError> {
     for (place, tool_move) in moves.iter().enumerate() {
         let problem = |problem: &'static str| Err(RemovalError::Move { place, problem });
         let coordinates = tool_move.ends.iter().flat_map(|end| end.iter());
-        if !coordinates.clone().all(|value| value.is_finite() && value.abs() <= FARTHEST) {
+        if !coordinates
+            .clone()
+            .all(|value| value.is_finite() && value.abs() <= FARTHEST)
+        {
             return problem("a coordinate of the tip is not a finite number within 1 km of zero");
         }
         if !tool_move.axes.iter().all(|axis| (axis.norm() - 1.0).abs() < 1e-6) {
@@ -219,6 +257,3 @@ fn check(moves: &[ToolMove]) -> Result<(), RemovalError> {
 const FARTHEST: f64 = 1e3;
 /// Largest turn of an axis on a move, rad.
 const MOST_TURN: f64 = 179.0 * std::f64::consts::PI / 180.0;
-
-#[cfg(test)]
-mod tests;

@@ -19,29 +19,31 @@
 //!
 //! Source: separating planes of convex sets \[derived\].
 
-use nalgebra::{Point3, Unit, Vector3};
+use nalgebra::Vector3;
 
-use super::swept::End;
+use super::swept::{End, across};
 use super::tool_solid::{Side, ToolSolid};
+use super::turning::Stroke;
 
-/// A tool on a straight move, for the test.
+/// A tool on a straight move, for the test. Vectors have their parts in the order of the two directions across the dexels, and the one along them.
 #[derive(Clone, Debug)]
 pub(super) struct Apart {
-    from: Point3<f64>,
-    travel: Vector3<f64>,
+    from: Parts,
+    travel: Parts,
     /// The move over the square of its length; zero of no move.
-    per_travel: Vector3<f64>,
-    axis: Vector3<f64>,
-    k: usize,
-    /// The lowest band: a corner, or nothing.
+    per_travel: Parts,
+    axis: Parts,
     corner: Option<RoundedDisc>,
-    /// Height, radius and slope of the lower ends of flanks, and of the top.
+    /// Lower ends of flanks, and the top.
     rims: Vec<Rim>,
     /// Cuts less deep than this are left out, m.
     skin: f64,
 }
 
-/// A disc across the axis, enlarged by a radius.
+/// Across the dexels twice, along them.
+type Parts = [f64; 3];
+
+/// A disc across the axis, enlarged by a radius: the corner.
 #[derive(Clone, Copy, Debug)]
 struct RoundedDisc {
     disc: f64,
@@ -49,6 +51,8 @@ struct RoundedDisc {
     radius: f64,
     /// The corner ends here.
     ends: f64,
+    /// Square of the sine of the angle between the axis and the flank above.
+    taper_squared: f64,
 }
 
 /// A circle around the axis.
@@ -60,10 +64,23 @@ struct Rim {
     slope: f64,
 }
 
+#[inline]
+fn dot(a: &Parts, b: &Parts) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
 impl Apart {
-    pub(super) fn new(tool: &ToolSolid, ends: [Point3<f64>; 2], axis: &Unit<Vector3<f64>>, k: usize) -> Apart {
-        let travel = ends[1] - ends[0];
+    /// The tool with this axis, whose tip moves between two points, and dexels along `k`; cuts less deep than `skin` are left out, m.
+    pub(super) fn new(tool: &ToolSolid, stroke: &Stroke, k: usize, skin: f64) -> Apart {
+        let [i, j] = across(k);
+        let parts = |vector: &Vector3<f64>| [vector[i], vector[j], vector[k]];
+        let travel = stroke.ends[1] - stroke.ends[0];
         let square = travel.norm_squared();
+        let per_travel = if square > 0.0 {
+            travel / square
+        } else {
+            Vector3::zeros()
+        };
         let mut corner = None;
         let mut rims = Vec::with_capacity(4);
         for band in tool.bands() {
@@ -78,11 +95,13 @@ impl Apart {
                     centre_height,
                     radius,
                 } => {
+                    let taper = (centre_height - band.heights[1]) / radius;
                     corner = Some(RoundedDisc {
                         disc: centre_radius,
                         height: centre_height,
                         radius,
                         ends: band.heights[1],
+                        taper_squared: taper * taper,
                     });
                 }
             }
@@ -95,87 +114,79 @@ impl Apart {
             });
         }
         Apart {
-            from: ends[0],
-            travel,
-            per_travel: if square > 0.0 { travel / square } else { Vector3::zeros() },
-            axis: axis.into_inner(),
-            k,
+            from: parts(&stroke.ends[0].coords),
+            travel: parts(&travel),
+            per_travel: parts(&per_travel),
+            axis: parts(&stroke.axis),
             corner,
             rims,
-            skin: 0.0,
+            skin,
         }
-    }
-
-    /// The same that leaves out cuts less deep than `skin`, m.
-    pub(super) fn with_skin(self, skin: f64) -> Apart {
-        Apart { skin, ..self }
     }
 
     /// Whether it is certain that the tool meets the dexel of this point above it only (`End::Low`: its lower end is above), or
     /// below it only.
     #[inline]
-    pub(super) fn is_certain(&self, point: &Point3<f64>, end: End) -> bool {
-        let sign = match end {
-            End::Low => 1.0,
-            End::High => -1.0,
-        };
-        let off = point - self.from;
-        match self.corner {
-            Some(corner) if corner.disc == 0.0 => self.ball(&corner, &off, sign),
-            _ => self.any(&off, sign),
+    pub(super) fn is_certain(&self, point: Parts, end: End) -> bool {
+        let off = [
+            point[0] - self.from[0],
+            point[1] - self.from[1],
+            point[2] - self.from[2],
+        ];
+        match &self.corner {
+            Some(corner) if corner.disc == 0.0 => self.ball(corner, off, end),
+            _ => self.any(off, end),
         }
     }
 
     /// Of a tool that ends in a ball.
     #[inline]
-    fn ball(&self, ball: &RoundedDisc, off: &Vector3<f64>, sign: f64) -> bool {
-        let from_centre = off - self.axis * ball.height;
-        let t = from_centre.dot(&self.per_travel).clamp(0.0, 1.0);
-        let normal = self.travel * t - from_centre;
-        let up = normal.dot(&self.axis);
+    fn ball(&self, ball: &RoundedDisc, off: Parts, end: End) -> bool {
+        let off = std::array::from_fn(|n| off[n] - self.axis[n] * ball.height);
+        let t = dot(&off, &self.per_travel).max(0.0).min(1.0);
+        let normal: Parts = std::array::from_fn(|n| self.travel[n] * t - off[n]);
+        let (square, up) = (dot(&normal, &normal), dot(&normal, &self.axis));
         let least = ball.radius - self.skin;
-        let square = normal.norm_squared();
-        if normal[self.k] * sign <= 0.0 || square < least * least {
-            return false;
-        }
-        // What is above the ball is behind the plane, if that is not steeper than the flank.
-        self.rims_are_behind(normal.norm_squared().sqrt(), up, ball.height * up - ball.radius * square.sqrt())
+        let leaves = match end {
+            End::Low => normal[2] > 0.0,
+            End::High => normal[2] < 0.0,
+        };
+        // The plane touches the ball and not the flank: it is at least as steep as that.
+        leaves & (square >= least * least) & (up >= 0.0) & (up * up >= ball.taper_squared * square)
     }
 
-    /// Whether the rims are not nearer along a normal with this length and part along the axis than `least`.
     #[inline]
-    fn rims_are_behind(&self, length: f64, up: f64, least: f64) -> bool {
-        let across = ((length - up) * (length + up)).max(0.0).sqrt();
-        let behind = |rim: &Rim| rim.height * up - rim.radius * across >= least - 1e-12 * length;
-        self.rims.iter().all(behind)
-    }
-
-    fn any(&self, off: &Vector3<f64>, sign: f64) -> bool {
-        let t = off.dot(&self.per_travel).clamp(0.0, 1.0);
-        let from_tip = off - self.travel * t;
-        let height = from_tip.dot(&self.axis);
-        let across = from_tip - self.axis * height;
-        let rho = across.norm();
+    fn any(&self, off: Parts, end: End) -> bool {
+        let t = dot(&off, &self.per_travel).max(0.0).min(1.0);
+        let from_tip: Parts = std::array::from_fn(|n| off[n] - self.travel[n] * t);
+        let height = dot(&from_tip, &self.axis);
+        let across: Parts = std::array::from_fn(|n| from_tip[n] - self.axis[n] * height);
+        let rho = dot(&across, &across).sqrt();
         let [out, up] = self.inwards(rho, height);
-        let radial = if rho > 0.0 { across / rho } else { Vector3::zeros() };
-        let normal = radial * out + self.axis * up;
-        if normal[self.k] * sign <= 0.0 {
+        let per_rho = if rho > 0.0 { out / rho } else { 0.0 };
+        let normal: Parts = std::array::from_fn(|n| across[n] * per_rho + self.axis[n] * up);
+        let leaves = match end {
+            End::Low => normal[2] > 0.0,
+            End::High => normal[2] < 0.0,
+        };
+        if !leaves {
             return false;
         }
-        let length = out.hypot(up);
-        let mut least = match self.corner {
+        let length = (out * out + up * up).sqrt();
+        let mut least = match &self.corner {
             Some(corner) => corner.height * up - corner.disc * out.abs() - corner.radius * length,
             None => f64::INFINITY,
         };
         for rim in &self.rims {
             least = least.min(rim.height * up - rim.radius * out.abs());
         }
-        let travel = normal.dot(&self.travel);
+        let travel = dot(&normal, &self.travel);
         let place = out * rho + up * height + t * travel;
         place <= least + travel.min(0.0) + self.skin * length
     }
 
     /// The direction to the core of the tool: away from the axis, and along it.
+    #[inline]
     fn inwards(&self, rho: f64, height: f64) -> [f64; 2] {
         if let Some(corner) = &self.corner
             && height < corner.ends

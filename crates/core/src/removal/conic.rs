@@ -44,6 +44,26 @@ pub(super) struct Farthest {
     pub(super) inside: bool,
 }
 
+/// The part of a line within a slice.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Chord {
+    /// Places along the line, m.
+    pub(super) ends: [f64; 2],
+    /// Whether an end is on the outline and not where the range ends.
+    pub(super) on_outline: [bool; 2],
+}
+
+impl Chord {
+    /// What of a line is within the outline and within the range.
+    pub(super) fn of(outline: [f64; 2], range: [f64; 2]) -> Option<Chord> {
+        let ends = [outline[0].max(range[0]), outline[1].min(range[1])];
+        (ends[0] <= ends[1]).then_some(Chord {
+            ends,
+            on_outline: [outline[0] > range[0], outline[1] < range[1]],
+        })
+    }
+}
+
 /// A straight line in the plane: `u = u_0 + s u_s`, `v = v_0 + s v_s`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PlaneLine {
@@ -107,16 +127,19 @@ impl Conic {
     }
 
     /// The part of a line within the slice.
-    pub(super) fn meets(&self, line: &PlaneLine) -> Option<[f64; 2]> {
+    pub(super) fn meets(&self, line: &PlaneLine) -> Option<Chord> {
         self.root?;
-        let [low, high] = line.within(self.range)?;
+        let range = line.within(self.range)?;
         let ([u, v], [du, dv]) = (line.start, line.rate);
         let slope = self.b + self.c * v;
         let square = du * du - self.c * dv * dv;
         let half = u * du - slope * dv;
         let rest = u * u - (self.a + v * (self.b + slope));
         if square == 0.0 && half == 0.0 {
-            return (rest <= 0.0).then_some([low, high]);
+            return (rest <= 0.0).then_some(Chord {
+                ends: range,
+                on_outline: [false; 2],
+            });
         }
         let discriminant = half * half - square * rest;
         let inside = if square < 0.0 {
@@ -136,8 +159,7 @@ impl Conic {
             let (one, other) = (q / square, if q == 0.0 { 0.0 } else { rest / q });
             [one.min(other), one.max(other)]
         };
-        let part = [inside[0].max(low), inside[1].min(high)];
-        (part[0] <= part[1]).then_some(part)
+        Chord::of(inside, range)
     }
 }
 
@@ -178,7 +200,14 @@ mod tests {
             (0.5, 0.3, 0.1, 1.2793395323170296),
         ] {
             let conic = of_cone(p, slope, y, turn);
-            for (a, b) in [(1.0, 0.5), (1.0, -0.5), (0.2, -1.0), (1.0, 0.0), (0.0, -1.0), (0.3, 1.0)] {
+            for (a, b) in [
+                (1.0, 0.5),
+                (1.0, -0.5),
+                (0.2, -1.0),
+                (1.0, 0.0),
+                (0.0, -1.0),
+                (0.3, 1.0),
+            ] {
                 let mut best = f64::NEG_INFINITY;
                 let steps = 200_000;
                 for k in 0..=steps {
@@ -191,7 +220,10 @@ mod tests {
                     Some(found) => {
                         // Between two samples where the width begins like a root: sqrt(1 / 200 000) / 2.
                         let more = a * found.w + b * found.v - best;
-                        assert!(more > -1e-12 && more < 2e-3, "{p} {slope} {y} {turn} {a} {b}: {more}");
+                        assert!(
+                            more > -1e-12 && more < 2e-3,
+                            "{p} {slope} {y} {turn} {a} {b}: {more}"
+                        );
                     }
                 }
             }
@@ -200,7 +232,12 @@ mod tests {
 
     #[test]
     fn a_line_meets_the_slice_where_its_points_are_inside() {
-        for (p, slope, y, turn) in [(0.3, 0.4, 0.1, 1.0), (0.3, 1.5, 0.2, 1.0), (0.3, 2.5, 0.2, 1.5), (0.4, 0.0, 0.1, 1.57)] {
+        for (p, slope, y, turn) in [
+            (0.3, 0.4, 0.1, 1.0),
+            (0.3, 1.5, 0.2, 1.0),
+            (0.3, 2.5, 0.2, 1.5),
+            (0.4, 0.0, 0.1, 1.57),
+        ] {
             let conic = of_cone(p, slope, y, turn);
             for (start, rate) in [
                 ([0.1, 0.2], [1.0, 0.1]),
@@ -217,7 +254,7 @@ mod tests {
                 };
                 let samples = (-40_000..=40_000).map(|k| f64::from(k) * 1e-4);
                 let within: Vec<f64> = samples.filter(|&s| inside(s)).collect();
-                let met = conic.meets(&line);
+                let met = conic.meets(&line).map(|chord| chord.ends);
                 match (within.first(), within.last(), met) {
                     (None, None, None) => {}
                     (Some(first), Some(last), Some([low, high])) => {

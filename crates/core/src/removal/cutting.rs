@@ -4,13 +4,11 @@
 //! gives the same part. Ends of intervals are computed only where material can be cut: first the one from which the tool enters
 //! less of it, which mostly decides.
 
-use nalgebra::Point3;
-
 use super::apart::Apart;
 use super::dexel::Tile;
 use super::grid::DexelGrid;
 use super::near::{MovingBox, Reached};
-use super::swept::{End, SweptTool, across};
+use super::swept::{End, SweptTool};
 use super::tool_solid::ToolSolid;
 use super::turning::Stroke;
 
@@ -81,7 +79,7 @@ impl MovingSolid<'_> {
             grid,
             around: MovingBox::new(solid, stroke.ends, &stroke.axis),
             swept: SweptTool::new(solid, stroke.ends, &stroke.axis, grid.k),
-            apart: Apart::new(solid, stroke.ends, &stroke.axis, grid.k).with_skin(RESOLUTION * grid.length),
+            apart: Apart::new(solid, stroke, grid.k, RESOLUTION * grid.length),
         }
     }
 
@@ -100,13 +98,18 @@ impl MovingSolid<'_> {
     fn within(&self, tile: &Tile, reached: &Reached) -> Option<[f32; 2]> {
         let hull = tile.hull(reached.dexel);
         let [least, most] = reached.range;
-        let (k, low) = (self.grid.k, self.grid.low[self.grid.k]);
-        let end = |end: End| Some((self.swept.end(reached.at, end)? - low) as f32);
-        let is_apart = |place: f32, end: End| {
-            let [i, j] = across(k);
-            let mut point = Point3::origin();
-            (point[i], point[j], point[k]) = (reached.at[0], reached.at[1], low + f64::from(place));
-            self.apart.is_certain(&point, end)
+        let (low, at) = (self.grid.low[self.grid.k], reached.at);
+        let is_apart =
+            |place: f32, end: End| self.apart.is_certain([at[0], at[1], low + f64::from(place)], end);
+        let end = |end: End| match self.swept.top() {
+            // Beyond the material: the place does not matter.
+            Some((top, place)) if top == end && end == End::High && place - low > f64::from(hull.high) => {
+                Some(f32::MAX)
+            }
+            Some((top, place)) if top == end && end == End::Low && place - low < f64::from(hull.low) => {
+                Some(f32::MIN)
+            }
+            _ => Some((self.swept.end(at, end)? - low) as f32),
         };
         if hull.high - least < most - hull.low {
             if is_apart(hull.high, End::Low) {

@@ -399,7 +399,10 @@ mod tests {
         assert_eq!(EndOrigin::of_code(tile.hull(0).high_origin), EndOrigin::Move(1));
         tile.remove(0, [10.0, 20.0], 3);
         tile.remove(0, [10.0, 25.0], 4);
-        let origins: Vec<[u32; 2]> = tile.material(0).map(|span| [span.low_origin, span.high_origin]).collect();
+        let origins: Vec<[u32; 2]> = tile
+            .material(0)
+            .map(|span| [span.low_origin, span.high_origin])
+            .collect();
         assert_eq!(origins, [[STOCK, 3], [4, 1]]);
         assert_eq!(tile.remove(0, [-1.0, 200.0], 5), 10.0 + 15.0);
         assert_eq!(tile.material(0).count(), 0);

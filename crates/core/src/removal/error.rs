@@ -10,7 +10,12 @@ pub enum RemovalError {
     #[error("{0} is not a finite number")]
     NotFinite(&'static str),
     /// A number out of its range.
-    #[error("{what} is {} mm: must be between {} mm and {} mm", to_mm(value), to_mm(least), to_mm(most))]
+    #[error(
+        "{what} is {} mm: must be between {} mm and {} mm",
+        to_mm(value),
+        to_mm(least),
+        to_mm(most)
+    )]
     OutOfRange {
         /// Which one.
         what: &'static str,

@@ -89,10 +89,17 @@ fn place(triangle: &Triangle, k: usize, at: [f64; 2]) -> f64 {
     let corner: Point3<f64> = triangle.0[0];
     let off = (at[0] - corner[i]) * normal[i] + (at[1] - corner[j]) * normal[j];
     let ends = triangle.0.map(|corner| corner[k]);
-    let [least, most] = [ends[0].min(ends[1]).min(ends[2]), ends[0].max(ends[1]).max(ends[2])];
+    let [least, most] = [
+        ends[0].min(ends[1]).min(ends[2]),
+        ends[0].max(ends[1]).max(ends[2]),
+    ];
     // A triangle along the line has no single place: any of its own is right to its height.
     let place = corner[k] - off / normal[k];
-    if place.is_finite() { place.clamp(least, most) } else { least }
+    if place.is_finite() {
+        place.clamp(least, most)
+    } else {
+        least
+    }
 }
 
 /// The material between the crossings of a dexel.

@@ -111,7 +111,12 @@ impl MovingBox {
 
 /// The cells along one direction of a grid whose centres are between two coordinates, of those from a first to an end; `None`
 /// if there is none.
-fn cells_between(grid: &DexelGrid, n: usize, [low, high]: [f64; 2], [first, end]: [usize; 2]) -> Option<[usize; 2]> {
+fn cells_between(
+    grid: &DexelGrid,
+    n: usize,
+    [low, high]: [f64; 2],
+    [first, end]: [usize; 2],
+) -> Option<[usize; 2]> {
     let (origin, side) = (grid.low[across(grid.k)[n]], grid.sides[n]);
     let cell = |at: f64| (at - origin) / side - 0.5;
     let clamped = |cell: f64| cell.clamp(first as f64, end as f64) as usize;

@@ -102,7 +102,11 @@ impl DexelPart {
     ///
     /// # Errors
     /// Numbers that are not finite or out of range, too many dexels, a mesh that is open.
-    pub fn new(stock: &StockSolid, cell: f64, directions: DexelDirections) -> Result<DexelPart, RemovalError> {
+    pub fn new(
+        stock: &StockSolid,
+        cell: f64,
+        directions: DexelDirections,
+    ) -> Result<DexelPart, RemovalError> {
         let corners = stock.corners()?;
         let PartSize { cells, dexels, bytes } = DexelPart::size(corners, cell, directions)?;
         if dexels > MOST_DEXELS {
@@ -146,6 +150,3 @@ impl DexelPart {
         self.grids.iter().map(DexelGrid::bytes).sum()
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -31,7 +31,7 @@
 
 use nalgebra::{Point3, Unit, Vector3};
 
-use super::conic::{Conic, Farthest, PlaneLine};
+use super::conic::{Chord, Conic, Farthest, PlaneLine};
 use super::tool_solid::{Band, Side, ToolSolid};
 use super::torus::Torus;
 
@@ -39,14 +39,13 @@ use super::torus::Torus;
 #[derive(Clone, Debug)]
 pub(super) struct SweptTool<'a> {
     tool: &'a ToolSolid,
-    from: Point3<f64>,
-    /// Direction of the dexels, and the two across it.
-    k: usize,
-    across: [usize; 2],
-    axis: Vector3<f64>,
-    /// Directions of `u` and of `y`.
-    e_u: Vector3<f64>,
-    e_y: Vector3<f64>,
+    /// The start across the dexels and along them, m.
+    start: [f64; 2],
+    start_along: f64,
+    /// `u`, `y` and height per distance across the dexels.
+    u_of: [f64; 2],
+    y_of: [f64; 2],
+    h_of: [f64; 2],
     /// Growth of the height and of `y` per `v`.
     sin: f64,
     cos: f64,
@@ -58,13 +57,24 @@ pub(super) struct SweptTool<'a> {
     per_v: [f64; 2],
     /// Length of a move along the dexels, m.
     parallel: Option<f64>,
+    top: Option<(End, f64)>,
 }
 
 /// An end of the interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum End {
-    Low,
-    High,
+    Low = 0,
+    High = 1,
+}
+
+impl End {
+    /// The direction out of the interval.
+    fn sign(self) -> f64 {
+        match self {
+            End::Low => -1.0,
+            End::High => 1.0,
+        }
+    }
 }
 
 /// Motion across the dexels that is neglected, m: the interval is exact for a dexel this far away.
@@ -78,6 +88,25 @@ pub(super) fn across(k: usize) -> [usize; 2] {
         0 => [1, 2],
         1 => [0, 2],
         _ => [0, 1],
+    }
+}
+
+/// The end at the top of a tool that moves between two places along its axis.
+fn top(tool: &ToolSolid, [from, to]: [f64; 2], axis: f64) -> Option<(End, f64)> {
+    // Below this height every radius is within that of the top.
+    let widens = tool
+        .bands()
+        .windows(2)
+        .all(|pair| pair[0].radius_at(pair[0].heights[1]) <= tool.radius());
+    let top = tool
+        .bands()
+        .last()
+        .filter(|band| widens && band.radius_at(band.heights[1]) >= tool.radius())?;
+    let height = top.heights[1];
+    match () {
+        () if axis >= 1.0 => Some((End::High, from.min(to) + height)),
+        () if axis <= -1.0 => Some((End::Low, from.max(to) - height)),
+        () => None,
     }
 }
 
@@ -95,7 +124,7 @@ impl Slice {
         }
     }
 
-    fn meets(&self, line: &PlaneLine) -> Option<[f64; 2]> {
+    fn meets(&self, line: &PlaneLine) -> Option<Chord> {
         match self {
             Slice::Conic(conic) => conic.meets(line),
             Slice::Torus(torus) => torus.meets(line),
@@ -127,7 +156,11 @@ impl SweptTool<'_> {
         if normal.norm() <= PARALLEL {
             parallel = Some(travel[k]);
             // Any plane through the dexel: the tool rests.
-            let least = if axis.cross(&direction).norm() > 0.5 { axis.into_inner() } else { Vector3::ith((k + 1) % 3, 1.0) };
+            let least = if axis.cross(&direction).norm() > 0.5 {
+                axis.into_inner()
+            } else {
+                Vector3::ith((k + 1) % 3, 1.0)
+            };
             normal = direction.cross(&least);
             travel = least;
         }
@@ -143,16 +176,16 @@ impl SweptTool<'_> {
         let e_y = axis.cross(&e_u);
         let in_plane = |vector: &Vector3<f64>| [vector.dot(&e_u), vector.dot(&e_v)];
         let (d, m) = (in_plane(&direction), in_plane(&travel));
+        let [i, j] = across(k);
         let area = m[0] * d[1] - m[1] * d[0];
         // x = q + s d - t m, solved for s and t: the determinant of the columns d, -m is m_u d_v - m_v d_u.
         SweptTool {
             tool,
-            from,
-            k,
-            across: across(k),
-            axis: axis.into_inner(),
-            e_u,
-            e_y,
+            start: [from[i], from[j]],
+            start_along: from[k],
+            u_of: [e_u[i], e_u[j]],
+            y_of: [e_y[i], e_y[j]],
+            h_of: [axis[i], axis[j]],
             sin,
             cos: e_v.dot(&e_y),
             dexel: d,
@@ -160,7 +193,14 @@ impl SweptTool<'_> {
             per_u: [-m[1] / area, -d[1] / area],
             per_v: [m[0] / area, d[0] / area],
             parallel,
+            top: top(tool, ends.map(|end| end[k]), axis[k]),
         }
+    }
+
+    /// Where the axis is along the dexels: the end of a dexel inside that is at the top of the tool, and how far out it is at
+    /// least, m. A dexel that enters the tool leaves it there.
+    pub(super) fn top(&self) -> Option<(End, f64)> {
+        self.top
     }
 
     /// Both ends of the part of the dexel at `at` (coordinates across it) inside of the swept solid, m.
@@ -170,38 +210,34 @@ impl SweptTool<'_> {
 
     /// One end of it.
     pub(super) fn end(&self, at: [f64; 2], end: End) -> Option<f64> {
-        let [i, j] = self.across;
-        let off = [at[0] - self.from[i], at[1] - self.from[j]];
-        let along = |direction: &Vector3<f64>| off[0] * direction[i] + off[1] * direction[j];
+        let off = [at[0] - self.start[0], at[1] - self.start[1]];
+        let along = |per: [f64; 2]| off[0] * per[0] + off[1] * per[1];
         let foot = Foot {
-            u: along(&self.e_u),
-            y: along(&self.e_y),
-            h: along(&self.axis),
+            u: along(self.u_of),
+            y: along(self.y_of),
+            h: along(self.h_of),
         };
         let s = match self.parallel {
             Some(length) => {
-                let [low, high] = self.at_rest(&foot, 0.0)?;
-                match end {
-                    End::Low => low + length.min(0.0),
-                    End::High => high + length.max(0.0),
-                }
+                let by = match end {
+                    End::Low => length.min(0.0),
+                    End::High => length.max(0.0),
+                };
+                self.at_rest(&foot, 0.0, end)? + by
             }
             None => self.of_move(&foot, end)?,
         };
-        Some(self.from[self.k] + s)
+        Some(self.start_along + s)
     }
 
     fn of_move(&self, foot: &Foot, end: End) -> Option<f64> {
-        let sign = match end {
-            End::Low => -1.0,
-            End::High => 1.0,
-        };
+        let sign = end.sign();
         let [alpha, alpha_t] = self.per_u;
         let [beta, beta_t] = self.per_v;
         let (a, b) = (alpha.abs(), sign * beta);
         let mut best: Option<(f64, Farthest)> = None;
-        for slice in self.slices(foot) {
-            let Some(found) = slice.farthest(a, b) else {
+        for band in self.tool.bands() {
+            let Some(found) = self.slice(band, foot).and_then(|slice| slice.farthest(a, b)) else {
                 continue;
             };
             let value = a * found.w + b * found.v;
@@ -218,32 +254,31 @@ impl SweptTool<'_> {
         if (0.0..=1.0).contains(&t) {
             return Some(sign * value - alpha * foot.u);
         }
-        let [low, high] = self.at_rest(foot, t.clamp(0.0, 1.0))?;
-        Some(match end {
-            End::Low => low,
-            End::High => high,
-        })
+        self.at_rest(foot, t.clamp(0.0, 1.0), end)
     }
 
-    /// The part of the dexel inside of the tool at the time `t`.
-    fn at_rest(&self, foot: &Foot, t: f64) -> Option<[f64; 2]> {
+    /// An end of the part of the dexel inside of the tool at the time `t`.
+    fn at_rest(&self, foot: &Foot, t: f64, end: End) -> Option<f64> {
         let line = PlaneLine {
             start: [foot.u - t * self.travel[0], -t * self.travel[1]],
             rate: self.dexel,
         };
-        let mut part: Option<[f64; 2]> = None;
-        for slice in self.slices(foot) {
-            if let Some([low, high]) = slice.meets(&line) {
-                let known = part.unwrap_or([low, high]);
-                part = Some([known[0].min(low), known[1].max(high)]);
+        let (sign, side) = (end.sign(), end as usize);
+        let mut most: Option<f64> = None;
+        for band in self.tool.bands() {
+            let Some(chord) = self.slice(band, foot).and_then(|slice| slice.meets(&line)) else {
+                continue;
+            };
+            let place = chord.ends[side];
+            if most.is_none_or(|most| (place - most) * sign > 0.0) {
+                most = Some(place);
+            }
+            // An end on the side of the tool is that of the whole tool.
+            if chord.on_outline[side] {
+                break;
             }
         }
-        part
-    }
-
-    /// The slices of all bands that the plane meets.
-    fn slices(&self, foot: &Foot) -> impl Iterator<Item = Slice> {
-        self.tool.bands().iter().filter_map(|band| self.slice(band, foot))
+        most
     }
 
     fn slice(&self, band: &Band, foot: &Foot) -> Option<Slice> {
@@ -300,7 +335,9 @@ impl SweptTool<'_> {
                 })
             }
             Side::Corner {
-                centre_radius, radius, ..
+                centre_radius,
+                radius,
+                ..
             } => Slice::Torus(Torus {
                 disc: centre_radius,
                 corner: radius,

@@ -196,7 +196,10 @@ impl ToolSolid {
 
     /// Its largest radius, m.
     pub fn radius(&self) -> f64 {
-        let ends = self.bands.iter().flat_map(|band| band.heights.map(|height| band.radius_at(height)));
+        let ends = self
+            .bands
+            .iter()
+            .flat_map(|band| band.heights.map(|height| band.radius_at(height)));
         ends.fold(0.0, f64::max)
     }
 
@@ -212,7 +215,10 @@ impl ToolSolid {
     /// Largest distance of its points from the point of the axis at this height, m.
     pub(super) fn reach_from(&self, height: f64) -> f64 {
         let [low, high] = self.heights();
-        (high - height).abs().max((height - low).abs()).hypot(self.radius())
+        (high - height)
+            .abs()
+            .max((height - low).abs())
+            .hypot(self.radius())
     }
 
     /// Least and greatest coordinate along `direction` relative to the tip, of the tool with this axis, m; a corner may

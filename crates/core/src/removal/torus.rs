@@ -22,7 +22,7 @@
 //!
 //! Source: \[derived\].
 
-use super::conic::{Farthest, PlaneLine};
+use super::conic::{Chord, Farthest, PlaneLine};
 
 /// The slice of a corner by a plane.
 #[derive(Clone, Copy, Debug)]
@@ -85,7 +85,9 @@ impl Torus {
         let mut v = 0.5 * (low + high);
         for step in 0..MOST_STEPS {
             let up = self.h + v * self.sin - self.corner;
-            let q = ((self.corner - up) * (self.corner + up)).max(f64::MIN_POSITIVE).sqrt();
+            let q = ((self.corner - up) * (self.corner + up))
+                .max(f64::MIN_POSITIVE)
+                .sqrt();
             let (rho, y) = (self.disc + q, self.y + v * self.cos);
             let rate = -up / q;
             let square = rho * rho - y * y;
@@ -96,7 +98,8 @@ impl Torus {
                 let half = rho * rate * self.sin - y * self.cos;
                 let first = a * half / w + b;
                 let bend = rate * rate - rho * self.corner * self.corner / (q * q * q);
-                let second = a * ((bend * self.sin * self.sin - self.cos * self.cos) / w - half * half / (w * w * w));
+                let second =
+                    a * ((bend * self.sin * self.sin - self.cos * self.cos) / w - half * half / (w * w * w));
                 next = v - first / second;
                 if first == 0.0 {
                     break;
@@ -148,14 +151,19 @@ impl Torus {
     }
 
     /// The part of a line within the slice.
-    pub(super) fn meets(&self, line: &PlaneLine) -> Option<[f64; 2]> {
+    pub(super) fn meets(&self, line: &PlaneLine) -> Option<Chord> {
         let band = line.within(self.range)?;
         let ([u, v], [du, dv]) = (line.start, line.rate);
         if dv == 0.0 {
             let square = self.square(v);
             let half = square.max(0.0).sqrt();
             let ends = [(-half - u) / du, (half - u) / du];
-            return (square >= 0.0).then_some([ends[0].min(ends[1]), ends[0].max(ends[1])]);
+            let outline = [ends[0].min(ends[1]), ends[0].max(ends[1])];
+            return if square >= 0.0 {
+                Chord::of(outline, band)
+            } else {
+                None
+            };
         }
         // The line in the frame of the tool.
         let up = self.h + v * self.sin - self.corner;
@@ -170,7 +178,10 @@ impl Torus {
             let rho = square.sqrt();
             let out = rho - self.disc;
             let from_disc = (out * out + up * up).sqrt();
-            (from_disc - self.corner, (out * rate / rho + up * rise) / from_disc)
+            (
+                from_disc - self.corner,
+                (out * rate / rho + up * rise) / from_disc,
+            )
         };
         // From where the line is as high as the corner: outside of it, or on its surface.
         let ends = [(-self.corner - up) / rise, (self.corner - up) / rise];
@@ -193,7 +204,6 @@ impl Torus {
             }
             part[k] = s;
         }
-        let part = [part[0].max(band[0]), part[1].min(band[1])];
-        (part[0] <= part[1]).then_some(part)
+        Chord::of(part, band)
     }
 }

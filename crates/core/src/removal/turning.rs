@@ -72,7 +72,12 @@ impl ToolMove {
     }
 
     /// These pieces; `place` is that of the move in its list.
-    pub(super) fn strokes(&self, tool: &ToolSolid, tolerance: f64, place: u32) -> impl Iterator<Item = Stroke> {
+    pub(super) fn strokes(
+        &self,
+        tool: &ToolSolid,
+        tolerance: f64,
+        place: u32,
+    ) -> impl Iterator<Item = Stroke> {
         let (count, turn, middle) = (self.pieces(tool, tolerance), self.turn(), middle_height(tool));
         let own = *self;
         let axis = move |part: f64| {
@@ -144,7 +149,8 @@ mod tests {
                     let back = Rotation3::rotation_between(&(turned * first), &stroke.axis).unwrap();
                     for height in [0.0, 0.015, 0.03] {
                         for angle in 0..12 {
-                            let across = Rotation3::from_axis_angle(&first, f64::from(angle) * 0.5236) * about;
+                            let across =
+                                Rotation3::from_axis_angle(&first, f64::from(angle) * 0.5236) * about;
                             let off = turned * (first.into_inner() * height + across.into_inner() * 0.005);
                             let error = (tip + off) - (piece_tip + back * off);
                             worst = worst.max(error.norm());

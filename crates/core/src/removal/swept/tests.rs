@@ -44,7 +44,11 @@ impl Plain {
         if h < 0.0 || h > self.length {
             return f64::INFINITY;
         }
-        let taper = if (3..=5).contains(&self.kind) { self.angle } else { 0.0 };
+        let taper = if (3..=5).contains(&self.kind) {
+            self.angle
+        } else {
+            0.0
+        };
         if self.kind == 6 {
             return rho - (h * (self.angle + 0.5).tan()).min(self.radius);
         }
@@ -61,15 +65,20 @@ impl Plain {
 }
 
 fn plain() -> impl Strategy<Value = Plain> {
-    (0_usize..7, 1.0..8.0_f64, 0.05..0.95_f64, 0.02..0.7_f64, 12.0..40.0_f64).prop_map(
-        |(kind, radius, part, angle, length)| Plain {
+    (
+        0_usize..7,
+        1.0..8.0_f64,
+        0.05..0.95_f64,
+        0.02..0.7_f64,
+        12.0..40.0_f64,
+    )
+        .prop_map(|(kind, radius, part, angle, length)| Plain {
             kind,
             radius: radius * MM,
             corner: part * radius * MM,
             angle,
             length: length * MM,
-        },
-    )
+        })
 }
 
 /// Directions, axes of coordinates among them.
@@ -205,7 +214,12 @@ fn a_ball_on_an_oblique_move_sweeps_a_cylinder_with_its_axis_along_the_move() {
 #[test]
 fn a_plunge_is_the_tool_at_rest_longer_by_the_move() {
     let bull = end_mill(12.0, 2.0);
-    let swept = SweptTool::new(&bull, [Point3::new(0.0, 0.0, 0.04), Point3::origin()], &Vector3::z_axis(), 2);
+    let swept = SweptTool::new(
+        &bull,
+        [Point3::new(0.0, 0.0, 0.04), Point3::origin()],
+        &Vector3::z_axis(),
+        2,
+    );
     // 1 mm out on the corner: r - sqrt(r^2 - 1^2) above the tip.
     let [low, high] = swept.interval([5.0 * MM, 0.0]).unwrap();
     assert!((low - (2.0 - 3.0_f64.sqrt()) * MM).abs() < 1e-15 && (high - 0.07).abs() < 1e-15);
@@ -215,7 +229,12 @@ fn a_plunge_is_the_tool_at_rest_longer_by_the_move() {
 #[test]
 fn a_tool_on_its_side_cuts_with_the_length_of_its_flutes() {
     let flat = end_mill(10.0, 0.0);
-    let swept = SweptTool::new(&flat, [Point3::origin(), Point3::new(0.0, 0.05, 0.0)], &Vector3::x_axis(), 0);
+    let swept = SweptTool::new(
+        &flat,
+        [Point3::origin(), Point3::new(0.0, 0.05, 0.0)],
+        &Vector3::x_axis(),
+        0,
+    );
     // The tool fills x from 0 to 30 mm where a point of the dexel is within 5 mm of the line of the axis.
     assert_eq!(swept.interval([0.02, 3.0 * MM]), Some([0.0, 0.03]));
     assert_eq!(swept.interval([0.02, 5.1 * MM]), None);

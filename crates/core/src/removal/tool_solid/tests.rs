@@ -13,7 +13,10 @@ fn an_end_mill_has_the_radius_of_its_body_at_every_height() {
             let height = 0.5 * MM * f64::from(k);
             let radius = solid.radius_at(height).unwrap();
             // The root at the tip doubles the digits that are lost.
-            assert!((radius - body.radius_at(height)).abs() < 1e-9, "{diameter} {corner} {height}");
+            assert!(
+                (radius - body.radius_at(height)).abs() < 1e-9,
+                "{diameter} {corner} {height}"
+            );
         }
         assert_eq!((solid.radius_at(-1e-9), solid.radius_at(30.1 * MM)), (None, None));
         assert_eq!(solid.heights(), [0.0, 30.0 * MM]);
@@ -113,5 +116,8 @@ fn invalid_tools_are_refused() {
         assert!(ToolSolid::cone(heights, radii).is_err(), "{heights:?} {radii:?}");
     }
     let error = ToolSolid::end_mill(&body, 5.0 * MM).unwrap_err().to_string();
-    assert_eq!(error, "length of the cutting part is 5 mm: must be between 5.001 mm and 10000 mm");
+    assert_eq!(
+        error,
+        "length of the cutting part is 5 mm: must be between 5.001 mm and 10000 mm"
+    );
 }
