@@ -143,7 +143,7 @@ impl Apart {
     #[inline]
     fn ball(&self, ball: &RoundedDisc, off: Parts, end: End) -> bool {
         let off = std::array::from_fn(|n| off[n] - self.axis[n] * ball.height);
-        let t = dot(&off, &self.per_travel).max(0.0).min(1.0);
+        let t = dot(&off, &self.per_travel).clamp(0.0, 1.0);
         let normal: Parts = std::array::from_fn(|n| self.travel[n] * t - off[n]);
         let (square, up) = (dot(&normal, &normal), dot(&normal, &self.axis));
         let least = ball.radius - self.skin;
@@ -157,7 +157,7 @@ impl Apart {
 
     #[inline]
     fn any(&self, off: Parts, end: End) -> bool {
-        let t = dot(&off, &self.per_travel).max(0.0).min(1.0);
+        let t = dot(&off, &self.per_travel).clamp(0.0, 1.0);
         let from_tip: Parts = std::array::from_fn(|n| off[n] - self.travel[n] * t);
         let height = dot(&from_tip, &self.axis);
         let across: Parts = std::array::from_fn(|n| from_tip[n] - self.axis[n] * height);

@@ -55,6 +55,7 @@ pub(super) struct Chord {
 
 impl Chord {
     /// What of a line is within the outline and within the range.
+    #[inline]
     pub(super) fn of(outline: [f64; 2], range: [f64; 2]) -> Option<Chord> {
         let ends = [outline[0].max(range[0]), outline[1].min(range[1])];
         (ends[0] <= ends[1]).then_some(Chord {
@@ -73,6 +74,7 @@ pub(super) struct PlaneLine {
 
 impl PlaneLine {
     /// The part with `v` in this range.
+    #[inline]
     pub(super) fn within(&self, [low, high]: [f64; 2]) -> Option<[f64; 2]> {
         let (v, rate) = (self.start[1], self.rate[1]);
         if rate == 0.0 {
@@ -86,6 +88,7 @@ impl PlaneLine {
 
 impl Conic {
     /// Where `a w + b v` is largest; `None` where the slice is empty. `a` is not negative.
+    #[inline]
     pub(super) fn farthest(&self, a: f64, b: f64) -> Option<Farthest> {
         let root = self.root?;
         let [low, high] = self.range;
@@ -106,6 +109,7 @@ impl Conic {
     }
 
     /// Where the derivative of `a w + b v` is zero; infinite, or an end, where it is zero nowhere.
+    #[inline]
     fn stationary(&self, a: f64, b: f64, root: f64) -> f64 {
         let [low, high] = self.range;
         let excess = b * b - a * a * self.c;
@@ -127,6 +131,7 @@ impl Conic {
     }
 
     /// The part of a line within the slice.
+    #[inline]
     pub(super) fn meets(&self, line: &PlaneLine) -> Option<Chord> {
         self.root?;
         let range = line.within(self.range)?;

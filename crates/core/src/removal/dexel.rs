@@ -7,6 +7,8 @@
 //! Each end of material has an origin: the move that made it, or the face of the stock. Where a later move meets a surface
 //! exactly, the first origin stays.
 
+use std::cmp::Ordering;
+
 /// The origin of an end: a move, or a face of the stock.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum EndOrigin {
@@ -184,7 +186,7 @@ impl Tile {
 
     /// Removes the material between two coordinates; gives the length removed, m.
     pub(super) fn remove(&mut self, dexel: usize, [low, high]: [f32; 2], origin: u32) -> f64 {
-        if !(low < high) || self.is_clear(dexel, [low, high]) {
+        if low.partial_cmp(&high) != Some(Ordering::Less) || self.is_clear(dexel, [low, high]) {
             return 0.0;
         }
         let removed = self.length_within(dexel, [low, high]);

@@ -102,7 +102,7 @@ impl StockSolid<'_> {
     pub fn normal(&self, face: u32, at: &Point3<f64>) -> Option<Unit<Vector3<f64>>> {
         let normal = match self {
             StockSolid::Box(_) if face < 6 => {
-                let sign = if face % 2 == 0 { -1.0 } else { 1.0 };
+                let sign = if face.is_multiple_of(2) { -1.0 } else { 1.0 };
                 Vector3::ith((face / 2) as usize, sign)
             }
             StockSolid::Cylinder { base, .. } => match face {

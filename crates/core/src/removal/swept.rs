@@ -117,6 +117,7 @@ enum Slice {
 }
 
 impl Slice {
+    #[inline]
     fn farthest(&self, a: f64, b: f64) -> Option<Farthest> {
         match self {
             Slice::Conic(conic) => conic.farthest(a, b),
@@ -124,6 +125,7 @@ impl Slice {
         }
     }
 
+    #[inline]
     fn meets(&self, line: &PlaneLine) -> Option<Chord> {
         match self {
             Slice::Conic(conic) => conic.meets(line),
@@ -203,12 +205,8 @@ impl SweptTool<'_> {
         self.top
     }
 
-    /// Both ends of the part of the dexel at `at` (coordinates across it) inside of the swept solid, m.
-    pub(super) fn interval(&self, at: [f64; 2]) -> Option<[f64; 2]> {
-        Some([self.end(at, End::Low)?, self.end(at, End::High)?])
-    }
-
-    /// One end of it.
+    /// An end of the part of the dexel at `at` (coordinates across it) inside of the swept solid, m; `None` where it is outside.
+    #[inline]
     pub(super) fn end(&self, at: [f64; 2], end: End) -> Option<f64> {
         let off = [at[0] - self.start[0], at[1] - self.start[1]];
         let along = |per: [f64; 2]| off[0] * per[0] + off[1] * per[1];
@@ -230,6 +228,7 @@ impl SweptTool<'_> {
         Some(self.start_along + s)
     }
 
+    #[inline]
     fn of_move(&self, foot: &Foot, end: End) -> Option<f64> {
         let sign = end.sign();
         let [alpha, alpha_t] = self.per_u;
@@ -258,6 +257,7 @@ impl SweptTool<'_> {
     }
 
     /// An end of the part of the dexel inside of the tool at the time `t`.
+    #[inline]
     fn at_rest(&self, foot: &Foot, t: f64, end: End) -> Option<f64> {
         let line = PlaneLine {
             start: [foot.u - t * self.travel[0], -t * self.travel[1]],
@@ -281,6 +281,7 @@ impl SweptTool<'_> {
         most
     }
 
+    #[inline]
     fn slice(&self, band: &Band, foot: &Foot) -> Option<Slice> {
         let &Foot { y, h, .. } = foot;
         let (sin, cos) = (self.sin, self.cos);
@@ -316,10 +317,10 @@ impl SweptTool<'_> {
                 })
             }
             Side::Corner {
-                centre_radius,
+                centre_radius: 0.0,
                 centre_height,
                 radius,
-            } if centre_radius == 0.0 => {
+            } => {
                 let up = h - centre_height;
                 let b = -(up * sin + y * cos);
                 // The distance of the plane from the centre, without the difference of large numbers.

@@ -72,7 +72,7 @@ impl Torus {
                 best = Some((value, Farthest { w, v, inside }));
             }
         };
-        if !(low <= high) {
+        if low > high {
             return None;
         }
         // A maximum at an end of the band is found there.

@@ -150,7 +150,8 @@ mod tests {
                     for height in [0.0, 0.015, 0.03] {
                         for angle in 0..12 {
                             let across =
-                                Rotation3::from_axis_angle(&first, f64::from(angle) * 0.5236) * about;
+                                Rotation3::from_axis_angle(&first, f64::from(30 * angle).to_radians())
+                                    * about;
                             let off = turned * (first.into_inner() * height + across.into_inner() * 0.005);
                             let error = (tip + off) - (piece_tip + back * off);
                             worst = worst.max(error.norm());

@@ -1,8 +1,7 @@
 //! Material removal, by the public interface: cuts whose result is known in closed form, a voxel computation that shares no code, and runs that
 //! are cancelled, refused or divided among threads.
 
-// Lengths in mm are written as numbers times MM.
-#![allow(missing_docs)]
+#![allow(clippy::unwrap_used, missing_docs)]
 
 mod cuts;
 mod profiles;

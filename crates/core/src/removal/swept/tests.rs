@@ -81,6 +81,13 @@ fn plain() -> impl Strategy<Value = Plain> {
         })
 }
 
+impl SweptTool<'_> {
+    /// Both ends.
+    fn interval(&self, at: [f64; 2]) -> Option<[f64; 2]> {
+        Some([self.end(at, End::Low)?, self.end(at, End::High)?])
+    }
+}
+
 /// Directions, axes of coordinates among them.
 fn direction() -> impl Strategy<Value = Unit<Vector3<f64>>> {
     let any = (-1.0..1.0_f64, 0.0..TAU).prop_map(|(z, turn)| {
