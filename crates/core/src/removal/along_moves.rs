@@ -64,7 +64,7 @@ impl DexelPart {
         watch: Watch,
     ) -> Result<(DexelPart, Vec<MoveRemoval>), RemovalError> {
         checked("the tolerance of a turning axis", turn_tolerance, TOLERANCES)?;
-        check(moves)?;
+        check(moves, tool, turn_tolerance)?;
         let mut removals = vec![MoveRemoval::default(); moves.len()];
         let mut first = 0;
         while first < moves.len() {
@@ -230,7 +230,7 @@ impl Progress<'_> {
 }
 
 /// Checks the numbers of moves.
-fn check(moves: &[ToolMove]) -> Result<(), RemovalError> {
+fn check(moves: &[ToolMove], tool: &RotatingTool, turn_tolerance: f64) -> Result<(), RemovalError> {
     for (place, tool_move) in moves.iter().enumerate() {
         let problem = |problem: &'static str| Err(RemovalError::Move { place, problem });
         let coordinates = tool_move.ends.iter().flat_map(|end| end.iter());
@@ -246,6 +246,9 @@ fn check(moves: &[ToolMove]) -> Result<(), RemovalError> {
         if tool_move.turn() > MOST_TURN {
             return problem("the tool axis turns by more than 179 deg: the plane of the turn is not known");
         }
+        if tool_move.pieces(tool.cutting, turn_tolerance) > MOST_PIECES {
+            return problem("the turn of its axis needs more than 100000 pieces: use a larger tolerance");
+        }
         if tool_move.index >= STOCK {
             return problem("its index must be less than 2147483648");
         }
@@ -255,5 +258,7 @@ fn check(moves: &[ToolMove]) -> Result<(), RemovalError> {
 
 /// Largest coordinate of a tip, m.
 const FARTHEST: f64 = 1e3;
+/// Most pieces of a move: it limits the memory.
+const MOST_PIECES: usize = 100_000;
 /// Largest turn of an axis on a move, rad.
 const MOST_TURN: f64 = 179.0 * std::f64::consts::PI / 180.0;

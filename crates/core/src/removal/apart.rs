@@ -1,10 +1,10 @@
 //! Whether a moving tool is on one side of a point of a dexel: a quick sufficient test.
 //!
 //! The swept solid is convex. If a plane through the point `p` has all of it on one side, and the dexel leaves the plane to that side, then
-//! the tool meets the dexel beyond `p` alone, and cuts no material that ends there:
+//! the tool meets the dexel beyond `p` alone, or not at all, and cuts no material that ends there:
 //!
 //! ```text
-//! n . p <= min over x in the tool of n . x  +  min(0, n . m),    n . d > 0
+//! n . p <= min over x in the tool of n . x  +  min(0, n . m),    n . d >= 0
 //! ```
 //!
 //! `n` points from `p` to the nearest point of the core of the tool at the time when its axis is near: of a corner the disc that it is the
@@ -32,6 +32,8 @@ pub(super) struct Apart {
     travel: Parts,
     /// The move over the square of its length; zero of no move.
     per_travel: Parts,
+    /// The same of its part across the axis.
+    per_across: Parts,
     axis: Parts,
     corner: Option<RoundedDisc>,
     /// Lower ends of flanks, and the top.
@@ -81,6 +83,13 @@ impl Apart {
         } else {
             Vector3::zeros()
         };
+        let across_axis = travel - stroke.axis.into_inner() * travel.dot(&stroke.axis);
+        let square_across = across_axis.norm_squared();
+        let per_across = if square_across > 0.0 {
+            across_axis / square_across
+        } else {
+            Vector3::zeros()
+        };
         let mut corner = None;
         let mut rims = Vec::with_capacity(4);
         for band in tool.bands() {
@@ -117,6 +126,7 @@ impl Apart {
             from: parts(&stroke.ends[0].coords),
             travel: parts(&travel),
             per_travel: parts(&per_travel),
+            per_across: parts(&per_across),
             axis: parts(&stroke.axis),
             corner,
             rims,
@@ -133,31 +143,40 @@ impl Apart {
             point[1] - self.from[1],
             point[2] - self.from[2],
         ];
-        match &self.corner {
-            Some(corner) if corner.disc == 0.0 => self.ball(corner, off, end),
-            _ => self.any(off, end),
-        }
+        let of_ball = match &self.corner {
+            Some(corner) if corner.disc == 0.0 => self.ball(corner, &off, end),
+            _ => None,
+        };
+        of_ball.unwrap_or_else(|| self.any(&off, end))
     }
 
-    /// Of a tool that ends in a ball.
+    /// Of a tool that ends in a ball; `None` where the plane of its nearest point is steeper than the flank.
     #[inline]
-    fn ball(&self, ball: &RoundedDisc, off: Parts, end: End) -> bool {
+    fn ball(&self, ball: &RoundedDisc, off: &Parts, end: End) -> Option<bool> {
         let off = std::array::from_fn(|n| off[n] - self.axis[n] * ball.height);
         let t = dot(&off, &self.per_travel).clamp(0.0, 1.0);
         let normal: Parts = std::array::from_fn(|n| self.travel[n] * t - off[n]);
         let (square, up) = (dot(&normal, &normal), dot(&normal, &self.axis));
+        if up < 0.0 || up * up < ball.taper_squared * square {
+            return None;
+        }
         let least = ball.radius - self.skin;
         let leaves = match end {
             End::Low => normal[2] > 0.0,
             End::High => normal[2] < 0.0,
         };
-        // The plane touches the ball and not the flank: it is at least as steep as that.
-        leaves & (square >= least * least) & (up >= 0.0) & (up * up >= ball.taper_squared * square)
+        Some(leaves && square >= least * least)
     }
 
-    #[inline]
-    fn any(&self, off: Parts, end: End) -> bool {
-        let t = dot(&off, &self.per_travel).clamp(0.0, 1.0);
+    fn any(&self, off: &Parts, end: End) -> bool {
+        let along = dot(off, &self.axis);
+        let is_low = self.corner.as_ref().is_some_and(|corner| along < corner.ends);
+        let per = if is_low {
+            &self.per_travel
+        } else {
+            &self.per_across
+        };
+        let t = dot(off, per).clamp(0.0, 1.0);
         let from_tip: Parts = std::array::from_fn(|n| off[n] - self.travel[n] * t);
         let height = dot(&from_tip, &self.axis);
         let across: Parts = std::array::from_fn(|n| from_tip[n] - self.axis[n] * height);
@@ -165,9 +184,10 @@ impl Apart {
         let [out, up] = self.inwards(rho, height);
         let per_rho = if rho > 0.0 { out / rho } else { 0.0 };
         let normal: Parts = std::array::from_fn(|n| across[n] * per_rho + self.axis[n] * up);
+        // A dexel along the plane does not meet what is behind it.
         let leaves = match end {
-            End::Low => normal[2] > 0.0,
-            End::High => normal[2] < 0.0,
+            End::Low => normal[2] >= 0.0,
+            End::High => normal[2] <= 0.0,
         };
         if !leaves {
             return false;

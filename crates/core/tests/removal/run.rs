@@ -154,6 +154,9 @@ fn invalid_numbers_are_refused() {
     );
     let opposite = of(&|motion| motion.axes[1] = -motion.axes[0], 1e-5);
     assert!(opposite.contains("turns by more than 179 deg"), "{opposite}");
+    let turned = Unit::new_normalize(Vector3::new(1.0, 0.0, 0.1));
+    let fine = of(&|motion| motion.axes[1] = turned, 1e-9);
+    assert!(fine.contains("more than 100000 pieces"), "{fine}");
     let index = of(&|motion| motion.index = 1 << 31, 1e-5);
     assert!(index.contains("2147483648"));
     let axis = of(
