@@ -60,7 +60,11 @@ impl Cuts {
 /// Point `k` of the zigzag, m.
 fn place(k: usize) -> Point3<f64> {
     let (row, along) = (k / MOVES, k % MOVES);
-    let along = if row.is_multiple_of(2) { along } else { MOVES - 1 - along };
+    let along = if row.is_multiple_of(2) {
+        along
+    } else {
+        MOVES - 1 - along
+    };
     let (x, y) = (0.8 * along as f64, 90.0 + 0.5 * row as f64);
     Point3::new(x, y, 42.0 + 3.0 * (x / 15.0).sin() * (y / 20.0).cos()) * 1e-3
 }
