@@ -18,6 +18,7 @@ use armill_core::removal::{
 };
 use armill_core::watch::Watch;
 
+/// A millimetre in m.
 pub const MM: f64 = 1e-3;
 
 /// A point given in mm.
