@@ -377,6 +377,7 @@ fn sprung() -> StiffnessModel {
         mass,
         centre: centre.into(),
         inertia: None,
+        relative_uncertainty: 0.0,
     };
     let mut model = StiffnessModel::DRIVES.clone();
     model.structure.springs = (0..6)

@@ -5,7 +5,7 @@
 //!
 //! Read in this order: [`workload`] (arm, poses, loads), [`work`] (the work at a pose), [`clock`] (timing),
 //! [`yardstick`] (plain Rust with trigonometry), [`lanes`], [`armill`], [`kinds`], [`paths`], [`placements`],
-//! [`clearance`], [`cells`], [`peers`], [`agreement`] (all compute the same), [`files`] (input of the Python and C++ peers).
+//! [`clearance`], [`cells`], [`removal`], [`peers`], [`agreement`] (all compute the same), [`files`] (input of the Python and C++ peers).
 
 pub mod agreement;
 pub mod armill;
@@ -18,6 +18,7 @@ pub mod lanes;
 pub mod paths;
 pub mod peers;
 pub mod placements;
+pub mod removal;
 pub mod work;
 pub mod workload;
 pub mod yardstick;

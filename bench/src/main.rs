@@ -24,7 +24,7 @@ use armill_bench::paths::{self, Paths};
 use armill_bench::placements;
 use armill_bench::work::{C66, C66_AT, DEV, DEV_AT, DEV8, IK8};
 use armill_bench::workload::{COUNT, Pose, poses};
-use armill_bench::{agreement, files, kinds, peers, yardstick};
+use armill_bench::{agreement, files, kinds, peers, removal, yardstick};
 use armill_bench::{cells, clearance};
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -96,6 +96,7 @@ fn run(folder: &Path, rounds: usize, part: Part, rows: &str) -> Result<(), Strin
     let (double, single) = (Places::of(&poses), Places::of(&poses));
 
     let (others, zigzag) = (kinds::others(), Paths::zigzag());
+    let cuts = removal::Cuts::zigzag();
     let (steady, leaning) = (placements::Places::steady(), placements::Places::leaning());
     let in_cells = PlacedCells::all(&arm);
     let (cells, postures) = (clearance::cells(arm.robot()), clearance::postures(arm.robot()));
@@ -112,6 +113,7 @@ fn run(folder: &Path, rounds: usize, part: Part, rows: &str) -> Result<(), Strin
         all.extend(peers::candidates(&poses));
     } else {
         all.extend(paths::candidates(&arm, &zigzag));
+        all.extend(removal::candidates(&cuts, &pools[1]));
         all.extend(placements::candidates(&arm, [&steady, &leaning], &pools[0]));
         all.extend(cells::candidates(&arm, &in_cells, &pools[0]));
     }

@@ -221,11 +221,11 @@ pub fn candidates<'a>(
         })
         .note("as with one tool axis"),
         Candidate::new(WHO, SEARCH_WORST, count(SEARCHED), move || {
-            searched(Objective::Worst)
+            searched(Objective::Worst);
         })
         .note("480 places; one no better than the best so far is given up, seen in single precision first"),
         Candidate::new(WHO, SEARCH_MEAN, count(SEARCHED), move || {
-            searched(Objective::Mean)
+            searched(Objective::Mean);
         })
         .note("the same, where the mean counts"),
     ]

@@ -5,7 +5,7 @@
 //! Read [`predict`] first: it is the main idea in one function. Then, in the order of the computation:
 //! [`frame`] and [`spatial`] (poses, twists, wrenches), `statistics` (medians), [`roundness`] (circles of measured points, without a
 //! robot), [`marching_squares`] (level lines and areas on a grid), [`robot`] (chain, postures), [`compliance`],
-//! [`dynamics`] (vibration), [`load`], [`stability`] (of a cut against chatter), [`source`] (sources of the deviation), [`workpiece`] and [`path`] (points), [`motion`] (speed, time, rounded corners), [`kernel`] (many
+//! [`dynamics`] (vibration), [`load`], [`stability`] (of a cut against chatter), [`source`] (sources of the deviation), [`workpiece`] and [`path`] (points), [`removal`] (the part that is left of the stock), [`motion`] (speed, time, rounded corners), [`kernel`] (many
 //! points at once), [`map`] (planes, sections, volumes, the region within a tolerance),
 //! [`optimize`] (the posture along a path), `least_squares`, [`identify`] (joint compliances from load tests), [`calibrate`] (geometry
 //! from measured poses), [`learn`] (what calibration leaves), [`update`] (all measurements of an arm at once), [`measure`] (circular tests and repeated poses), [`budget`] (the error budget of
@@ -33,6 +33,7 @@ pub(crate) mod numbers;
 pub mod optimize;
 pub mod path;
 pub mod predict;
+pub mod removal;
 pub mod robot;
 pub mod roundness;
 pub mod source;

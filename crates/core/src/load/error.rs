@@ -65,7 +65,7 @@ fn allowed([least, most]: [f64; 2], unit: &str) -> String {
 }
 
 /// `value` if it is between `least` and `most`.
-pub(super) fn checked(
+pub(crate) fn checked(
     what: &'static str,
     value: f64,
     [least, most]: [f64; 2],
