@@ -370,7 +370,7 @@ mod tests {
             arm_state.set_joints(&[0.4, -0.3, 0.2, 0.5, -0.8, 0.1]);
             let mut covariance = Matrix3::zeros();
             arm_state.each_unloaded(&[0.0; 6], &Wrench::ZERO, |_, _, u| {
-                covariance += u * u.transpose()
+                covariance += u * u.transpose();
             });
             (arm_state.geometric().linear, covariance)
         };

@@ -7,7 +7,7 @@ use armill_core::robot::{Amount, Axis, Motion};
 use armill_core::units::{to_deg, to_mm};
 use toml_edit::{Array, DocumentMut, InlineTable, Item, Value, value};
 
-use super::geometry_covariance::GeometryCovarianceTable;
+use super::geometry_covariance_table::GeometryCovarianceTable;
 use super::identified::set_sources;
 use crate::document::{Document, Problems};
 

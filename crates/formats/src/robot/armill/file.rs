@@ -4,7 +4,7 @@ use armill_core::units::{from_deg, from_mm, from_um};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::geometry_covariance::GeometryCovarianceTable;
+use super::geometry_covariance_table::GeometryCovarianceTable;
 use crate::controller::ControllerTable;
 use crate::motion::MotionTable;
 use crate::robot::armill::learnt_table::LearntTable;

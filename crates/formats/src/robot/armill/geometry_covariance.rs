@@ -10,30 +10,14 @@
 use armill_core::nalgebra::DMatrix;
 use armill_core::robot::{Axis, Robot, SmallMotion, UncertainGeometry};
 use armill_core::units::{to_deg, to_mm};
-use schemars::JsonSchema;
-use serde::Deserialize;
 use toml_edit::{Array, Item, Table, Value, value};
 
 use super::checks::Checks;
 use super::file::RobotFile;
+use super::geometry_covariance_table::GeometryCovarianceTable;
 
 /// Digits of an entry: combinations of motions are known much better than each of them.
 const DIGITS: usize = 12;
-
-/// The uncertainty of the chain, as written.
-#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct GeometryCovarianceTable {
-    /// The small motions, each `JOINT along AXIS` or `JOINT about AXIS`.
-    #[schemars(length(max = 400))]
-    pub of: Vec<String>,
-    /// Their covariance, one row and column each: mm along an axis, deg about it.
-    #[schemars(length(max = 400))]
-    // unit: mm^2, mm deg, deg^2
-    pub matrix_mm_deg: Vec<Vec<f64>>,
-    /// Key of the source.
-    pub source: String,
-}
 
 impl GeometryCovarianceTable {
     /// Of the chain of `robot`, with this key of the source.

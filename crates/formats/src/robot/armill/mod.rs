@@ -4,7 +4,7 @@
 //! deflects and has mass in addition to the drives (springs, masses, compensator, torque curves, covariance) is read by
 //! `structure`.
 //!
-//! In reading order: `file` (the tables as written), `checks` (what no schema can say, and SI), `geometry_covariance`, `structure`, `vibration`, `bodies`; `spelling`,
+//! In reading order: `file` (the tables as written), `checks` (what no schema can say, and SI), `geometry_covariance_table`, `geometry_covariance`, `structure`, `vibration`, `bodies`; `spelling`,
 //! `write_bodies`, `write_masses`, `write` (a robot of another format as such a file), `identified` (such a file with compliances that were identified),
 //! `calibrated` (with small motions that were), `backlash` (with backlash that was measured), `learned` (with values of `[motion]` from joint logs),
 //! `learnt_table`, `learnt` (with the residual that was learnt, and its file of residuals).
@@ -27,6 +27,7 @@ mod calibrated;
 mod checks;
 mod file;
 mod geometry_covariance;
+mod geometry_covariance_table;
 mod identified;
 mod learned;
 mod learnt;
@@ -55,7 +56,7 @@ use crate::sources;
 
 pub use self::backlash::{JointBacklash, MeasuredBacklash, with_backlash};
 pub use self::calibrated::{Geometry, with_geometry};
-pub use self::geometry_covariance::GeometryCovarianceTable;
+pub use self::geometry_covariance_table::GeometryCovarianceTable;
 pub use self::identified::{Identified, IdentifiedSpring, with_given_springs, with_springs};
 pub use self::learned::{LearnedMotion, with_motion};
 pub(super) use self::learnt::with_residuals_of_its_file;
