@@ -125,11 +125,21 @@ fn compliances_and_backlash_of_the_calibrated_robot_are_those_of_the_arm() {
     assert_eq!(measured["unloaded"]["joints"], alone["unloaded"]["joints"]);
     let result = cell.result("measured").to_string();
     assert!(result.contains("actual:paper"), "{result}");
-    // A calibrated geometry without compliances leaves those of the nominal robot.
+    // A calibrated geometry without compliances leaves those of the nominal robot; its uncertainty is not known, or that of its file.
     cell.file("study.toml", &calibrated);
     cell.file("nominal.toml", with_backlash());
     cell.file("arm.toml", without(&mh12()));
     let nominal = ring(&cell, "nominal");
+    let warned = |out: &str| {
+        cell.result(out)["warnings"]
+            .to_string()
+            .contains("the calibrated geometry")
+    };
+    assert!(warned("nominal"));
+    let uncertain = "[geometry_covariance]\nof = [\"S about z\"]\nmatrix_mm_deg = [[1e-4]]\nsource = \"ros-industrial\"\n\n[[frame]]";
+    cell.file("arm.toml", without(&mh12()).replacen("[[frame]]", uncertain, 1));
+    ring(&cell, "known");
+    assert!(!warned("known"));
     assert!((number(&nominal["max_in_plane_um"]) - number(&alone["max_in_plane_um"])).abs() < 1e-6);
     cell.file("nominal.toml", without(&mh12()));
     let said = cell.armill(&["run", "study.toml", "--no-pictures"]);

@@ -5,7 +5,7 @@
 //! | where the controller takes the tool, limits, speeds, bodies | `robot` |
 //! | where the tool is | `calibrated_robot` |
 //! | compliances, springs, masses, backlash, repeatability | `calibrated_robot` if it has compliances, otherwise `robot` |
-//! | learnt residual | `calibrated_robot` |
+//! | learnt residual, uncertainty of the geometry | `calibrated_robot` |
 
 use std::path::Path;
 use std::sync::Arc;
@@ -123,6 +123,7 @@ impl CalibratedArm {
         let Some(compliance) = self.robot.compliance() else {
             let structure = Structure {
                 learnt: self.robot.structure().learnt.clone(),
+                geometry: self.robot.structure().geometry.clone(),
                 ..believed.robot.structure().clone()
             };
             believed.robot = believed.robot.with_structure(structure).map_err(refused)?;
