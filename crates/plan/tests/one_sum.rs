@@ -149,7 +149,7 @@ fn with_uncertain_geometry(text: &str) -> String {
         after: Vec::new(),
         what: "made up".to_owned(),
         place: "this test".to_owned(),
-        covariance: Some(GeometryCovarianceTable::of(&robot, &geometry, Geometry::SOURCE)),
+        covariance: Some(GeometryCovarianceTable::of(&robot, &geometry)),
     };
     with_geometry("calibrated.toml", text, &calibrated).unwrap()
 }

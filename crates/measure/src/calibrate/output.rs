@@ -104,7 +104,7 @@ pub fn robot_file(
         what,
         place: calibration.training.file.clone(),
         covariance: (calibration.after.uncertainty())
-            .map(|geometry| GeometryCovarianceTable::of(robot, &geometry, Geometry::SOURCE)),
+            .map(|geometry| GeometryCovarianceTable::of(robot, &geometry)),
     };
     Ok(with_geometry(path, text, &geometry)?)
 }

@@ -45,8 +45,7 @@ pub fn robot_file(
         after,
         what: what("geometry"),
         place: measurements.file.clone(),
-        covariance: (posterior.geometry())
-            .map(|geometry| GeometryCovarianceTable::of(robot, &geometry, Geometry::SOURCE)),
+        covariance: (posterior.geometry()).map(|geometry| GeometryCovarianceTable::of(robot, &geometry)),
     };
     let mut written = with_geometry(path, text, &geometry)?;
     if let Some(identified) = drives(measurements, posterior, what("compliances of the drives")) {

@@ -82,7 +82,7 @@ pub fn robot_file(
             ),
             place: learning.file.clone(),
             covariance: (learning.calibrated.uncertainty())
-                .map(|geometry| GeometryCovarianceTable::of(robot, &geometry, Geometry::SOURCE)),
+                .map(|geometry| GeometryCovarianceTable::of(robot, &geometry)),
         };
         text = with_geometry(path, &text, &geometry)?;
     }

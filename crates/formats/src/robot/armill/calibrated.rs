@@ -20,17 +20,12 @@ pub struct Geometry {
     pub what: String,
     /// Where these poses are kept.
     pub place: String,
-    /// How uncertain the chain with these motions is; its source is [`Geometry::SOURCE`].
+    /// How uncertain the chain with these motions is.
     pub covariance: Option<GeometryCovarianceTable>,
 }
 
-impl Geometry {
-    /// Key of the source of what was calibrated.
-    pub const SOURCE: &str = KEY;
-}
-
 /// Key of the source, and mark of each motion.
-const KEY: &str = "calibrated";
+pub(super) const KEY: &str = "calibrated";
 /// Digits kept behind the point of mm and deg: a millionth of what a tracker sees.
 const PLACES: usize = 8;
 

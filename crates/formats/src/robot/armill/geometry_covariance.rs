@@ -12,6 +12,7 @@ use armill_core::robot::{Axis, Robot, SmallMotion, UncertainGeometry};
 use armill_core::units::{to_deg, to_mm};
 use toml_edit::{Array, Item, Table, Value, value};
 
+use super::calibrated;
 use super::checks::Checks;
 use super::file::RobotFile;
 use super::geometry_covariance_table::GeometryCovarianceTable;
@@ -20,8 +21,8 @@ use super::geometry_covariance_table::GeometryCovarianceTable;
 const DIGITS: usize = 12;
 
 impl GeometryCovarianceTable {
-    /// Of the chain of `robot`, with this key of the source.
-    pub fn of(robot: &Robot, geometry: &UncertainGeometry, source: &str) -> GeometryCovarianceTable {
+    /// Of the chain of `robot`, from the calibration that found it.
+    pub fn of(robot: &Robot, geometry: &UncertainGeometry) -> GeometryCovarianceTable {
         let name = |motion: &SmallMotion| {
             let joint = &robot.joints()[motion.after].name;
             let axis = Axis::ALL[motion.component % 3].letter();
@@ -38,7 +39,7 @@ impl GeometryCovarianceTable {
             matrix_mm_deg: (0..size)
                 .map(|i| (0..size).map(|j| entry(i, j)).collect())
                 .collect(),
-            source: source.to_owned(),
+            source: calibrated::KEY.to_owned(),
         }
     }
 
@@ -172,7 +173,7 @@ mod tests {
             after: Vec::new(),
             what: "20 poses".to_owned(),
             place: "poses.csv".to_owned(),
-            covariance: Some(GeometryCovarianceTable::of(&robot, &geometry(), Geometry::SOURCE)),
+            covariance: Some(GeometryCovarianceTable::of(&robot, &geometry())),
         };
         with_geometry("lever.toml", FILE, &geometry).unwrap()
     }
