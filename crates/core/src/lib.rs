@@ -24,6 +24,7 @@ pub mod kernel;
 pub mod learn;
 pub(crate) mod least_squares;
 pub mod load;
+pub mod machined;
 pub mod map;
 pub mod marching_squares;
 pub mod measure;

@@ -206,8 +206,20 @@ impl Cutting {
         })
     }
 
+    /// The end mills of a path, each with the point that it is used from.
+    ///
+    /// # Errors
+    /// A tool of the program that is not possible.
+    pub fn bodies_along(&self, path: &SampledPath) -> Result<Vec<(usize, EndMillBody)>, NoForces> {
+        let mut bodies = vec![(0, *self.cutter.body())];
+        for (first, operation) in &path.operations {
+            bodies.push((*first, *self.cutter_of(operation)?.body()));
+        }
+        Ok(bodies)
+    }
+
     /// The cutter with the size given in an operation.
-    pub(super) fn cutter_of(&self, operation: &Operation) -> Result<Cutter, NoForces> {
+    fn cutter_of(&self, operation: &Operation) -> Result<Cutter, NoForces> {
         let Some(diameter) = operation.diameter.filter(|diameter| *diameter > 0.0) else {
             return Ok(self.cutter);
         };

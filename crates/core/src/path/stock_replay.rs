@@ -32,15 +32,11 @@ impl<'a> CutStock<'a> {
         (path, placing): (&'a SampledPath, &'a Placing),
         stock: &'a Stock,
     ) -> Result<CutStock<'a>, NoForces> {
-        let mut cutters = vec![(0, *cutting.cutter.body())];
-        for (first, operation) in &path.operations {
-            cutters.push((*first, *cutting.cutter_of(operation)?.body()));
-        }
         Ok(CutStock {
             stock,
             path,
             placing,
-            cutters,
+            cutters: cutting.bodies_along(path)?,
         })
     }
 

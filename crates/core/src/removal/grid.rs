@@ -1,5 +1,7 @@
 //! A grid of parallel dexels over a box, in tiles.
 
+use std::ops::Range;
+
 use nalgebra::Point3;
 use rayon::prelude::*;
 
@@ -80,6 +82,28 @@ impl DexelGrid {
     pub fn at(&self, cell: [usize; 2]) -> [f64; 2] {
         let axes = across(self.k);
         [0, 1].map(|n| self.low[axes[n]] + (cell[n] as f64 + 0.5) * self.sides[n])
+    }
+
+    /// The cells along direction 0 or 1 across the dexels whose dexels are between two coordinates, m.
+    pub fn cells_within(&self, n: usize, [from, to]: [f64; 2]) -> Range<usize> {
+        let (low, count) = (self.low[across(self.k)[n]], self.cells[n] as f64);
+        let place = |coordinate: f64| (coordinate - low) / self.sides[n] - 0.5;
+        let first = place(from).ceil().clamp(0.0, count);
+        let end = (place(to).floor() + 1.0).clamp(first, count);
+        first as usize..end as usize
+    }
+
+    /// Area of a cell, m^2.
+    pub fn cell_area(&self) -> f64 {
+        self.sides[0] * self.sides[1]
+    }
+
+    /// The point of the dexel of a cell at this coordinate along it, m.
+    pub fn position(&self, cell: [usize; 2], along: f64) -> Point3<f64> {
+        let ([first, second], [i, j]) = (self.at(cell), across(self.k));
+        let mut position = Point3::origin();
+        (position[i], position[j], position[self.k]) = (first, second, along);
+        position
     }
 
     /// Material of the dexel of a cell, from low to high; none outside of the grid.

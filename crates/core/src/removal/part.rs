@@ -107,7 +107,27 @@ impl DexelPart {
         cell: f64,
         directions: DexelDirections,
     ) -> Result<DexelPart, RemovalError> {
-        let corners = stock.corners()?;
+        DexelPart::of_solid(stock, stock.corners()?, cell, directions)
+    }
+
+    /// A solid on the raster of this part, for comparison with it. Beyond the box of this part it has no dexels.
+    ///
+    /// # Errors
+    /// As [`DexelPart::new`].
+    pub fn on_same_raster(&self, solid: &StockSolid, cell: f64) -> Result<DexelPart, RemovalError> {
+        let directions = match self.grids.len() {
+            1 => DexelDirections::Z,
+            _ => DexelDirections::All,
+        };
+        DexelPart::of_solid(solid, self.corners, cell, directions)
+    }
+
+    fn of_solid(
+        stock: &StockSolid,
+        corners: [Point3<f64>; 2],
+        cell: f64,
+        directions: DexelDirections,
+    ) -> Result<DexelPart, RemovalError> {
         let PartSize { cells, dexels, bytes } = DexelPart::size(corners, cell, directions)?;
         if dexels > MOST_DEXELS {
             let most = MOST_DEXELS;

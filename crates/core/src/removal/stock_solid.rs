@@ -30,7 +30,7 @@ pub enum StockSolid<'a> {
 
 impl StockSolid<'_> {
     /// The box around it.
-    pub(super) fn corners(&self) -> Result<[Point3<f64>; 2], RemovalError> {
+    pub fn corners(&self) -> Result<[Point3<f64>; 2], RemovalError> {
         match *self {
             StockSolid::Box(corners) => Ok(corners),
             StockSolid::Cylinder { base, radius, height } => {

@@ -22,7 +22,6 @@ use nalgebra::{Point3, Unit, Vector3};
 use super::dexel::EndOrigin;
 use super::outline::nearest;
 use super::part::DexelPart;
-use super::swept::across;
 use super::tool_solid::ToolSolid;
 use super::turning::{Stroke, ToolMove};
 
@@ -49,18 +48,13 @@ impl DexelPart {
             let [columns, rows] = grid.cells();
             let cells = (0..rows).flat_map(move |row| (0..columns).map(move |column| [column, row]));
             cells.flat_map(move |cell| {
-                let (k, at) = (grid.direction(), grid.at(cell));
-                let [i, j] = across(k);
+                let k = grid.direction();
                 grid.material(cell).flat_map(move |span| {
-                    [0, 1].map(|end| {
-                        let mut position = Point3::origin();
-                        (position[i], position[j], position[k]) = (at[0], at[1], span.ends[end]);
-                        SurfacePoint {
-                            position,
-                            direction: k,
-                            begins: end == 0,
-                            origin: span.origins[end],
-                        }
+                    [0, 1].map(|end| SurfacePoint {
+                        position: grid.position(cell, span.ends[end]),
+                        direction: k,
+                        begins: end == 0,
+                        origin: span.origins[end],
                     })
                 })
             })

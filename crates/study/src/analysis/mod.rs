@@ -129,7 +129,7 @@ impl Subject {
             Subject::Map(sheet) => sheet.grid.len(),
             Subject::Sections(sections) => sections.iter().map(|(_, sheet)| sheet.grid.len()).sum(),
             Subject::Volume(_, grid) => grid.len(),
-            Subject::Path(path) => path.track.len() * path::run::passes(path),
+            Subject::Path(path) => path.track.len() * path::run::passes(path) + path.machining_steps(),
             Subject::Holes(holes) => holes.path.track.len(),
         }
     }
@@ -146,7 +146,10 @@ impl Subject {
             };
             memory.bytes()
         };
-        let of_path = |path: &PathAnalysis| path.memory(robot).bytes();
+        let of_path = |path: &PathAnalysis| {
+            let part = path.machined_part.as_ref().map_or(0.0, |part| part.bytes());
+            path.memory(robot).bytes() + part
+        };
         match self {
             Subject::Map(sheet) => of_grid(&OF_MAP, &sheet.setting, sheet.grid.len()),
             Subject::Sections(all) => all

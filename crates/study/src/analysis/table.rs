@@ -5,6 +5,7 @@ use serde::Deserialize;
 
 use crate::analysis::holes::table::HolesTable;
 use crate::analysis::path::cut::CutTable;
+use crate::analysis::path::machined_part::MachinedPartTable;
 use crate::analysis::path::program_table::ProgramTable;
 use crate::analysis::path::shape_tables::{CircleTable, LineTable, RectangleTable};
 use crate::analysis::volume::table::BoxTable;
@@ -80,6 +81,8 @@ pub struct AnalysisTable {
     pub spin_curve_mm_deg: Option<Vec<[f64; 2]>>,
     /// Path: a tool path program, and how the tool follows it; holes: those that it drills.
     pub program: Option<ProgramTable>,
+    /// Path: the part that the tool leaves of its stock, with the deviation of its surface.
+    pub machined_part: Option<MachinedPartTable>,
     /// Holes: a list of them.
     pub holes: Option<HolesTable>,
 }

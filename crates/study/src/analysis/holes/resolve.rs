@@ -91,6 +91,7 @@ impl Resolver<'_> {
             drill: None,
             forces: None,
             measured: None,
+            machined_part: None,
             wants_limits: false,
             features: Vec::new(),
             setting,

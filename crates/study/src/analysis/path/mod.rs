@@ -9,7 +9,7 @@
 //! [`robot_program`]) give its points, [`feature`] marks stretches of them; `load` puts on the load: given cases, a [`cut`], a [`drill`], or [`measured`] forces; `shape_tables`: the tables of
 //! shapes; `spin_curve`: a spin that changes along the path. [`resolve`](mod@resolve) joins these, [`run`] evaluates the path, [`motion`] what the controller makes of it. [`answer`], [`sentence`], [`warnings`] are
 //! its answer; [`columns`], [`pictures`] (with `track_views`, [`point_groups`], `turns`, [`process_limits`], `motion_columns`, `corner_picture`) and [`report`] its files. [`process_loads`]:
-//! what the cut asks of tool and spindle; [`vibration`]: the cuts whose stability is evaluated.
+//! what the cut asks of tool and spindle; [`machined_part`]: the part that comes out; [`vibration`]: the cuts whose stability is evaluated.
 
 pub mod answer;
 pub mod columns;
@@ -19,6 +19,7 @@ pub mod drill;
 pub mod feature;
 pub mod load;
 mod machine_program;
+pub mod machined_part;
 pub mod measured;
 pub mod motion;
 mod motion_columns;
@@ -50,10 +51,12 @@ pub use measured::MeasuredForces;
 pub use robot_program::RobotPath;
 
 use armill_core::load::PathLoad;
+use armill_core::machined::MachiningPath;
 use armill_core::path::{ForceSummary, Shape, SpinCurve, Stock, Track};
 use armill_formats::robot::RobotDescription;
 use armill_formats::toolpath::Summary;
 
+use crate::analysis::path::machined_part::{MachinedSetting, NominalPart};
 use crate::input::memory::{OF_PATH, PointMemory};
 use crate::input::setting::Setting;
 
@@ -80,6 +83,8 @@ pub struct PathAnalysis {
     pub measured: Option<Box<MeasuredForces>>,
     /// Whether the process limits that meet the tolerance are requested.
     pub wants_limits: bool,
+    /// The part that comes out, if it is requested.
+    pub machined_part: Option<Box<MachinedSetting>>,
     /// Requested features.
     pub features: Vec<FeatureTable>,
 }
@@ -143,6 +148,22 @@ impl PathAnalysis {
             points: self.track.len() as f64,
             extra: &OF_PATH,
         }
+    }
+
+    /// Steps of the removal of its part, as its progress counts them; 0 without one.
+    pub fn machining_steps(&self) -> usize {
+        self.machined_part.as_ref().map_or(0, |part| {
+            let path = MachiningPath {
+                track: &self.track,
+                tools: &part.tools,
+                turn_tolerance: 0.0,
+            };
+            let cuts = match part.nominal {
+                NominalPart::Program => 2,
+                NominalPart::Mesh(_) => 1,
+            };
+            self.track.len() + cuts * path.move_count()
+        })
     }
 
     /// Its name in messages: its file, or its shape.

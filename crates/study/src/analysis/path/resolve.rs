@@ -88,6 +88,7 @@ impl Resolver<'_> {
             drill: None,
             forces: None,
             measured: None,
+            machined_part: None,
             wants_limits: table.program.as_ref().is_some_and(|of| of.limits.unwrap_or(true)),
             features: table
                 .program
@@ -106,7 +107,15 @@ impl Resolver<'_> {
             analysis.track.spins = Some(curve.along(&analysis.track.path));
             analysis.spin_curve = Some(curve);
         }
-        let pushes = put_on(log, push, self.folder, &mut analysis)?;
-        Ok(pushes.then_some(analysis))
+        if !put_on(log, push, self.folder, &mut analysis)? {
+            return Ok(None);
+        }
+        if let Some(machined) = &table.machined_part {
+            let Some(found) = self.machined_part(log, machined, &analysis)? else {
+                return Ok(None);
+            };
+            analysis.machined_part = Some(Box::new(found));
+        }
+        Ok(Some(analysis))
     }
 }

@@ -21,6 +21,7 @@ use armill_core::watch::Cancelled;
 use armill_core::workpiece::Plane;
 
 use crate::analysis::path::PathAnalysis;
+use crate::analysis::path::machined_part::MachinedPart;
 use crate::analysis::path::process_loads::ProcessLoads;
 use crate::analysis::path::vibration::{cuts, stability};
 use crate::analysis::runner::Runner;
@@ -45,6 +46,8 @@ pub struct PathResult {
     pub limits: Option<ProgramLimits>,
     /// The motion along it, if it was requested; the load is then that at the feed that is reached.
     pub motion: Option<Motion>,
+    /// The part that comes out, if it was requested.
+    pub machined_part: Option<Box<MachinedPart>>,
     /// The search for spins and branches, if there was one.
     pub searched: Option<SearchResult>,
 }
@@ -196,6 +199,9 @@ impl Runner<'_> {
             },
             process: (analysis.cut.as_ref())
                 .and_then(|cut| ProcessLoads::of(&cut.cutting, &analysis.track, &along.load)),
+            machined_part: self
+                .machined_part(analysis, track, &along, motion.as_ref())?
+                .map(Box::new),
             along,
             forces,
             limits,

@@ -18,7 +18,7 @@ pub mod links;
 pub mod named_shape;
 pub mod permanent;
 pub mod placed;
-mod shape;
+pub(crate) mod shape;
 pub mod tables;
 
 pub use analysis_cell::AnalysisCell;

@@ -41,6 +41,7 @@ use serde::Serialize;
 
 use crate::analysis::clearance::{LeastClearance, in_collision};
 use crate::analysis::path::PathAnalysis;
+use crate::analysis::path::machined_part::answer::MachinedPartAnswer;
 use crate::analysis::path::run::PathResult;
 use crate::analysis::point::{PointAnswer, SettingAnswer};
 use crate::analysis::vibration::VibrationAnswer;
@@ -120,6 +121,8 @@ pub struct PathAnswer {
     pub vibration: Option<VibrationAnswer>,
     /// Effect of backlash and geometry on the deviations; none if load and gravity alone move the tool.
     pub unloaded: Option<UnloadedAnswer>,
+    /// The part that comes out; none if the study does not ask for it.
+    pub machined_part: Option<MachinedPartAnswer>,
     /// What was skipped or assumed.
     pub notes: Vec<String>,
 }
@@ -199,6 +202,7 @@ pub fn answer(
         search: SearchAnswer::of(robot, analysis, found),
         motion: MotionAnswer::of(robot, analysis, found),
         vibration,
+        machined_part: MachinedPartAnswer::of(robot, analysis, found),
         unloaded: UnloadedAnswer::of(robot, analysis, found),
         notes: notes(analysis, found),
         worst_points,

@@ -1,0 +1,256 @@
+//! The part that comes out of a path: cut as programmed and with the deviations of the arm, and compared.
+
+use armill_core::machined::{
+    FollowedPath, MachiningPath, MadeBy, MadePart, MaterialDifference, SearchReach, Stage, SurfaceComparison,
+    SurfaceDeviation, TipDeviation, compare, material_difference, worst_places,
+};
+use armill_core::map::AlongPath;
+use armill_core::motion::Motion;
+use armill_core::nalgebra::{Point3, Vector3};
+use armill_core::path::{Shape, Track};
+use armill_core::removal::{DexelPart, EndOrigin, MoveRemoval, RemovalError, StockSolid};
+use armill_core::source::Deviation;
+use armill_core::spatial::Twist;
+
+use super::{MachinedSetting, NominalPart};
+use crate::analysis::path::PathAnalysis;
+use crate::analysis::runner::Runner;
+use crate::error::StudyError;
+
+/// A part that came out of a path.
+#[derive(Clone, Debug)]
+pub struct MachinedPart {
+    /// Its surface, compared with the nominal one; only where the deviation of the tool is known.
+    pub surface: SurfaceComparison,
+    /// Area where the deviation of the tool is not known, m^2.
+    pub unknown_area: f64,
+    /// Material left and removed too much.
+    pub difference: MaterialDifference,
+    /// Volume removed from the stock, m^3.
+    pub removed: f64,
+    /// Points of the path before which a rapid meets material, and those where shank or holder does.
+    pub contacts: Contacts,
+    /// Deviation of the tool at each point.
+    pub deviations: Vec<Option<TipDeviation>>,
+    /// The part.
+    pub part: DexelPart,
+    /// The nominal part.
+    pub nominal: DexelPart,
+    /// What made the part, and what made the nominal part if that is the program.
+    pub stages: [Vec<Stage>; 2],
+    /// The worst places, worst first.
+    pub worst: Vec<WorstPlace>,
+    /// The path that the part was cut along: closed if it is a circle.
+    pub track: Track,
+}
+
+/// Where what must not touch material does: points of the path.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Contacts {
+    /// Of the rapids before them.
+    pub rapids: Vec<usize>,
+    /// Of shank or holder.
+    pub shank: Vec<usize>,
+}
+
+/// A place with a large deviation.
+#[derive(Clone, Debug)]
+pub struct WorstPlace {
+    /// Its point of the surface.
+    pub point: SurfaceDeviation,
+    /// The point of the path whose move made the surface, and the deviation of the tool there with its shares.
+    pub tool: Option<(usize, Deviation)>,
+}
+
+/// Worst places that are reported.
+const WORST: usize = 5;
+/// Their least distance, in diagonals of the stock.
+const APART: f64 = 0.08;
+/// How far from the nominal surface the part is searched, in radii of the largest tool.
+const REACH: f64 = 1.0;
+/// Turning axes are exact to this part of a cell.
+const TURN: f64 = 0.02;
+/// Least tolerance of turning axes, m.
+const LEAST_TURN: f64 = 1e-6;
+
+impl Runner<'_> {
+    /// The part that comes out of `track` in these postures; `None` if the study does not ask for it.
+    ///
+    /// # Errors
+    /// A stock that is not a solid; cancelled by the watch.
+    pub fn machined_part(
+        &self,
+        analysis: &PathAnalysis,
+        track: &Track,
+        along: &AlongPath,
+        motion: Option<&Motion>,
+    ) -> Result<Option<MachinedPart>, StudyError> {
+        let Some(machined) = &analysis.machined_part else {
+            return Ok(None);
+        };
+        let setting = &analysis.setting;
+        let displacement = |index: usize| setting.motion_displacement(motion, index);
+        let followed = FollowedPath {
+            arm: self.question(setting).arm,
+            uncertainty: setting.uncertainty,
+            track,
+            along,
+            motion: &displacement,
+        };
+        let mut deviations = followed.deviations(self.watch)?;
+        let track = match analysis.shape() {
+            Some(shape @ Shape::Circle { .. }) => {
+                deviations.extend(deviations.first().copied());
+                track.closed(shape.length())
+            }
+            _ => track.clone(),
+        };
+        let cut = self.cut(machined, &track, &deviations);
+        let cut = cut.map_err(|error| match error {
+            RemovalError::Cancelled(cancelled) => StudyError::from(cancelled),
+            error => StudyError::value(
+                format!("{}: {error}", analysis.shown()),
+                "check `machined_part`: stock, cell_mm, tool",
+            ),
+        })?;
+        let points = along.answers.points.len();
+        let shares = |point: &SurfaceDeviation| {
+            let index = path_point(point.made_by)? % points;
+            Some((index, followed.deviation_at(index)?))
+        };
+        let corners = cut.part.corners();
+        let apart = APART * (corners[1] - corners[0]).norm();
+        let worst = worst_places(&cut.surface.points, WORST, apart).into_iter();
+        let worst = worst
+            .map(|index| cut.surface.points[index])
+            .map(|point| WorstPlace {
+                tool: shares(&point),
+                point,
+            });
+        Ok(Some(MachinedPart {
+            worst: worst.collect(),
+            surface: cut.surface,
+            unknown_area: cut.unknown_area,
+            difference: material_difference(&cut.part, &cut.nominal),
+            removed: cut.removed,
+            contacts: cut.contacts,
+            part: cut.part,
+            nominal: cut.nominal,
+            stages: cut.stages,
+            deviations,
+            track,
+        }))
+    }
+
+    fn cut(
+        &self,
+        machined: &MachinedSetting,
+        track: &Track,
+        deviations: &[Option<TipDeviation>],
+    ) -> Result<CutPart, RemovalError> {
+        let stock = DexelPart::new(&machined.stock.solid(), machined.cell, machined.directions)?;
+        let turn_tolerance = (TURN * machined.cell).max(LEAST_TURN);
+        let path = MachiningPath {
+            track,
+            tools: &machined.tools,
+            turn_tolerance,
+        };
+        let stages = [path.stages(Some(deviations)), path.stages(None)];
+        let nominal = match &machined.nominal {
+            NominalPart::Program => path.cut(stock.clone(), &stages[1], self.watch)?.0,
+            NominalPart::Mesh(triangles) => {
+                stock.on_same_raster(&StockSolid::Mesh(triangles), machined.cell)?
+            }
+        };
+        let uncut = stock.volume();
+        let (part, removals) = path.cut(stock, &stages[0], self.watch)?;
+        let wanted = match &machined.nominal {
+            NominalPart::Program => MadeBy::Moves(&stages[1], &machined.tools, turn_tolerance),
+            NominalPart::Mesh(triangles) => MadeBy::Mesh(triangles),
+        };
+        let radii = machined.tools.iter().map(|tool| tool.cutting.radius());
+        let reach = SearchReach {
+            most: REACH * radii.fold(machined.cell, f64::max),
+            cell: machined.cell,
+        };
+        let surface = compare(
+            MadePart {
+                dexels: &part,
+                made_by: MadeBy::Moves(&stages[0], &machined.tools, turn_tolerance),
+            },
+            MadePart {
+                dexels: &nominal,
+                made_by: wanted,
+            },
+            reach,
+            self.watch,
+        )?;
+        let (surface, unknown_area) = known(surface, deviations);
+        Ok(CutPart {
+            removed: uncut - part.volume(),
+            contacts: contacts(&stages[0], &removals),
+            part,
+            nominal,
+            surface,
+            unknown_area,
+            stages,
+        })
+    }
+}
+
+/// The parts and the surface.
+struct CutPart {
+    part: DexelPart,
+    nominal: DexelPart,
+    surface: SurfaceComparison,
+    unknown_area: f64,
+    removed: f64,
+    contacts: Contacts,
+    stages: [Vec<Stage>; 2],
+}
+
+/// The point of the path whose move made a surface.
+pub fn path_point(made_by: EndOrigin) -> Option<usize> {
+    match made_by {
+        EndOrigin::Move(number) => Some(number as usize),
+        EndOrigin::Stock(_) => None,
+    }
+}
+
+/// The surface without what a tool made whose deviation is not known, and the area of that, m^2.
+fn known(surface: SurfaceComparison, deviations: &[Option<TipDeviation>]) -> (SurfaceComparison, f64) {
+    let is_known = |point: &SurfaceDeviation| {
+        let at = |index: usize| deviations.get(index).is_none_or(Option::is_some);
+        path_point(point.made_by).is_none_or(|index| at(index) && at(index.saturating_sub(1)))
+    };
+    let (known, unknown): (Vec<_>, Vec<_>) = surface.points.into_iter().partition(is_known);
+    let area = unknown.iter().map(|point| point.area).sum();
+    let surface = SurfaceComparison {
+        points: known,
+        ..surface
+    };
+    (surface, area)
+}
+
+/// Where rapids, shank or holder meet material.
+fn contacts(stages: &[Stage], removals: &[MoveRemoval]) -> Contacts {
+    let mut found = Contacts::default();
+    let moves = stages.iter().flat_map(|stage| &stage.moves);
+    for (of, removal) in moves.zip(removals) {
+        let index = of.index as usize;
+        if removal.is_rapid_in_material(of) && found.rapids.last() != Some(&index) {
+            found.rapids.push(index);
+        }
+        if !of.is_rapid && removal.contact > 0.0 && found.shank.last() != Some(&index) {
+            found.shank.push(index);
+        }
+    }
+    found
+}
+
+/// Displacement of the material of the tool at a point of the surface (path axes) under this twist of the tool (base), m.
+pub fn displacement_at(track: &Track, index: usize, point: &Point3<f64>, twist: &Twist) -> Vector3<f64> {
+    let path_from_base = track.placing.base_from_path.rotation.inverse();
+    let from_tip = point - track.path.points[index].at;
+    path_from_base * twist.linear + (path_from_base * twist.angular).cross(&from_tip)
+}
