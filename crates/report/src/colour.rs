@@ -1,6 +1,6 @@
 //! Colours: one scale for fields, one colour-blind-safe set for cases, and the greys of axes.
 //!
-//! Fields use viridis (perceptually even, readable in grey); cases use the set of Okabe and Ito (2008).
+//! Fields use viridis (perceptually even, readable in grey), those with signs blue and red (ColorBrewer); cases use the set of Okabe and Ito (2008).
 //!
 //! | what | how it is distinguished |
 //! |---|---|
@@ -46,7 +46,7 @@ const CATEGORIES: [&str; 10] = [
     "#332288",
 ];
 
-/// Which colour scale a field is drawn in. Both rise steadily in lightness, so that they read in grey.
+/// Which colour scale a field is drawn in. The first two rise steadily in lightness, so that they read in grey.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ColourScale {
     /// Dark violet over green to yellow.
@@ -55,6 +55,8 @@ pub enum ColourScale {
     /// Dark blue over grey to yellow; readable with all common types of colour blindness. The pictures of a study do
     /// not use it.
     Cividis,
+    /// Blue over light grey to red, for values with signs on a range that is symmetric about zero.
+    BlueRed,
 }
 
 impl ColourScale {
@@ -64,8 +66,10 @@ impl ColourScale {
         let gradient = match self {
             Self::Viridis => colorous::VIRIDIS,
             Self::Cividis => colorous::CIVIDIS,
+            Self::BlueRed => colorous::RED_BLUE,
         };
         let t = if t.is_finite() { t.clamp(0.0, 1.0) } else { 0.0 };
+        let t = if self == Self::BlueRed { 1.0 - t } else { t };
         let c = gradient.eval_continuous(t);
         mix([c.r, c.g, c.b], [255, 255, 255], SOFTENING)
     }

@@ -26,6 +26,7 @@
 //! | how many poses are met within how much? | [`ErrorDistribution`] |
 //! | what does each joint contribute? | [`ShareBars`] |
 //! | in which direction is the arm compliant? | [`StiffnessEllipse`] |
+//! | how far is the surface of the part from the nominal one? | [`PartView`] |
 //! | what is the posture of the arm? | [`ArmDrawing`] |
 //! | which bodies does it have, and how near are they to what is in the way? | [`CellView`] |
 //!
@@ -65,6 +66,8 @@ mod shares;
 mod wave_bars;
 
 mod arm;
+mod part_view;
+mod shaded;
 
 pub mod html;
 #[cfg(feature = "png")]
@@ -112,6 +115,7 @@ pub use hole_map::{HoleMap, HoleMark};
 pub use map::{DeviationMap, Overlay};
 pub use map_series::{MapSeries, Panel};
 pub use marker::{Marker, MarkerKind};
+pub use part_view::{PartView, PlaceMark};
 pub use path_detail::{NamedLine, PathDetail};
 pub use path_plot::{PathPlot, Series};
 pub use plane::{AxisLabels, Growth};

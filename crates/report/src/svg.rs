@@ -257,6 +257,16 @@ impl Svg {
         );
     }
 
+    /// An image that fills `area`; `href` is a data URI.
+    pub(crate) fn image(&mut self, area: Rect, href: &str) {
+        let Rect { x, y, w, h } = area;
+        let [x, y, w, h] = [x, y, w, h].map(num);
+        let _ = writeln!(
+            self.body,
+            r#"<image x="{x}" y="{y}" width="{w}" height="{h}" preserveAspectRatio="none" href="{href}"/>"#
+        );
+    }
+
     pub(crate) fn line(&mut self, a: Point, b: Point, style: &Style) {
         let _ = writeln!(
             self.body,

@@ -124,6 +124,7 @@ guide! {
     guide_placement: "placement",
     guide_compare: "compare",
     guide_holes: "holes",
+    guide_machined_part: "machined-part",
     guide_material_file: "material-file",
     guide_measured_forces: "measured-forces",
     guide_roundness: "roundness",

@@ -4,24 +4,19 @@
 
 use nalgebra::Point3;
 
-use crate::removal::{DexelGrid, DexelPart, EndOrigin};
+use crate::removal::{DexelGrid, DexelPart, SurfacePoint};
 
 /// An end of material near a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct NearestEnd {
-    /// m
-    pub(super) position: Point3<f64>,
-    /// Direction of its dexel: 0, 1, 2 for x, y, z.
-    pub(super) direction: usize,
-    /// m
+pub(super) struct NearEnd {
+    pub(super) point: SurfacePoint,
+    /// From that point, m.
     pub(super) distance: f64,
-    /// What made it.
-    pub(super) origin: EndOrigin,
 }
 
 /// The end nearest to `point` that is less than `within` (m) from it; of equal ones the first.
-pub(super) fn nearest_end(part: &DexelPart, point: &Point3<f64>, within: f64) -> Option<NearestEnd> {
-    let mut nearest: Option<NearestEnd> = None;
+pub(super) fn nearest_end(part: &DexelPart, point: &Point3<f64>, within: f64) -> Option<NearEnd> {
+    let mut nearest: Option<NearEnd> = None;
     for grid in part.grids() {
         let limit = nearest.map_or(within, |found| found.distance);
         each_end(grid, point, limit, |end| {
@@ -34,7 +29,7 @@ pub(super) fn nearest_end(part: &DexelPart, point: &Point3<f64>, within: f64) ->
 }
 
 /// All ends that are at most `within` (m) from `point`.
-pub(super) fn ends_within(part: &DexelPart, point: &Point3<f64>, within: f64) -> Vec<NearestEnd> {
+pub(super) fn ends_within(part: &DexelPart, point: &Point3<f64>, within: f64) -> Vec<NearEnd> {
     let mut all = Vec::new();
     for grid in part.grids() {
         each_end(grid, point, within, |end| all.push(end));
@@ -42,26 +37,20 @@ pub(super) fn ends_within(part: &DexelPart, point: &Point3<f64>, within: f64) ->
     all
 }
 
-fn each_end(grid: &DexelGrid, point: &Point3<f64>, within: f64, mut out: impl FnMut(NearestEnd)) {
+fn each_end(grid: &DexelGrid, point: &Point3<f64>, within: f64, mut out: impl FnMut(NearEnd)) {
     let k = grid.direction();
     let across = [0, 1, 2].into_iter().filter(|axis| *axis != k);
     let at: Vec<f64> = across.map(|axis| point[axis]).collect();
     let [columns, rows] = [0, 1].map(|n| grid.cells_within(n, [at[n] - within, at[n] + within]));
     for row in rows {
         for column in columns.clone() {
-            let place = grid.at([column, row]);
-            let off = (place[0] - at[0]).hypot(place[1] - at[1]);
-            for span in grid.material([column, row]) {
-                for (end, origin) in span.ends.into_iter().zip(span.origins) {
-                    let distance = off.hypot(end - point[k]);
-                    if distance <= within {
-                        out(NearestEnd {
-                            position: grid.position([column, row], end),
-                            direction: k,
-                            distance,
-                            origin,
-                        });
-                    }
+            for near in grid.surface_at([column, row]) {
+                let distance = (near.position - point).norm();
+                if distance <= within {
+                    out(NearEnd {
+                        point: near,
+                        distance,
+                    });
                 }
             }
         }

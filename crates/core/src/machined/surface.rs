@@ -23,29 +23,13 @@
 use nalgebra::{Point3, Unit, Vector3};
 use rayon::prelude::*;
 
-use super::moves::{PathTool, Stage};
-use super::nearest::{NearestEnd, ends_within, nearest_end};
-use crate::clearance::Triangle;
-use crate::removal::{DexelGrid, DexelPart, EndOrigin, MaterialSpan, ToolMove};
+use super::faces::{Faces, MadePart};
+use super::nearest::{NearEnd, ends_within, nearest_end};
+use crate::removal::{EndOrigin, MaterialSpan, SurfacePoint};
 use crate::watch::{Cancelled, Watch};
 
-/// A part and what made its surface.
-#[derive(Clone, Copy, Debug)]
-pub struct MadePart<'a> {
-    /// Its dexels.
-    pub dexels: &'a DexelPart,
-    /// What made them.
-    pub made_by: MadeBy<'a>,
-}
-
-/// What a part is made by.
-#[derive(Clone, Copy, Debug)]
-pub enum MadeBy<'a> {
-    /// These stages of these tools, with the tolerance of turning axes (m).
-    Moves(&'a [Stage], &'a [PathTool], f64),
-    /// The triangles around it.
-    Mesh(&'a [Triangle]),
-}
+/// Least steepness of a dexel for the deviation at its end: `|n_k|` of the steepest of three is 0.577 at least.
+const LEAST_STEEPNESS: f64 = 0.35;
 
 /// A point of the nominal surface, and the part there.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,174 +70,126 @@ pub struct SearchReach {
     pub cell: f64,
 }
 
-/// Compares a part with the nominal one on the same raster. Of a nominal part that moves make, only what they make is compared; of a mesh all of
-/// its surface.
-///
-/// # Errors
-/// [`Cancelled`] if the watch cancels.
-///
-/// # Panics
-/// If the two have different directions of dexels.
-pub fn compare(
-    part: MadePart<'_>,
-    nominal: MadePart<'_>,
+/// A part and the nominal one on the same raster.
+#[derive(Clone, Debug)]
+pub struct PartComparison<'a> {
+    part: MadePart<'a>,
+    nominal: MadePart<'a>,
+    /// Those of the part and of the nominal part.
+    faces: [Faces<'a>; 2],
     reach: SearchReach,
-    watch: Watch<'_>,
-) -> Result<SurfaceComparison, Cancelled> {
-    let grids = [part, nominal].map(|made| made.dexels.grids());
-    assert_eq!(grids[0].len(), grids[1].len(), "the same directions");
-    let faces = [part, nominal].map(|made| Faces::of(made.made_by));
-    let mut found = SurfaceComparison::default();
-    for (grid, nominal) in grids[0].iter().zip(grids[1]) {
-        let search = Search {
-            part: part.dexels,
-            grid,
-            nominal,
-            faces: &faces,
-            reach,
-        };
-        let rows = (0..nominal.cells()[1]).into_par_iter();
-        let rows: Result<Vec<SurfaceComparison>, Cancelled> = rows
-            .map(|row| match watch.is_cancelled() {
-                true => Err(Cancelled),
-                false => Ok(search.row(row)),
-            })
-            .collect();
-        for row in rows? {
-            found.points.extend(row.points);
-            found.missing_area += row.missing_area;
-        }
-    }
-    Ok(found)
 }
 
 /// Half the diagonal of a cell, and a little more for steep surfaces; in cells.
 const ASIDE: f64 = 0.9;
 
-/// What gives the normal of an end.
-enum Faces<'a> {
-    Moves {
-        by_number: Vec<Option<(usize, ToolMove)>>,
-        tools: &'a [PathTool],
-        turn_tolerance: f64,
-    },
-    Triangles(&'a [Triangle]),
-}
-
-impl<'a> Faces<'a> {
-    fn of(made_by: MadeBy<'a>) -> Faces<'a> {
-        match made_by {
-            MadeBy::Mesh(triangles) => Faces::Triangles(triangles),
-            MadeBy::Moves(stages, tools, turn_tolerance) => {
-                let of_stage = |stage: &'a Stage| stage.moves.iter().map(move |at| (stage.tool, *at));
-                let all = || stages.iter().flat_map(of_stage);
-                let count = all().map(|(_, at)| at.index as usize + 1).max().unwrap_or(0);
-                let mut by_number = vec![None; count];
-                for (tool, at) in all() {
-                    by_number[at.index as usize] = Some((tool, at));
-                }
-                Faces::Moves {
-                    by_number,
-                    tools,
-                    turn_tolerance,
-                }
-            }
+impl<'a> PartComparison<'a> {
+    /// # Panics
+    /// If the two have different directions of dexels.
+    pub fn new(part: MadePart<'a>, nominal: MadePart<'a>, reach: SearchReach) -> PartComparison<'a> {
+        let grids = [part, nominal].map(|made| made.dexels.grids().len());
+        assert_eq!(grids[0], grids[1], "the same directions");
+        PartComparison {
+            faces: [part, nominal].map(|made| Faces::of(&made)),
+            part,
+            nominal,
+            reach,
         }
     }
 
-    /// The normal at an end of this origin; `None` on the stock of moves.
-    fn normal(&self, origin: EndOrigin, position: &Point3<f64>) -> Option<Unit<Vector3<f64>>> {
-        match (self, origin) {
-            (Faces::Triangles(triangles), EndOrigin::Stock(number)) => {
-                let [a, b, c] = triangles.get(number as usize)?.0;
-                Unit::try_new((b - a).cross(&(c - a)), 0.0)
-            }
-            (
-                Faces::Moves {
-                    by_number,
-                    tools,
-                    turn_tolerance,
-                },
-                EndOrigin::Move(number),
-            ) => {
-                let (tool, of) = by_number.get(number as usize)?.as_ref()?;
-                of.surface_normal(&tools[*tool].cutting, *turn_tolerance, position)
-            }
-            _ => None,
-        }
-    }
-}
-
-/// The comparison along the dexels of one direction.
-struct Search<'a> {
-    part: &'a DexelPart,
-    grid: &'a DexelGrid,
-    nominal: &'a DexelGrid,
-    /// Those of the part and of the nominal part.
-    faces: &'a [Faces<'a>; 2],
-    reach: SearchReach,
-}
-
-impl Search<'_> {
-    fn row(&self, row: usize) -> SurfaceComparison {
+    /// All points of the nominal surface. Of a nominal part that moves make, only what they make is compared; of a solid all of its surface.
+    ///
+    /// # Errors
+    /// [`Cancelled`] if the watch cancels.
+    pub fn surface(&self, watch: Watch<'_>) -> Result<SurfaceComparison, Cancelled> {
         let mut found = SurfaceComparison::default();
-        for column in 0..self.nominal.cells()[0] {
+        for (number, grid) in self.nominal.dexels.grids().iter().enumerate() {
+            let rows = (0..grid.cells()[1]).into_par_iter();
+            let rows: Result<Vec<SurfaceComparison>, Cancelled> = rows
+                .map(|row| match watch.is_cancelled() {
+                    true => Err(Cancelled),
+                    false => Ok(self.row(number, row)),
+                })
+                .collect();
+            for row in rows? {
+                found.points.extend(row.points);
+                found.missing_area += row.missing_area;
+            }
+        }
+        Ok(found)
+    }
+
+    /// The normal of the nominal surface at one of its points; `None` where there is none.
+    pub fn nominal_normal(&self, point: &SurfacePoint) -> Option<Unit<Vector3<f64>>> {
+        self.faces[1].normal(point)
+    }
+
+    /// The deviation at a point of the nominal surface, m; `None` where the surface is not made, its dexel meets it too flatly, or no surface of the part is within reach.
+    pub fn deviation_at(&self, point: &SurfacePoint) -> Option<f64> {
+        if !self.faces[1].is_made(point.origin) {
+            return None;
+        }
+        let normal = self.faces[1].normal(point)?;
+        if normal[point.direction].abs() < LEAST_STEEPNESS {
+            return None;
+        }
+        let grids = self.nominal.dexels.grids();
+        let number = grids
+            .iter()
+            .position(|grid| grid.direction() == point.direction)?;
+        let grid = &self.part.dexels.grids()[number];
+        let cell = grid.cell_at(&point.position)?;
+        let spans: Vec<MaterialSpan> = grid.material(cell).collect();
+        Some(self.deviation(&spans, point, &normal)?.0)
+    }
+
+    fn row(&self, number: usize, row: usize) -> SurfaceComparison {
+        let mut found = SurfaceComparison::default();
+        let (grid, of_part) = (
+            &self.nominal.dexels.grids()[number],
+            &self.part.dexels.grids()[number],
+        );
+        for column in 0..grid.cells()[0] {
             let cell = [column, row];
-            let mut here: Option<Vec<MaterialSpan>> = None;
-            for span in self.nominal.material(cell) {
-                for end in 0..2 {
-                    let position = self.nominal.position(cell, span.ends[end]);
-                    let Some(normal) = self.faces[1].normal(span.origins[end], &position) else {
-                        continue;
-                    };
-                    if !self.is_steepest(&normal, end) {
-                        continue;
-                    }
-                    let spans = here.get_or_insert_with(|| self.grid.material(cell).collect());
-                    let area = self.nominal.cell_area() / normal[self.nominal.direction()].abs();
-                    match self.deviation(spans, (end, span), &position, &normal) {
-                        Some((deviation, at, made_by)) => found.points.push(SurfaceDeviation {
-                            position,
-                            normal,
-                            deviation,
-                            on_part: self.nominal.position(cell, at),
-                            direction: self.nominal.direction(),
-                            area,
-                            made_by,
-                            nominal_by: span.origins[end],
-                        }),
-                        None => found.missing_area += area,
-                    }
+            let mut spans: Option<Vec<MaterialSpan>> = None;
+            for point in grid.surface_at(cell) {
+                let normal = self.faces[1].is_made(point.origin);
+                let normal = normal.then(|| self.faces[1].normal(&point)).flatten();
+                let Some(normal) = normal.filter(|normal| is_steepest(normal, &point)) else {
+                    continue;
+                };
+                let spans = spans.get_or_insert_with(|| of_part.material(cell).collect());
+                let area = grid.cell_area() / normal[point.direction].abs();
+                match self.deviation(spans, &point, &normal) {
+                    Some((deviation, at, made_by)) => found.points.push(SurfaceDeviation {
+                        position: point.position,
+                        normal,
+                        deviation,
+                        on_part: grid.position(cell, at),
+                        direction: point.direction,
+                        area,
+                        made_by,
+                        nominal_by: point.origin,
+                    }),
+                    None => found.missing_area += area,
                 }
             }
         }
         found
     }
 
-    /// Whether this direction meets a surface most steeply, of equal ones the first, and material is on the side that the end has.
-    fn is_steepest(&self, normal: &Unit<Vector3<f64>>, end: usize) -> bool {
-        let k = self.nominal.direction();
-        let is_outward = (normal[k] > 0.0) == (end == 1);
-        is_outward
-            && normal.iter().enumerate().all(|(axis, component)| match axis < k {
-                true => component.abs() < normal[k].abs(),
-                false => component.abs() <= normal[k].abs(),
-            })
-    }
-
-    /// The deviation at an end of the nominal part, the end of the part on the dexel, and what made the surface.
+    /// The deviation at a point of the nominal surface, the end of the part on its dexel, and what made the surface.
     fn deviation(
         &self,
         spans: &[MaterialSpan],
-        (end, of): (usize, MaterialSpan),
-        position: &Point3<f64>,
+        point: &SurfacePoint,
         normal: &Unit<Vector3<f64>>,
     ) -> Option<(f64, f64, EndOrigin)> {
-        let nominal = of.ends[end];
+        let (nominal, end) = (point.position[point.direction], usize::from(!point.begins));
         let ends = spans.iter().map(|span| (span.ends[end], span.origins[end]));
-        let on_dexel =
-            ends.min_by(|one, other| (one.0 - nominal).abs().total_cmp(&(other.0 - nominal).abs()));
-        let steep = normal[self.nominal.direction()];
+        let off = |at: f64| (at - nominal).abs();
+        let on_dexel = ends.min_by(|one, other| off(one.0).total_cmp(&off(other.0)));
+        let steep = normal[point.direction];
         let along = on_dexel.map(|(at, origin)| ((at - nominal) * steep, at, origin));
         let near = along.filter(|(deviation, ..)| deviation.abs() <= 0.5 * self.reach.cell);
         if near.is_some() {
@@ -262,13 +198,14 @@ impl Search<'_> {
         let limit = along.map_or(self.reach.most, |(deviation, ..)| {
             deviation.abs().min(self.reach.most)
         });
-        let nearest = nearest_end(self.part, position, limit);
+        let nearest = nearest_end(self.part.dexels, &point.position, limit);
         match (along, nearest) {
             (Some((deviation, at, _)), Some(nearest)) => {
-                let near = ends_within(self.part, position, nearest.distance + self.reach.cell).into_iter();
-                let near = near.map(|end| (self.distance(&end, position), end.origin));
+                let within = nearest.distance + self.reach.cell;
+                let near = ends_within(self.part.dexels, &point.position, within).into_iter();
+                let near = near.map(|end| (self.distance(&end, &point.position), end.point.origin));
                 let least = near.min_by(|one, other| one.0.total_cmp(&other.0));
-                let (distance, origin) = least.unwrap_or((nearest.distance, nearest.origin));
+                let (distance, origin) = least.unwrap_or((nearest.distance, nearest.point.origin));
                 Some((distance.copysign(deviation), at, origin))
             }
             (Some(along), None) if along.0.abs() <= self.reach.most => Some(along),
@@ -277,16 +214,27 @@ impl Search<'_> {
     }
 
     /// The distance of a point from the surface at a near end: from the plane there, where its foot is within the cell.
-    fn distance(&self, nearest: &NearestEnd, point: &Point3<f64>) -> f64 {
-        let normal = self.faces[0].normal(nearest.origin, &nearest.position);
-        // The stock of moves is a box, mostly: its faces are across the dexels.
-        let normal = normal.unwrap_or(Unit::new_unchecked(Vector3::ith(nearest.direction, 1.0)));
-        let from_plane = (point - nearest.position).dot(&normal).abs();
-        let aside = (nearest.distance.powi(2) - from_plane.powi(2)).max(0.0).sqrt();
+    fn distance(&self, near: &NearEnd, point: &Point3<f64>) -> f64 {
+        let Some(normal) = self.faces[0].normal(&near.point) else {
+            return near.distance;
+        };
+        let from_plane = (point - near.point.position).dot(&normal).abs();
+        let aside = (near.distance.powi(2) - from_plane.powi(2)).max(0.0).sqrt();
         if aside <= ASIDE * self.reach.cell {
             from_plane
         } else {
-            nearest.distance
+            near.distance
         }
     }
+}
+
+/// Whether the dexel of a point meets a surface most steeply, of equal ones the first, and material is on the side that the end has.
+fn is_steepest(normal: &Unit<Vector3<f64>>, point: &SurfacePoint) -> bool {
+    let k = point.direction;
+    let is_outward = (normal[k] > 0.0) != point.begins;
+    let steepest = |(axis, component): (usize, &f64)| match axis < k {
+        true => component.abs() < normal[k].abs(),
+        false => component.abs() <= normal[k].abs(),
+    };
+    is_outward && normal.iter().enumerate().all(steepest)
 }

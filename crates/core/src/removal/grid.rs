@@ -93,6 +93,16 @@ impl DexelGrid {
         first as usize..end as usize
     }
 
+    /// The cell whose dexel is nearest to a point; `None` beyond the box.
+    pub fn cell_at(&self, point: &Point3<f64>) -> Option<[usize; 2]> {
+        let axes = across(self.k);
+        let place = |n: usize| {
+            let place = (point[axes[n]] - self.low[axes[n]]) / self.sides[n];
+            (place >= 0.0 && place < self.cells[n] as f64).then_some(place as usize)
+        };
+        Some([place(0)?, place(1)?])
+    }
+
     /// Area of a cell, m^2.
     pub fn cell_area(&self) -> f64 {
         self.sides[0] * self.sides[1]

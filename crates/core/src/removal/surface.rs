@@ -20,6 +20,7 @@
 use nalgebra::{Point3, Unit, Vector3};
 
 use super::dexel::EndOrigin;
+use super::grid::DexelGrid;
 use super::outline::nearest;
 use super::part::DexelPart;
 use super::tool_solid::ToolSolid;
@@ -47,16 +48,20 @@ impl DexelPart {
         self.grids().iter().flat_map(|grid| {
             let [columns, rows] = grid.cells();
             let cells = (0..rows).flat_map(move |row| (0..columns).map(move |column| [column, row]));
-            cells.flat_map(move |cell| {
-                let k = grid.direction();
-                grid.material(cell).flat_map(move |span| {
-                    [0, 1].map(|end| SurfacePoint {
-                        position: grid.position(cell, span.ends[end]),
-                        direction: k,
-                        begins: end == 0,
-                        origin: span.origins[end],
-                    })
-                })
+            cells.flat_map(move |cell| grid.surface_at(cell))
+        })
+    }
+}
+
+impl DexelGrid {
+    /// The points of the surface on the dexel of a cell, from low to high.
+    pub fn surface_at(&self, cell: [usize; 2]) -> impl Iterator<Item = SurfacePoint> {
+        self.material(cell).flat_map(move |span| {
+            [0, 1].map(|end| SurfacePoint {
+                position: self.position(cell, span.ends[end]),
+                direction: self.direction(),
+                begins: end == 0,
+                origin: span.origins[end],
             })
         })
     }

@@ -9,7 +9,7 @@ mod nominal_mesh;
 use armill_core::frame::Isometry;
 use armill_core::load::EndMillBody;
 use armill_core::machined::{
-    MachiningPath, MadeBy, MadePart, PathTool, SearchReach, SurfaceComparison, TipDeviation, compare,
+    CutBy, MachiningPath, MadePart, PartComparison, PathTool, SearchReach, SurfaceComparison, TipDeviation,
 };
 use armill_core::nalgebra::{Matrix3, Point3, Vector3};
 use armill_core::path::{Course, Move, Pace, PathBuilder, Placing, SampledPath, Sampling, Spin, Step, Track};
@@ -114,17 +114,17 @@ pub fn surface(
     let (part, _) = path.cut(stock.clone(), &displaced, Watch::NONE).unwrap();
     let made = |dexels, stages| MadePart {
         dexels,
-        made_by: MadeBy::Moves(stages, &tools, 1e-7),
+        stock: StockSolid::Box(stock.corners()),
+        cut_by: Some(CutBy {
+            stages,
+            tools: &tools,
+            turn_tolerance: 1e-7,
+        }),
     };
     let reach = SearchReach {
         most: 5.0 * MM,
         cell: CELL,
     };
-    compare(
-        made(&part, &displaced),
-        made(&nominal, &programmed),
-        reach,
-        Watch::NONE,
-    )
-    .unwrap()
+    let comparison = PartComparison::new(made(&part, &displaced), made(&nominal, &programmed), reach);
+    comparison.surface(Watch::NONE).unwrap()
 }

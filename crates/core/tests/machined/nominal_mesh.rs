@@ -2,7 +2,9 @@
 
 use armill_core::clearance::Triangle;
 use armill_core::frame::Isometry;
-use armill_core::machined::{MachiningPath, MadeBy, MadePart, SearchReach, compare, material_difference};
+use armill_core::machined::{
+    CutBy, MachiningPath, MadePart, PartComparison, SearchReach, material_difference,
+};
 use armill_core::nalgebra::Point3;
 use armill_core::removal::StockSolid;
 use armill_core::watch::Watch;
@@ -124,13 +126,21 @@ fn rest_material_in_a_corner_and_a_floor_that_is_too_deep() {
     };
     let made = MadePart {
         dexels: &part,
-        made_by: MadeBy::Moves(&stages, &tools, 1e-7),
+        stock: StockSolid::Box(stock.corners()),
+        cut_by: Some(CutBy {
+            stages: &stages,
+            tools: &tools,
+            turn_tolerance: 1e-7,
+        }),
     };
     let wanted = MadePart {
         dexels: &nominal,
-        made_by: MadeBy::Mesh(&triangles),
+        stock: StockSolid::Mesh(&triangles),
+        cut_by: None,
     };
-    let found = compare(made, wanted, reach, Watch::NONE).unwrap();
+    let found = PartComparison::new(made, wanted, reach)
+        .surface(Watch::NONE)
+        .unwrap();
     let (mut floor, mut corner) = (0, 0);
     for point in &found.points {
         let [x, y, z] = [point.position.x, point.position.y, point.position.z].map(|m| m / MM);

@@ -24,6 +24,7 @@ mod view;
 
 pub use bodies::{BodyKind, CellBody, CellView, NearestPair};
 pub use drawing::{ArmDrawing, ArmJoint, ArmPosture};
+pub(crate) use view::Projection;
 pub use view::View;
 
 use crate::font::SMALL_PX;

@@ -50,6 +50,13 @@ impl View {
             Self::Side => (-90.0, 0.0),
             Self::Top => (-90.0, 90.0),
         };
+        Projection::from(azimuth_deg, elevation_deg)
+    }
+}
+
+impl Projection {
+    /// Seen from this direction, deg.
+    pub(crate) fn from(azimuth_deg: f64, elevation_deg: f64) -> Projection {
         let (sa, ca) = from_deg(azimuth_deg).sin_cos();
         let (se, ce) = from_deg(elevation_deg).sin_cos();
         let toward = [ce * ca, ce * sa, se];

@@ -56,7 +56,7 @@ use armill_core::path::{ForceSummary, Shape, SpinCurve, Stock, Track};
 use armill_formats::robot::RobotDescription;
 use armill_formats::toolpath::Summary;
 
-use crate::analysis::path::machined_part::{MachinedSetting, NominalPart};
+use crate::analysis::path::machined_part::MachinedSetting;
 use crate::input::memory::{OF_PATH, PointMemory};
 use crate::input::setting::Setting;
 
@@ -158,11 +158,7 @@ impl PathAnalysis {
                 tools: &part.tools,
                 turn_tolerance: 0.0,
             };
-            let cuts = match part.nominal {
-                NominalPart::Program => 2,
-                NominalPart::Mesh(_) => 1,
-            };
-            self.track.len() + cuts * path.move_count()
+            self.track.len() + 2 * path.move_count()
         })
     }
 

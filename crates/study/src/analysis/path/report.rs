@@ -10,6 +10,7 @@ use crate::analysis::path::answer::{
     FeatureAnswer, LimitAnswer, LimitsAnswer, MotionAnswer, OperationAnswer, PathAnswer, ProgramAnswer,
     SlowPlace, WorstPoint,
 };
+use crate::analysis::path::machined_part;
 use crate::uncertainty_words::deviation_in_words;
 
 /// Operations that a table lists at most; `result.json` has all.
@@ -23,6 +24,9 @@ pub fn add_section(report: Report, paths: &[PathAnswer]) -> Report {
         .table(&followed(paths));
     if paths.iter().any(|path| path.motion.is_some()) {
         report = report.table(&motions(paths));
+    }
+    for table in machined_part::report::tables(paths) {
+        report = report.table(&table);
     }
     for path in paths {
         if !path.worst_points.is_empty() {

@@ -3,6 +3,7 @@
 use armill_core::robot::Robot;
 
 use crate::analysis::path::answer::{CutAnswer, MotionAnswer, PathAnswer};
+use crate::analysis::path::machined_part;
 use crate::analysis::vibration::VibrationAnswer;
 use crate::analysis::words::{LimitCounts, LostPoints, largest_contributor, micrometres};
 use crate::uncertainty_words::u_in_words;
@@ -42,9 +43,13 @@ pub fn sentence(robot: &Robot, path: &PathAnswer) -> String {
         .vibration
         .as_ref()
         .map_or_else(String::new, VibrationAnswer::sentence);
+    let part = path
+        .machined_part
+        .as_ref()
+        .map_or_else(String::new, machined_part::report::sentence);
     let motion = path.motion.as_ref().map_or(String::new(), motion);
     format!(
-        "{}, branch {}: {}the tool deviates by up to {} µm ({}) {where_to}{line}{roundness}; largest contribution: {}; {:.1} % of the path is within {} µm{limits}.{clearance}{process}{vibration}{motion}",
+        "{}, branch {}: {}the tool deviates by up to {} µm ({}) {where_to}{line}{roundness}; largest contribution: {}; {:.1} % of the path is within {} µm{limits}.{clearance}{process}{vibration}{motion}{part}",
         path.name,
         path.followed_branch.as_ref().unwrap_or(&path.branch),
         lost.before_others(),

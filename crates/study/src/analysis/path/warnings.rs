@@ -2,6 +2,7 @@
 //! force.
 
 use crate::analysis::path::answer::{MotionAnswer, PathAnswer};
+use crate::analysis::path::machined_part;
 use crate::analysis::words::micrometres;
 
 /// Stretches without posture that are reported at most.
@@ -83,6 +84,7 @@ pub fn warnings(path: &PathAnswer) -> Vec<String> {
             path.points
         ));
     }
+    warnings.extend(machined_part::report::warnings(path));
     warnings
 }
 

@@ -1,8 +1,8 @@
 //! The part that comes out of a path: cut as programmed and with the deviations of the arm, and compared.
 
 use armill_core::machined::{
-    FollowedPath, MachiningPath, MadeBy, MadePart, MaterialDifference, SearchReach, Stage, SurfaceComparison,
-    SurfaceDeviation, TipDeviation, compare, material_difference, worst_places,
+    CutBy, FollowedPath, MachiningPath, MadePart, MaterialDifference, PartComparison, SearchReach, Stage,
+    SurfaceComparison, SurfaceDeviation, TipDeviation, material_difference, worst_places,
 };
 use armill_core::map::AlongPath;
 use armill_core::motion::Motion;
@@ -149,52 +149,79 @@ impl Runner<'_> {
         deviations: &[Option<TipDeviation>],
     ) -> Result<CutPart, RemovalError> {
         let stock = DexelPart::new(&machined.stock.solid(), machined.cell, machined.directions)?;
-        let turn_tolerance = (TURN * machined.cell).max(LEAST_TURN);
+        let turn_tolerance = turn_tolerance(machined);
         let path = MachiningPath {
             track,
             tools: &machined.tools,
             turn_tolerance,
         };
         let stages = [path.stages(Some(deviations)), path.stages(None)];
+        let uncut = stock.volume();
+        let (programmed, removals) = path.cut(stock.clone(), &stages[1], self.watch)?;
         let nominal = match &machined.nominal {
-            NominalPart::Program => path.cut(stock.clone(), &stages[1], self.watch)?.0,
+            NominalPart::Program => programmed,
             NominalPart::Mesh(triangles) => {
                 stock.on_same_raster(&StockSolid::Mesh(triangles), machined.cell)?
             }
         };
-        let uncut = stock.volume();
-        let (part, removals) = path.cut(stock, &stages[0], self.watch)?;
-        let wanted = match &machined.nominal {
-            NominalPart::Program => MadeBy::Moves(&stages[1], &machined.tools, turn_tolerance),
-            NominalPart::Mesh(triangles) => MadeBy::Mesh(triangles),
-        };
-        let radii = machined.tools.iter().map(|tool| tool.cutting.radius());
-        let reach = SearchReach {
-            most: REACH * radii.fold(machined.cell, f64::max),
-            cell: machined.cell,
-        };
-        let surface = compare(
-            MadePart {
-                dexels: &part,
-                made_by: MadeBy::Moves(&stages[0], &machined.tools, turn_tolerance),
-            },
-            MadePart {
-                dexels: &nominal,
-                made_by: wanted,
-            },
-            reach,
-            self.watch,
-        )?;
+        let (part, _) = path.cut(stock, &stages[0], self.watch)?;
+        let comparison = comparison(machined, [&part, &nominal], [&stages[0], &stages[1]]);
+        let surface = comparison.surface(self.watch)?;
         let (surface, unknown_area) = known(surface, deviations);
         Ok(CutPart {
             removed: uncut - part.volume(),
-            contacts: contacts(&stages[0], &removals),
+            contacts: contacts(&stages[1], &removals),
             part,
             nominal,
             surface,
             unknown_area,
             stages,
         })
+    }
+}
+
+/// How far a turning axis may be off, m.
+fn turn_tolerance(machined: &MachinedSetting) -> f64 {
+    (TURN * machined.cell).max(LEAST_TURN)
+}
+
+/// The comparison of the part and the nominal part, which these stages made.
+fn comparison<'a>(
+    machined: &'a MachinedSetting,
+    [part, nominal]: [&'a DexelPart; 2],
+    [displaced, programmed]: [&'a [Stage]; 2],
+) -> PartComparison<'a> {
+    let cut_by = |stages| CutBy {
+        stages,
+        tools: &machined.tools,
+        turn_tolerance: turn_tolerance(machined),
+    };
+    let made = |dexels, stages| MadePart {
+        dexels,
+        stock: machined.stock.solid(),
+        cut_by: Some(cut_by(stages)),
+    };
+    let wanted = match &machined.nominal {
+        NominalPart::Program => made(nominal, programmed),
+        NominalPart::Mesh(triangles) => MadePart {
+            dexels: nominal,
+            stock: StockSolid::Mesh(triangles),
+            cut_by: None,
+        },
+    };
+    let radii = machined.tools.iter().map(|tool| tool.cutting.radius());
+    let reach = SearchReach {
+        most: REACH * radii.fold(machined.cell, f64::max),
+        cell: machined.cell,
+    };
+    PartComparison::new(made(part, displaced), wanted, reach)
+}
+
+impl MachinedPart {
+    /// The comparison of the part with the nominal part.
+    pub fn comparison<'a>(&'a self, machined: &'a MachinedSetting) -> PartComparison<'a> {
+        let [displaced, programmed] = &self.stages;
+        comparison(machined, [&self.part, &self.nominal], [displaced, programmed])
     }
 }
 
@@ -224,7 +251,10 @@ fn known(surface: SurfaceComparison, deviations: &[Option<TipDeviation>]) -> (Su
         path_point(point.made_by).is_none_or(|index| at(index) && at(index.saturating_sub(1)))
     };
     let (known, unknown): (Vec<_>, Vec<_>) = surface.points.into_iter().partition(is_known);
-    let area = unknown.iter().map(|point| point.area).sum();
+    let area = unknown
+        .iter()
+        .map(|point| point.area)
+        .fold(0.0, |sum, area| sum + area);
     let surface = SurfaceComparison {
         points: known,
         ..surface
@@ -232,7 +262,7 @@ fn known(surface: SurfaceComparison, deviations: &[Option<TipDeviation>]) -> (Su
     (surface, area)
 }
 
-/// Where rapids, shank or holder meet material.
+/// Where rapids, shank or holder meet material as programmed. (A tool that springs back without load touches what it has left, which is no fault of the program.)
 fn contacts(stages: &[Stage], removals: &[MoveRemoval]) -> Contacts {
     let mut found = Contacts::default();
     let moves = stages.iter().flat_map(|stage| &stage.moves);

@@ -1,0 +1,163 @@
+//! The machined part in words and tables.
+
+use armill_report::html::Table;
+
+use super::answer::{MachinedPartAnswer, WorstPlaceAnswer};
+use crate::analysis::cells::{COUNT, NONE, columns, percent, um, without_empty_columns};
+use crate::analysis::path::answer::PathAnswer;
+use crate::analysis::words::micrometres;
+use crate::uncertainty_words::{deviation_in_words, u_in_words};
+
+/// The surface of the part, as a further sentence of a path.
+pub fn sentence(part: &MachinedPartAnswer) -> String {
+    let (Some(left), Some(gouged)) = (part.most_left_um, part.most_gouged_um) else {
+        return " No surface of the part is made by the program.".to_owned();
+    };
+    let worst = part.worst_places.first();
+    let place = worst.map_or_else(String::new, |worst| {
+        let line = worst
+            .line
+            .map_or_else(String::new, |line| format!(", line {line}"));
+        let [x, y, z] = worst.xyz_mm;
+        format!(
+            "; the worst place is at ({x:.1}, {y:.1}, {z:.1}) mm ({}{line}): {}",
+            u_in_words(worst.u_um),
+            worst.cause
+        )
+    });
+    let within = part.fraction_within.map_or_else(String::new, |within| {
+        format!("{:.1} % of its area is within the tolerance", within * 100.0)
+    });
+    format!(
+        " The surface of the part is between {} and {} µm from the nominal one (positive: material is left); {within}{place}.",
+        signed(gouged),
+        signed(left)
+    )
+}
+
+/// A deviation with its sign.
+fn signed(value: f64) -> String {
+    let size = micrometres(value.abs());
+    match value {
+        value if value > 0.0 => format!("+{size}"),
+        value if value < 0.0 => format!("-{size}"),
+        _ => size,
+    }
+}
+
+/// What a user should know of a part before relying on it.
+pub fn warnings(path: &PathAnswer) -> Vec<String> {
+    let Some(part) = &path.machined_part else {
+        return Vec::new();
+    };
+    let name = &path.name;
+    let mut warnings = Vec::new();
+    let mut lines = |lines: &[u32], what: &str| {
+        if let Some(first) = lines.first() {
+            let more = match lines.len() {
+                1 => String::new(),
+                more => format!(", and {} more lines", more - 1),
+            };
+            warnings.push(format!("{name}: {what} line {first}{more}."));
+        }
+    };
+    lines(&part.rapids_in_material, "a rapid meets material before");
+    lines(&part.shank_in_material, "shank or holder meets material at");
+    if part.unknown_area_mm2 > 0.0 {
+        warnings.push(format!(
+            "{name}: the deviation of {:.0} mm² of the surface is not known, because the arm has no posture there; it is in no other value.",
+            part.unknown_area_mm2
+        ));
+    }
+    warnings
+}
+
+/// The tables of all parts: a row a path, then the worst places of each.
+pub fn tables(paths: &[PathAnswer]) -> Vec<Table> {
+    let parts: Vec<(&PathAnswer, &MachinedPartAnswer)> = (paths.iter())
+        .filter_map(|path| Some((path, path.machined_part.as_ref()?)))
+        .collect();
+    if parts.is_empty() {
+        return Vec::new();
+    }
+    let places = parts.iter().filter(|(_, part)| !part.worst_places.is_empty());
+    std::iter::once(surfaces(&parts))
+        .chain(places.map(|(path, part)| worst_places(&path.name, &part.worst_places)))
+        .collect()
+}
+
+/// The surface of each part.
+fn surfaces(parts: &[(&PathAnswer, &MachinedPartAnswer)]) -> Table {
+    let row = |(path, part): &(&PathAnswer, &MachinedPartAnswer)| {
+        vec![
+            path.name.clone(),
+            part.nominal.to_owned(),
+            format!("{:.3}", part.cell_mm),
+            format!("{:.0}", part.area_mm2),
+            part.fraction_within.map_or_else(|| NONE.to_owned(), percent),
+            um(part.most_left_um),
+            um(part.most_gouged_um),
+            um(part.mean_um),
+            um(part.rms_um),
+            um(part.profile_um),
+            format!("{:.1}", part.left_mm3),
+            format!("{:.1}", part.gouged_mm3),
+            format!("{:.0}", part.removed_mm3),
+        ]
+    };
+    without_empty_columns(Table {
+        caption: "Machined parts. Deviation of the surface normal to the nominal one, positive where material is left; mean, root mean square and \
+                  the part within the tolerance by area. Nominal: what the program leaves, or the mesh of the part. Profile: twice the largest \
+                  deviation (profile of a surface, ISO 1101)."
+            .to_owned(),
+        columns: columns(&[
+            ("path", ""),
+            ("nominal", ""),
+            ("cell", "mm"),
+            ("area", "mm²"),
+            ("within the tolerance", "%"),
+            ("most left", "µm"),
+            ("most gouged", "µm"),
+            ("mean", "µm"),
+            ("root mean square", "µm"),
+            ("profile", "µm"),
+            ("material left", "mm³"),
+            ("material gouged", "mm³"),
+            ("removed", "mm³"),
+        ]),
+        rows: parts.iter().map(row).collect(),
+    })
+}
+
+/// The worst places of the surface of one part.
+fn worst_places(name: &str, places: &[WorstPlaceAnswer]) -> Table {
+    let row = |(i, worst): (usize, &WorstPlaceAnswer)| {
+        let [x, y, z] = worst.xyz_mm.map(|mm| format!("{mm:.1}"));
+        let [i_, j, k] = worst.normal_axis.map(|part| format!("{part:.2}"));
+        let number = |number: Option<String>| number.unwrap_or_else(|| NONE.to_owned());
+        vec![
+            (i + 1).to_string(),
+            format!("{x}, {y}, {z}"),
+            format!("{i_}, {j}, {k}"),
+            deviation_in_words(worst.deviation_um, worst.u_um),
+            number(worst.line.map(|line| line.to_string())),
+            number(worst.operation.map(|operation| operation.to_string())),
+            worst.cause.clone(),
+        ]
+    };
+    without_empty_columns(Table {
+        caption: format!(
+            "{name}: the worst places of the surface of the part, each from another part of it, in the frame of the program."
+        ),
+        columns: columns(&[
+            ("place", ""),
+            ("x, y, z", "mm"),
+            ("normal", ""),
+            ("deviation", "µm"),
+            ("line", COUNT),
+            ("operation", COUNT),
+            ("cause", ""),
+        ]),
+        rows: places.iter().enumerate().map(row).collect(),
+    })
+}
