@@ -7,7 +7,7 @@
 //! robot), [`marching_squares`] (level lines and areas on a grid), [`robot`] (chain, postures), [`compliance`],
 //! [`dynamics`] (vibration), [`load`], [`stability`] (of a cut against chatter), [`source`] (sources of the deviation), [`workpiece`] and [`path`] (points), [`removal`] (the part that is left of the stock), [`motion`] (speed, time, rounded corners), [`kernel`] (many
 //! points at once), [`map`] (planes, sections, volumes, the region within a tolerance),
-//! [`optimize`] (the posture along a path), `least_squares`, [`identify`] (joint compliances from load tests), [`calibrate`] (geometry
+//! [`optimize`] (the posture along a path), `least_squares`, [`form`] (form, size and location of measured features), [`identify`] (joint compliances from load tests), [`calibrate`] (geometry
 //! from measured poses), [`learn`] (what calibration leaves), [`update`] (all measurements of an arm at once), [`measure`] (circular tests and repeated poses), [`budget`] (the error budget of
 //! a milled circle), [`torsion`] (of a driven joint, from both encoders and the torque), [`motor_torque`] (friction and load from the torque of the motor).
 //!
@@ -18,6 +18,7 @@ pub mod calibrate;
 pub mod clearance;
 pub mod compliance;
 pub mod dynamics;
+pub mod form;
 pub mod frame;
 pub mod identify;
 pub mod kernel;
