@@ -40,8 +40,10 @@ pub struct SurfaceDeviation {
     pub normal: Unit<Vector3<f64>>,
     /// Distance of the part from it along the normal, m; positive where material is left.
     pub deviation: f64,
-    /// The surface of the part on the same dexel, m.
+    /// The surface of the part: on the same dexel, or at the deviation along the normal where that is above half a cell; m.
     pub on_part: Point3<f64>,
+    /// Whether the surface of the part there is of the same face: not the wall that covers an edge of a floor.
+    pub is_same_face: bool,
     /// Direction of the dexel: 0, 1, 2 for x, y, z.
     pub direction: usize,
     /// Area that it stands for, m^2.
@@ -79,6 +81,20 @@ pub struct PartComparison<'a> {
     faces: [Faces<'a>; 2],
     reach: SearchReach,
 }
+
+/// What was found at a point of the nominal surface.
+struct Found {
+    /// m
+    deviation: f64,
+    /// The end of the part on the dexel, m; `None` where the deviation is not that along the dexel.
+    on_dexel: Option<f64>,
+    /// What made the surface of the part.
+    made_by: EndOrigin,
+    is_same_face: bool,
+}
+
+/// Least cosine between the normals of one face.
+const SAME_FACE: f64 = 0.87;
 
 /// Half the diagonal of a cell, and a little more for steep surfaces; in cells.
 const ASIDE: f64 = 0.9;
@@ -140,7 +156,7 @@ impl<'a> PartComparison<'a> {
         let grid = &self.part.dexels.grids()[number];
         let cell = grid.cell_at(&point.position)?;
         let spans: Vec<MaterialSpan> = grid.material(cell).collect();
-        Some(self.deviation(&spans, point, &normal)?.0)
+        Some(self.deviation(&spans, point, &normal)?.deviation)
     }
 
     fn row(&self, number: usize, row: usize) -> SurfaceComparison {
@@ -161,11 +177,20 @@ impl<'a> PartComparison<'a> {
                 let spans = spans.get_or_insert_with(|| of_part.material(cell).collect());
                 let area = grid.cell_area() / normal[point.direction].abs();
                 match self.deviation(spans, &point, &normal) {
-                    Some((deviation, at, made_by)) => found.points.push(SurfaceDeviation {
+                    Some(Found {
+                        deviation,
+                        on_dexel,
+                        made_by,
+                        is_same_face,
+                    }) => found.points.push(SurfaceDeviation {
                         position: point.position,
                         normal,
                         deviation,
-                        on_part: grid.position(cell, at),
+                        on_part: match on_dexel {
+                            Some(at) => grid.position(cell, at),
+                            None => point.position + normal.into_inner() * deviation,
+                        },
+                        is_same_face,
                         direction: point.direction,
                         area,
                         made_by,
@@ -178,38 +203,62 @@ impl<'a> PartComparison<'a> {
         found
     }
 
-    /// The deviation at a point of the nominal surface, the end of the part on its dexel, and what made the surface.
+    /// The deviation at a point of the nominal surface.
     fn deviation(
         &self,
         spans: &[MaterialSpan],
         point: &SurfacePoint,
         normal: &Unit<Vector3<f64>>,
-    ) -> Option<(f64, f64, EndOrigin)> {
+    ) -> Option<Found> {
         let (nominal, end) = (point.position[point.direction], usize::from(!point.begins));
         let ends = spans.iter().map(|span| (span.ends[end], span.origins[end]));
         let off = |at: f64| (at - nominal).abs();
         let on_dexel = ends.min_by(|one, other| off(one.0).total_cmp(&off(other.0)));
         let steep = normal[point.direction];
-        let along = on_dexel.map(|(at, origin)| ((at - nominal) * steep, at, origin));
-        let near = along.filter(|(deviation, ..)| deviation.abs() <= 0.5 * self.reach.cell);
-        if near.is_some() {
-            return near;
-        }
-        let limit = along.map_or(self.reach.most, |(deviation, ..)| {
-            deviation.abs().min(self.reach.most)
+        let along = on_dexel.map(|(at, made_by)| Found {
+            deviation: (at - nominal) * steep,
+            on_dexel: Some(at),
+            made_by,
+            is_same_face: true,
         });
+        if let Some(near) = &along
+            && near.deviation.abs() <= 0.5 * self.reach.cell
+        {
+            return along;
+        }
+        let most = self.reach.most;
+        let limit = along
+            .as_ref()
+            .map_or(most, |found| found.deviation.abs().min(most));
         let nearest = nearest_end(self.part.dexels, &point.position, limit);
         match (along, nearest) {
-            (Some((deviation, at, _)), Some(nearest)) => {
-                let within = nearest.distance + self.reach.cell;
-                let near = ends_within(self.part.dexels, &point.position, within).into_iter();
-                let near = near.map(|end| (self.distance(&end, &point.position), end.point.origin));
-                let least = near.min_by(|one, other| one.0.total_cmp(&other.0));
-                let (distance, origin) = least.unwrap_or((nearest.distance, nearest.point.origin));
-                Some((distance.copysign(deviation), at, origin))
-            }
-            (Some(along), None) if along.0.abs() <= self.reach.most => Some(along),
+            (Some(along), Some(nearest)) => Some(self.nearest(&along, &nearest, (point, normal))),
+            (Some(along), None) if along.deviation.abs() <= most => Some(Found {
+                on_dexel: None,
+                ..along
+            }),
             _ => None,
+        }
+    }
+
+    /// The deviation from the planes of the ends near a point, with the sign of that along its dexel.
+    fn nearest(
+        &self,
+        along: &Found,
+        nearest: &NearEnd,
+        (point, normal): (&SurfacePoint, &Unit<Vector3<f64>>),
+    ) -> Found {
+        let within = nearest.distance + self.reach.cell;
+        let near = ends_within(self.part.dexels, &point.position, within).into_iter();
+        let near = near.map(|end| (self.distance(&end, &point.position), end.point));
+        let least = near.min_by(|one, other| one.0.total_cmp(&other.0));
+        let (distance, end) = least.unwrap_or((nearest.distance, nearest.point));
+        let face = self.faces[0].normal(&end);
+        Found {
+            deviation: distance.copysign(along.deviation),
+            on_dexel: None,
+            made_by: end.origin,
+            is_same_face: face.is_none_or(|face| face.dot(normal) > SAME_FACE),
         }
     }
 

@@ -10,6 +10,7 @@ use armill_core::units::{to_mm, to_um};
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use super::features::{SurfaceFeatureAnswer, features};
 use super::run::{MachinedPart, WorstPlace, displacement_at, path_point};
 use super::{MachinedSetting, NominalPart};
 use crate::analysis::path::PathAnalysis;
@@ -60,6 +61,8 @@ pub struct MachinedPartAnswer {
     pub shank_in_material: Vec<u32>,
     /// The worst places, worst first, each from another part of the surface.
     pub worst_places: Vec<WorstPlaceAnswer>,
+    /// The features of the path, on the surface that comes out.
+    pub features: Vec<SurfaceFeatureAnswer>,
     /// What was assumed.
     pub notes: Vec<String>,
 }
@@ -148,6 +151,7 @@ impl MachinedPartAnswer {
             worst_places: (part.worst.iter())
                 .map(|worst| worst_place(robot, analysis, part, worst))
                 .collect(),
+            features: features(robot, analysis, part),
             notes: notes(machined),
         })
     }

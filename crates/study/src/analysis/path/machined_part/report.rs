@@ -3,6 +3,7 @@
 use armill_report::html::Table;
 
 use super::answer::{MachinedPartAnswer, WorstPlaceAnswer};
+use super::features::SurfaceFeatureAnswer;
 use crate::analysis::cells::{COUNT, NONE, columns, percent, um, without_empty_columns};
 use crate::analysis::path::answer::PathAnswer;
 use crate::analysis::words::micrometres;
@@ -82,6 +83,12 @@ pub fn tables(paths: &[PathAnswer]) -> Vec<Table> {
     }
     let places = parts.iter().filter(|(_, part)| !part.worst_places.is_empty());
     std::iter::once(surfaces(&parts))
+        .chain(
+            parts
+                .iter()
+                .filter(|(_, part)| !part.features.is_empty())
+                .map(|(path, part)| features(&path.name, &part.features)),
+        )
         .chain(places.map(|(path, part)| worst_places(&path.name, &part.worst_places)))
         .collect()
 }
@@ -126,6 +133,59 @@ fn surfaces(parts: &[(&PathAnswer, &MachinedPartAnswer)]) -> Table {
             ("removed", "mm³"),
         ]),
         rows: parts.iter().map(row).collect(),
+    })
+}
+
+/// The features of the surface of one part.
+fn features(name: &str, features: &[SurfaceFeatureAnswer]) -> Table {
+    let mm = |value: Option<f64>| value.map_or_else(|| NONE.to_owned(), |value| format!("{value:.3}"));
+    let row = |feature: &SurfaceFeatureAnswer| {
+        vec![
+            feature.name.clone(),
+            feature.kind.to_owned(),
+            feature.points.to_string(),
+            um(feature.mean_um),
+            um(feature.profile_um),
+            um(feature.u_um),
+            um(feature.flatness_um),
+            um(feature.offset_um),
+            feature
+                .tilt_deg
+                .map_or_else(|| NONE.to_owned(), |deg| format!("{deg:.4}")),
+            mm(feature.nominal_diameter_mm),
+            um(feature.diameter_change_um),
+            mm(feature.inscribed_diameter_mm),
+            mm(feature.circumscribed_diameter_mm),
+            um(feature.cylindricity_um),
+            um(feature.position_um),
+            feature.missing.clone().unwrap_or_default(),
+        ]
+    };
+    without_empty_columns(Table {
+        caption: format!(
+            "{name}: features of the surface that comes out. Flatness, cylindricity, position and profile after ISO 1101 (minimum zones), \
+             diameters after ISO 14405-1: least squares (GG) as a change from the nominal one, maximum inscribed (GX), minimum circumscribed (GN). \
+             Offset: positive where material is left."
+        ),
+        columns: columns(&[
+            ("feature", ""),
+            ("kind", ""),
+            ("points", COUNT),
+            ("mean", "µm"),
+            ("profile", "µm"),
+            ("u of the largest deviation", "µm"),
+            ("flatness", "µm"),
+            ("offset", "µm"),
+            ("tilt", "deg"),
+            ("nominal diameter", "mm"),
+            ("diameter change", "µm"),
+            ("inscribed diameter", "mm"),
+            ("circumscribed diameter", "mm"),
+            ("cylindricity", "µm"),
+            ("position", "µm"),
+            ("no result", ""),
+        ]),
+        rows: features.iter().map(row).collect(),
     })
 }
 
