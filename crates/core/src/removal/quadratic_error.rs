@@ -13,7 +13,8 @@
 //! | `A`, `b` | matrix and right side; eigenvalues of `A` below [`LEAST`] of the largest are 0: along them `x` is at `c` | -, m |
 //!
 //! On a plane `x = c`, on an edge of two planes the point of the edge next to `c`, at a corner of three the corner. Where the solution is outside
-//! of the cell, the coordinate that is farthest out is clamped to the face and the others are solved again.
+//! of the cell, it is solved again without the eigenvalues below [`LEAST_OUTSIDE`]; then the coordinate that is farthest out is clamped to the face and the others
+//! are solved again.
 //!
 //! Source: Ju, Losasso, Schaefer & Warren 2002, *Dual contouring of Hermite data*, ACM Transactions on Graphics 21(3), section 2 \[recalled\]; clamping \[derived\].
 
@@ -28,6 +29,10 @@ pub(super) struct Tangent {
 
 /// Square of the least singular value that is used, relative to the largest: two planes at 5.7 deg have an edge.
 const LEAST: f64 = 0.05 * 0.05;
+/// The same where the solution is outside of the cell: there a small one is the curvature of one surface, seen from its side, and no edge of two.
+const LEAST_OUTSIDE: f64 = 0.3 * 0.3;
+/// Eigenvalues of unit vectors below this are rounding.
+const ROUNDING: f64 = 1e-12;
 /// Normals with a difference below this are the same.
 const SAME: f64 = 1e-9;
 
@@ -57,9 +62,13 @@ pub(super) fn vertex(tangents: &[Tangent], [low, high]: [Point3<f64>; 2]) -> Poi
 
 /// The solution between two corners.
 fn solve(a: &Matrix3<f64>, b: &Vector3<f64>, [low, high]: [Vector3<f64>; 2]) -> Vector3<f64> {
+    let out = |found: &Vector3<f64>, k: usize| (low[k] - found[k]).max(found[k] - high[k]);
+    let fine = pseudo_solution(a, b, LEAST);
+    if (0..3).all(|k| out(&fine, k) <= 0.0) {
+        return fine;
+    }
     let mut is_clamped = [false; 3];
     let mut clamped = Vector3::zeros();
-    let mut least = None;
     loop {
         let (mut part, mut right) = (*a, b - a * clamped);
         for k in (0..3).filter(|k| is_clamped[*k]) {
@@ -67,26 +76,26 @@ fn solve(a: &Matrix3<f64>, b: &Vector3<f64>, [low, high]: [Vector3<f64>; 2]) -> 
             part.fill_column(k, 0.0);
             right[k] = 0.0;
         }
-        let eigen = part.symmetric_eigen();
-        let least = *least.get_or_insert(LEAST * eigen.eigenvalues.max());
-        let mut found = clamped;
-        for (value, vector) in eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter()) {
-            if *value > least {
-                found += vector * (vector.dot(&right) / value);
-            }
-        }
-        let out = |k: usize| (low[k] - found[k]).max(found[k] - high[k]);
-        let farthest = (0..3)
-            .filter(|k| !is_clamped[*k])
-            .max_by(|i, j| out(*i).total_cmp(&out(*j)));
+        let found = clamped + pseudo_solution(&part, &right, LEAST_OUTSIDE);
+        let free = (0..3).filter(|k| !is_clamped[*k]);
+        let farthest = free.max_by(|i, j| out(&found, *i).total_cmp(&out(&found, *j)));
         match farthest {
-            Some(k) if out(k) > 0.0 => {
+            Some(k) if out(&found, k) > 0.0 => {
                 is_clamped[k] = true;
                 clamped[k] = found[k].clamp(low[k], high[k]);
             }
             _ => return found,
         }
     }
+}
+
+/// The solution without the directions whose eigenvalues are at most `least` of the largest.
+fn pseudo_solution(a: &Matrix3<f64>, b: &Vector3<f64>, least: f64) -> Vector3<f64> {
+    let eigen = a.symmetric_eigen();
+    let pairs = eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter());
+    let least = (least * eigen.eigenvalues.max()).max(ROUNDING);
+    let used = pairs.filter(|(value, _)| **value > least);
+    used.map(|(value, vector)| vector * (vector.dot(b) / value)).sum()
 }
 
 #[cfg(test)]
