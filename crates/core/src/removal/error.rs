@@ -62,6 +62,27 @@ pub enum RemovalError {
         /// What is wrong.
         problem: &'static str,
     },
+    /// A stride of 0.
+    #[error("the stride of the mesh is 0: must be at least 1")]
+    NoStride,
+    /// Too many lattice points in a layer.
+    #[error(
+        "the lattice of the mesh has {points:.3e} points in a layer: the maximum is {most:.1e}; use a larger stride or cell"
+    )]
+    LatticeTooLarge {
+        /// Number.
+        points: f64,
+        /// Maximum number.
+        most: f64,
+    },
+    /// Too many triangles.
+    #[error("the mesh has {triangles} triangles: the maximum is {most}; use a larger stride")]
+    MeshTooLarge {
+        /// Number.
+        triangles: usize,
+        /// Maximum number.
+        most: usize,
+    },
     /// Cancelled from outside; there is no result.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),

@@ -23,6 +23,8 @@ pub enum DexelDirections {
 #[derive(Clone, Debug)]
 pub struct DexelPart {
     corners: [Point3<f64>; 2],
+    /// Cells along x, y and z.
+    pub(super) counts: [usize; 3],
     pub(super) grids: Vec<DexelGrid>,
 }
 
@@ -147,7 +149,11 @@ impl DexelPart {
             stock.fill(&mut grid)?;
             grids.push(grid);
         }
-        Ok(DexelPart { corners, grids })
+        Ok(DexelPart {
+            corners,
+            counts: raster.counts,
+            grids,
+        })
     }
 
     /// Two corners of the box around the stock, the lower one first, m.

@@ -5,6 +5,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod cuts;
+mod meshes;
 mod profiles;
 mod run;
 mod stocks;
