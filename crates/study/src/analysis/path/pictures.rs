@@ -5,6 +5,7 @@
 //! | `vectors` | arrows of the deviation under each case | a shape under constant loads |
 //! | `track` | the path from above, coloured; `track-2` and so on: from each further side of a part that is milled from several | every other path |
 //! | `along` | deviation over distance | every path |
+//! | `part` | the part in the colours of the deviation of its surface | a machined part |
 //! | `polar` | the resulting circle, magnified | a circle |
 //! | `shares` | shares of the joints at the worst points | a path that is reached |
 //! | `turns` | deviation over path and spin of the tool, with the chosen spin | a search |
@@ -28,6 +29,7 @@ use armill_report::{
 
 use crate::analysis::arm::{FromGround, arm_on_ground, standing_tool};
 use crate::analysis::path::answer::PathAnswer;
+use crate::analysis::path::machined_part;
 use crate::analysis::path::point_groups::PointGroups;
 use crate::analysis::path::run::PathResult;
 use crate::analysis::path::track_views::TrackView;
@@ -62,6 +64,7 @@ pub fn pictures(
     };
     let mut pictures = drawing.where_it_deviates();
     pictures.push(drawing.along());
+    pictures.extend(machined_part::pictures::picture(robot, analysis, given, found));
     pictures.extend(drawing.polar());
     pictures.extend(drawing.contributions());
     pictures.extend(super::motion_columns::pictures(

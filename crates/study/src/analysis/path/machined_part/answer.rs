@@ -2,7 +2,7 @@
 //!
 //! Deviations are normal to the nominal surface: positive where material is left, negative where too much is removed. Coordinates are in the frame of the program. Means and fractions are by area.
 
-use armill_core::machined::{SurfaceDeviation, TipDeviation};
+use armill_core::machined::SurfaceDeviation;
 use armill_core::nalgebra::Vector3;
 use armill_core::removal::DexelDirections;
 use armill_core::robot::Robot;
@@ -166,22 +166,6 @@ fn notes(machined: &MachinedSetting) -> Vec<String> {
     notes
 }
 
-/// Standard uncertainty of the deviation at a point of the surface, m: of the position of the tool that made it. `None` where that is not known.
-pub fn uncertainty(
-    analysis: &PathAnalysis,
-    robot: &Robot,
-    part: &MachinedPart,
-) -> impl Fn(&SurfaceDeviation) -> Option<f64> {
-    let is_known = analysis.setting.arm(robot).has_known_uncertainty();
-    let base_from_path = part.track.placing.base_from_path.rotation;
-    move |point| {
-        let index = path_point(point.made_by).filter(|_| is_known)?;
-        let TipDeviation { covariance, .. } = part.deviations.get(index)?.as_ref()?;
-        let normal = base_from_path * point.normal.into_inner();
-        Some(normal.dot(&(covariance * normal)).max(0.0).sqrt())
-    }
-}
-
 fn worst_place(
     robot: &Robot,
     analysis: &PathAnalysis,
@@ -204,7 +188,7 @@ fn worst_place(
         xyz_mm: vector(point.position.coords.map(to_mm)),
         normal_axis: vector(point.normal.into_inner()),
         deviation_um: to_um(point.deviation),
-        u_um: uncertainty(analysis, robot, part)(point).map(to_um),
+        u_um: part.uncertainty(robot, analysis)(point).map(to_um),
         line: index.map(|index| part.track.path.points[index].line),
         operation: index.and_then(operation),
         cause: cause(&analysis.setting.contributor_names(robot), point, &shares),

@@ -19,7 +19,6 @@ use armill_core::units::{to_deg, to_mm, to_um};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::answer::uncertainty;
 use super::run::{MachinedPart, path_point};
 use super::{MachinedSetting, NominalPart};
 use crate::analysis::path::PathAnalysis;
@@ -78,7 +77,7 @@ pub fn features(robot: &Robot, analysis: &PathAnalysis, part: &MachinedPart) -> 
     let of = |feature: &FeatureTable| {
         let points = points_of(machined, part, feature);
         let with_common = |mut answer: SurfaceFeatureAnswer, points: &[SurfaceDeviation]| {
-            add_common(&mut answer, points, &uncertainty(analysis, robot, part));
+            add_common(&mut answer, points, &part.uncertainty(robot, analysis));
             answer
         };
         match feature.kind {

@@ -9,6 +9,7 @@ use armill_core::motion::Motion;
 use armill_core::nalgebra::{Point3, Vector3};
 use armill_core::path::{Shape, Track};
 use armill_core::removal::{DexelPart, EndOrigin, MoveRemoval, RemovalError, StockSolid};
+use armill_core::robot::Robot;
 use armill_core::source::Deviation;
 use armill_core::spatial::Twist;
 
@@ -222,6 +223,32 @@ impl MachinedPart {
     pub fn comparison<'a>(&'a self, machined: &'a MachinedSetting) -> PartComparison<'a> {
         let [displaced, programmed] = &self.stages;
         comparison(machined, [&self.part, &self.nominal], [displaced, programmed])
+    }
+
+    /// Variance of the deviation along a normal (path) of a surface that a move makes, m^2: of the position of the tip there. `None` where it is not known.
+    pub fn variance(
+        &self,
+        robot: &Robot,
+        analysis: &PathAnalysis,
+    ) -> impl Fn(EndOrigin, &Vector3<f64>) -> Option<f64> {
+        let is_known = analysis.setting.arm(robot).has_known_uncertainty();
+        let base_from_path = self.track.placing.base_from_path.rotation;
+        move |made_by, normal| {
+            let index = path_point(made_by).filter(|_| is_known)?;
+            let TipDeviation { covariance, .. } = self.deviations.get(index)?.as_ref()?;
+            let normal = base_from_path * normal;
+            Some(normal.dot(&(covariance * normal)).max(0.0))
+        }
+    }
+
+    /// Standard uncertainty of the deviation at a point of the surface, m; `None` where it is not known.
+    pub fn uncertainty(
+        &self,
+        robot: &Robot,
+        analysis: &PathAnalysis,
+    ) -> impl Fn(&SurfaceDeviation) -> Option<f64> {
+        let variance = self.variance(robot, analysis);
+        move |point| variance(point.made_by, &point.normal).map(f64::sqrt)
     }
 }
 
