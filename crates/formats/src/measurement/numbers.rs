@@ -200,8 +200,7 @@ fn sheet_row(row: &[(u32, Option<f64>)], left: u32, columns: Columns) -> Option<
 
 #[cfg(test)]
 mod tests {
-    use std::io::Cursor;
-
+    use super::super::workbook::tests::workbook_of;
     use super::*;
 
     fn of(text: &str, columns: Columns) -> Result<Vec<Vec<f64>>, Problems> {
@@ -256,40 +255,6 @@ mod tests {
     }
 
     const SHEET: &str = r#"<?xml version="1.0"?><worksheet xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main"><sheetData><row r="1"><c r="A1" t="inlineStr"><is><t>J1</t></is></c></row><row r="2"><c r="A2" t="inlineStr"><is><t>P1</t></is></c><c r="B2"><v>1.5</v></c><c r="C2"><v>-2</v></c></row><row r="3"><c r="A3" t="inlineStr"><is><t>P2</t></is></c><c r="B3"><v>3</v></c><c r="C3"><v>4</v></c></row></sheetData></worksheet>"#;
-
-    fn workbook_of(sheet: &str) -> Vec<u8> {
-        let files = [
-            (
-                "[Content_Types].xml",
-                r#"<?xml version="1.0"?><Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types"><Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/><Default Extension="xml" ContentType="application/xml"/><Override PartName="/xl/workbook.xml" ContentType="application/vnd.openxmlformats-officedocument.spreadsheetml.sheet.main+xml"/></Types>"#,
-            ),
-            (
-                "_rels/.rels",
-                r#"<?xml version="1.0"?><Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Id="r1" Type="http://schemas.openxmlformats.org/officeDocument/2006/relationships/officeDocument" Target="xl/workbook.xml"/></Relationships>"#,
-            ),
-            (
-                "xl/workbook.xml",
-                r#"<?xml version="1.0"?><workbook xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main" xmlns:r="http://schemas.openxmlformats.org/officeDocument/2006/relationships"><sheets><sheet name="Sheet1" sheetId="1" r:id="r1"/></sheets></workbook>"#,
-            ),
-            (
-                "xl/_rels/workbook.xml.rels",
-                r#"<?xml version="1.0"?><Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Id="r1" Type="http://schemas.openxmlformats.org/officeDocument/2006/relationships/worksheet" Target="worksheets/sheet1.xml"/></Relationships>"#,
-            ),
-            ("xl/worksheets/sheet1.xml", sheet),
-        ];
-        let mut bytes = Cursor::new(Vec::new());
-        let mut archive = rawzip::ZipArchiveWriter::new(&mut bytes);
-        for (name, text) in files {
-            use std::io::Write as _;
-            let (mut entry, config) = archive.new_file(name).start().unwrap();
-            let mut data = config.wrap(&mut entry);
-            data.write_all(text.as_bytes()).unwrap();
-            let (_, output) = data.finish().unwrap();
-            entry.finish(output).unwrap();
-        }
-        archive.finish().unwrap();
-        bytes.into_inner()
-    }
 
     #[test]
     fn the_first_sheet_of_a_workbook_is_read_and_damaged_ones_are_refused() {

@@ -137,3 +137,61 @@ fn check_unpacked_size(bytes: &[u8]) -> Result<(), String> {
         false => Ok(()),
     }
 }
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+
+    /// A workbook with this sheet.
+    pub fn workbook_of(sheet: &str) -> Vec<u8> {
+        let files = [
+            (
+                "[Content_Types].xml",
+                r#"<?xml version="1.0"?><Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types"><Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/><Default Extension="xml" ContentType="application/xml"/><Override PartName="/xl/workbook.xml" ContentType="application/vnd.openxmlformats-officedocument.spreadsheetml.sheet.main+xml"/></Types>"#,
+            ),
+            (
+                "_rels/.rels",
+                r#"<?xml version="1.0"?><Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Id="r1" Type="http://schemas.openxmlformats.org/officeDocument/2006/relationships/officeDocument" Target="xl/workbook.xml"/></Relationships>"#,
+            ),
+            (
+                "xl/workbook.xml",
+                r#"<?xml version="1.0"?><workbook xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main" xmlns:r="http://schemas.openxmlformats.org/officeDocument/2006/relationships"><sheets><sheet name="Sheet1" sheetId="1" r:id="r1"/></sheets></workbook>"#,
+            ),
+            (
+                "xl/_rels/workbook.xml.rels",
+                r#"<?xml version="1.0"?><Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Id="r1" Type="http://schemas.openxmlformats.org/officeDocument/2006/relationships/worksheet" Target="worksheets/sheet1.xml"/></Relationships>"#,
+            ),
+            ("xl/worksheets/sheet1.xml", sheet),
+        ];
+        let mut bytes = Cursor::new(Vec::new());
+        let mut archive = rawzip::ZipArchiveWriter::new(&mut bytes);
+        for (name, text) in files {
+            use std::io::Write as _;
+            let (mut entry, config) = archive.new_file(name).start().unwrap();
+            let mut data = config.wrap(&mut entry);
+            data.write_all(text.as_bytes()).unwrap();
+            let (_, output) = data.finish().unwrap();
+            entry.finish(output).unwrap();
+        }
+        archive.finish().unwrap();
+        bytes.into_inner()
+    }
+
+    #[test]
+    fn a_sheet_is_a_text_with_a_line_for_each_row() {
+        let cell = |place: &str, value: &str| format!(r#"<c r="{place}"><v>{value}</v></c>"#);
+        let text =
+            |place: &str, value: &str| format!(r#"<c r="{place}" t="inlineStr"><is><t>{value}</t></is></c>"#);
+        let sheet = format!(
+            r#"<?xml version="1.0"?><worksheet xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main"><sheetData><row r="2">{}{}{}</row><row r="4">{}{}{}</row></sheetData></worksheet>"#,
+            text("B2", "x_mm"),
+            text("C2", "y&#9;mm"),
+            text("D2", "z_mm"),
+            cell("B4", "1.5"),
+            cell("D4", "-3"),
+            cell("F4", "7"),
+        );
+        let read = first_sheet_as_text("a.xlsx", &workbook_of(&sheet)).unwrap();
+        assert_eq!(read, "\nx_mm\ty mm\tz_mm\n\n1.5\t\t-3\n");
+    }
+}

@@ -19,7 +19,8 @@ use armill_core::nalgebra::{Point3, Vector3};
 use armill_core::units::from_mm;
 
 use super::measured::{
-    EMPTY_HINT, FeatureKind, MeasuredFeature, Scan, ScanFormat, ScanReadOptions, normal_of, point_of, unit_of,
+    EMPTY_HINT, MeasuredFeature, MeasuredFeatureKind, Scan, ScanFormat, ScanReadOptions, normal_of, point_of,
+    unit_of,
 };
 use crate::document::lines::{Line, Lines};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
@@ -62,7 +63,7 @@ pub(super) fn read(shown: &str, bytes: &[u8], given: &ScanReadOptions) -> Result
                 break;
             }
         }
-        problems.extend(reader.statement(&line).err());
+        problems.extend(reader.statement(&line).err().into_iter().flatten());
     }
     Problems::from(problems).into_result()?;
     let scan = reader.finished();
@@ -106,7 +107,7 @@ impl Reader<'_> {
         }
     }
 
-    fn statement(&mut self, line: &Line) -> Result<(), Problem> {
+    fn statement(&mut self, line: &Line) -> Result<(), Problems> {
         let text = line.text.trim();
         if text.starts_with("$$") {
             return Ok(());
@@ -140,7 +141,7 @@ impl Reader<'_> {
         }
     }
 
-    fn unit(&mut self, line: &Line, words: &[&str]) -> Result<(), Problem> {
+    fn unit(&mut self, line: &Line, words: &[&str]) -> Result<(), Problems> {
         let word = words.first().copied().unwrap_or_default().to_uppercase();
         let metres = match word.as_str() {
             "MM" => from_mm(1.0),
@@ -163,12 +164,12 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn refused(&self, line: &Line, message: String, hint: &str) -> Problem {
-        line.problem(self.path, 0..line.text.len(), message, hint)
+    fn refused(&self, line: &Line, message: String, hint: &str) -> Problems {
+        line.problem(self.path, 0..line.text.len(), message, hint).into()
     }
 
     /// Up to `count` numbers after the word `CART`; those that are missing are 0 from the fourth on.
-    fn numbers(&self, line: &Line, words: &[&str], least: usize) -> Result<[f64; 7], Problem> {
+    fn numbers(&self, line: &Line, words: &[&str], least: usize) -> Result<[f64; 7], Problems> {
         let Some(at) = words.iter().position(|word| word.eq_ignore_ascii_case("CART")) else {
             return Err(self.refused(line, "coordinates are not Cartesian".to_owned(), STATEMENT_HINT));
         };
@@ -187,13 +188,13 @@ impl Reader<'_> {
     }
 
     /// Coordinates (m) and normal of a point.
-    fn point(&mut self, line: &Line, words: &[&str]) -> Result<[f64; 6], Problem> {
+    fn point(&mut self, line: &Line, words: &[&str]) -> Result<[f64; 6], Problems> {
         let factor = self.factor();
         let [x, y, z, i, j, k, _] = self.numbers(line, words, 3)?;
         Ok([x * factor, y * factor, z * factor, i, j, k])
     }
 
-    fn add(&mut self, line: &Line, values: [f64; 6], name: String) -> Result<(), Problem> {
+    fn add(&mut self, line: &Line, values: [f64; 6], name: String) -> Result<(), Problems> {
         let [x, y, z, normal @ ..] = values;
         let refused = |message| {
             line.problem(
@@ -220,7 +221,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn feature(&mut self, line: &Line, label: &Label, words: &[&str]) -> Result<(), Problem> {
+    fn feature(&mut self, line: &Line, label: &Label, words: &[&str]) -> Result<(), Problems> {
         let kind = words.first().copied().unwrap_or_default().to_uppercase();
         let kind = match kind.as_str() {
             "POINT" => {
@@ -231,23 +232,23 @@ impl Reader<'_> {
                 self.nominal.insert(label.name.clone(), values);
                 return Ok(());
             }
-            "CIRCLE" => FeatureKind::Circle,
-            "CYLNDR" => FeatureKind::Cylinder,
-            "PLANE" => FeatureKind::Plane,
+            "CIRCLE" => MeasuredFeatureKind::Circle,
+            "CYLNDR" => MeasuredFeatureKind::Cylinder,
+            "PLANE" => MeasuredFeatureKind::Plane,
             _ => return Ok(()),
         };
         if !label.is_actual {
             return Ok(());
         }
         let factor = self.factor();
-        let least = if kind == FeatureKind::Plane { 6 } else { 7 };
+        let least = if kind == MeasuredFeatureKind::Plane { 6 } else { 7 };
         let [x, y, z, i, j, k, diameter] = self.numbers(line, words, least)?;
         self.scan.features.push(MeasuredFeature {
             name: label.name.clone(),
             kind,
             at: Some(Point3::new(x, y, z) * factor),
             direction: Vector3::new(i, j, k).try_normalize(0.0),
-            diameter: (kind != FeatureKind::Plane).then_some(diameter * factor),
+            diameter: (kind != MeasuredFeatureKind::Plane).then_some(diameter * factor),
             form: None,
         });
         Ok(())

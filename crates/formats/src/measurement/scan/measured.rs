@@ -59,7 +59,7 @@ pub struct ScanReadOptions {
 
 /// Kind of a feature that the measuring software fitted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FeatureKind {
+pub enum MeasuredFeatureKind {
     /// A plane.
     Plane,
     /// A circle.
@@ -74,7 +74,7 @@ pub struct MeasuredFeature {
     /// Name in the file; empty if it has none.
     pub name: String,
     /// What it is.
-    pub kind: FeatureKind,
+    pub kind: MeasuredFeatureKind,
     /// Its centre, a point of its plane or its axis, m.
     pub at: Option<Point3<f64>>,
     /// Its normal or axis, of length 1.
@@ -164,7 +164,7 @@ pub(super) fn normal_of(vector: [f64; 3]) -> Option<Vector3<f64>> {
 /// # Errors
 /// A coordinate beyond the largest one: what is wrong.
 pub(super) fn point_of(coordinates: [f64; 3]) -> Result<Point3<f64>, String> {
-    match coordinates.iter().find(|x| !(x.abs() <= FARTHEST)) {
+    match coordinates.iter().find(|x| x.is_nan() || x.abs() > FARTHEST) {
         Some(x) => Err(format!("a coordinate of {x} m exceeds {FARTHEST} m")),
         None => Ok(Point3::from(coordinates)),
     }

@@ -23,7 +23,7 @@ use std::io::Read;
 use std::path::Path;
 
 use self::measured::EMPTY_HINT;
-pub use self::measured::{FeatureKind, MeasuredFeature, Scan, ScanFormat, ScanReadOptions};
+pub use self::measured::{MeasuredFeature, MeasuredFeatureKind, Scan, ScanFormat, ScanReadOptions};
 use super::workbook::{first_sheet_as_text, is_workbook};
 use crate::document::lines::Lines;
 use crate::document::{Problem, Problems, unreadable};

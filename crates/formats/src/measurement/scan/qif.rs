@@ -17,7 +17,7 @@ use armill_core::nalgebra::{Point3, Vector3};
 use roxmltree::{Document, Node};
 
 use super::measured::{
-    EMPTY_HINT, FeatureKind, MeasuredFeature, Scan, ScanFormat, ScanReadOptions, normal_of, point_of,
+    EMPTY_HINT, MeasuredFeature, MeasuredFeatureKind, Scan, ScanFormat, ScanReadOptions, normal_of, point_of,
 };
 use crate::document::{MOST_PROBLEMS, Problem, Problems, Source};
 use crate::measurement::profile::qif::{names, numbers, unit};
@@ -56,13 +56,13 @@ pub(super) fn read(shown: &str, bytes: &[u8], given: &ScanReadOptions) -> Result
         match kind {
             "Plane" => scan
                 .features
-                .push(index.feature(node, FeatureKind::Plane, factor)),
+                .push(index.feature(node, MeasuredFeatureKind::Plane, factor)),
             "Circle" => scan
                 .features
-                .push(index.feature(node, FeatureKind::Circle, factor)),
+                .push(index.feature(node, MeasuredFeatureKind::Circle, factor)),
             "Cylinder" => scan
                 .features
-                .push(index.feature(node, FeatureKind::Cylinder, factor)),
+                .push(index.feature(node, MeasuredFeatureKind::Cylinder, factor)),
             _ if kind.ends_with("Point") => {
                 if let Err((place, message)) = index.take(node, factor, &mut scan) {
                     let hint = "a location is three numbers".to_owned();
@@ -152,7 +152,7 @@ impl<'a> Index<'a> {
         Ok(())
     }
 
-    fn feature(&self, node: Node<'a, 'a>, kind: FeatureKind, factor: f64) -> MeasuredFeature {
+    fn feature(&self, node: Node<'a, 'a>, kind: MeasuredFeatureKind, factor: f64) -> MeasuredFeature {
         let axis = children(node, "Axis").next();
         let length = |name| Some(numbers::<1>(children(node, name).next()?)?[0] * factor);
         let at = children(node, "Location")

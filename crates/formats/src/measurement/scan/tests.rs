@@ -2,6 +2,7 @@ use armill_core::nalgebra::{Point3, Vector3};
 
 use super::*;
 use crate::measurement::profile::LengthUnit;
+use crate::measurement::workbook::tests::workbook_of;
 
 fn of(name: &str, text: &str) -> Result<Scan, String> {
     read(name, text.as_bytes(), &ScanReadOptions::default()).map_err(|problems| problems.to_string())
@@ -80,6 +81,52 @@ fn tables_are_read_by_their_names() {
     assert_eq!(found.notes, ["1 rows without a measured point"]);
 }
 
+#[test]
+fn the_first_sheet_of_a_workbook_is_a_table() {
+    let text =
+        |place: &str, value: &str| format!(r#"<c r="{place}" t="inlineStr"><is><t>{value}</t></is></c>"#);
+    let cell = |place: &str, value: &str| format!(r#"<c r="{place}"><v>{value}</v></c>"#);
+    let row = |number: usize, cells: [String; 4]| format!(r#"<row r="{number}">{}</row>"#, cells.concat());
+    let sheet = |y: &str| {
+        format!(
+            r#"<?xml version="1.0"?><worksheet xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main"><sheetData>{}{}{}</sheetData></worksheet>"#,
+            row(
+                1,
+                [
+                    text("A1", "Name"),
+                    text("B1", "X [mm]"),
+                    text("C1", "Y [mm]"),
+                    text("D1", "Z [mm]")
+                ]
+            ),
+            row(
+                2,
+                [
+                    text("A2", "P1"),
+                    cell("B2", "1"),
+                    cell("C2", "-2.5"),
+                    cell("D2", "3")
+                ]
+            ),
+            row(
+                3,
+                [text("A3", "P2"), cell("B3", "4"), text("C3", y), cell("D3", "6")]
+            ),
+        )
+    };
+    let found = read("a.xlsx", &workbook_of(&sheet("5")), &ScanReadOptions::default()).unwrap();
+    near(&found.points, &TWO);
+    assert_eq!(
+        (found.format, found.names),
+        (ScanFormat::Workbook, vec!["P1".to_owned(), "P2".to_owned()])
+    );
+    let problems = read("a.xlsx", &workbook_of(&sheet("x")), &ScanReadOptions::default()).unwrap_err();
+    assert!(
+        problems.to_string().contains("a.xlsx:3:6: `x` is not a number"),
+        "{problems}"
+    );
+}
+
 const CUBE_CORNER: &str =
     "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
 
@@ -139,7 +186,7 @@ fn points_of_qif_have_names_normals_and_nominal_points() {
     };
     assert_eq!(
         (bore.kind, bore.direction),
-        (FeatureKind::Cylinder, Some(Vector3::z()))
+        (MeasuredFeatureKind::Cylinder, Some(Vector3::z()))
     );
     assert!((bore.diameter.unwrap() - 8.5e-3).abs() < 1e-15 && (bore.form.unwrap() - 12e-6).abs() < 1e-18);
 }
@@ -282,6 +329,15 @@ fn samples_of_the_standard_are_read() {
         found
             .features
             .iter()
-            .any(|feature| feature.kind == FeatureKind::Plane)
+            .any(|feature| feature.kind == MeasuredFeatureKind::Plane)
     );
+}
+
+#[test]
+fn zz_rate() {
+    for name in ["/tmp/big.xyz", "/tmp/big.csv"] {
+        let begin = std::time::Instant::now();
+        let found = read_file(Path::new(name), name, &ScanReadOptions::default()).unwrap();
+        println!("RATE {name} {} {:?}", found.points.len(), begin.elapsed());
+    }
 }
