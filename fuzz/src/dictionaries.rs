@@ -166,6 +166,15 @@ pub const PROFILE: &[&str] = &[
     "<QIFDocument>", "</QIFDocument>", "<CircleFeatureActual>", "<CylinderFeatureActual>", "<Axis>", "<AxisPoint>", "<Location>", "<Diameter>", "<Factor>", "<FeatureName>",
 ];
 
+/// Words of points of a part.
+#[rustfmt::skip]
+pub const SCAN: &[&str] = &[
+    "x_mm", "Y [um]", "z (in)", "nx", "i", "nom_x", "nominal_y_mm", "dev_um", "name", "// ", "% ", "! ", "\t", ";", "0,000", "\n3\n", "nan", "inf", "1e308",
+    "<QIFDocument>", "</QIFDocument>", "<PointFeatureActual>", "<Location>", "<Normal>", "<FeatureItemId>", "<FeatureNominalId>", "<Factor>",
+    "ply\n", "format ascii 1.0\n", "format binary_little_endian 1.0\n", "element vertex 3\n", "property float x\n", "property double nx\n", "end_header\n",
+    "UNITS/MM,ANGDEC", "UNITS/INCH", "FA(P1)=FEAT/POINT,CART,", "F(P1)=FEAT/POINT,CART,", "PTMEAS/CART,", "PTDATA/CART,", "FEAT/CIRCLE,INNER,CART,", "$\n", "$$",
+];
+
 /// Columns and remarks of circular tests, elements of a ball-bar's results.
 #[rustfmt::skip]
 pub const BALLBAR: &[&str] = &[

@@ -21,6 +21,7 @@ mod edited;
 mod fixtures;
 mod meshes;
 mod modal;
+mod scanned;
 mod signal_stack;
 mod tables;
 mod targets;

@@ -5,7 +5,7 @@ use armill_study::file::format::StudyFile;
 
 use crate::dictionaries as words;
 use crate::fixtures;
-use crate::{edited, meshes, modal, tables, tracked, tracked_fixtures, verdicts};
+use crate::{edited, meshes, modal, scanned, tables, tracked, tracked_fixtures, verdicts};
 
 /// One parser.
 pub struct Target {
@@ -80,6 +80,9 @@ pub const TARGETS: &[Target] = &[
     target("force-csv", verdicts::force_csv, fixtures::force_csv, &[], words::FORCES),
     target("forces", verdicts::forces, fixtures::forces, &[], words::FORCES),
     target("profile", verdicts::profile, fixtures::profiles, &["ds", "csv", "QIF"], words::PROFILE),
+    target("scan", scanned::scan, scanned::scans, &["QIF", "csv"], words::SCAN),
+    target("scan-surface", scanned::surface, scanned::surfaces, &["ply"], words::SCAN),
+    target("scan-dmis", scanned::dmis, scanned::reports, &[], words::SCAN),
     target("ballbar-csv", verdicts::ballbar_csv, fixtures::ballbar_csv, &[], words::BALLBAR),
     target("ballbar-results", verdicts::ballbar_results, fixtures::ballbar_results, &["b5r"], words::BALLBAR),
     target("poses", tracked::poses, fixtures::poses, &[], words::POSES),

@@ -141,6 +141,7 @@ guide! {
     guide_how_far_to_trust_it: "how-far-to-trust-it",
     guide_cell: "cell",
     guide_meshes: "meshes",
+    guide_scans: "scans",
     guide_receptance: "receptance",
     guide_stability: "stability",
     guide_readme: "README",

@@ -35,6 +35,15 @@ pub struct Mesh {
     closed: bool,
 }
 
+/// A place on a mesh.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MeshPoint {
+    /// Index of its triangle in [`Mesh::triangles`].
+    pub triangle: usize,
+    /// The place, m.
+    pub at: Point3<f64>,
+}
+
 #[derive(Clone, Copy, Debug)]
 struct Node {
     bounds: Bounds,
@@ -219,6 +228,39 @@ impl Mesh {
                 .count();
         }
         count
+    }
+
+    /// The place on the mesh that is nearest to `point`; `None` where none is within `limit`, m.
+    pub fn nearest_to_point(&self, point: &Point3<f64>, limit: f64) -> Option<MeshPoint> {
+        let mut found = None;
+        let mut least = limit;
+        // A node leaves one more than it takes: as many as the tree is deep.
+        let mut open = Vec::with_capacity(64);
+        open.push((self.bounds().distance_of(point), 0_u32));
+        while let Some((bound, index)) = open.pop() {
+            if bound > least || (found.is_some() && bound >= least) {
+                continue;
+            }
+            let node = &self.nodes[index as usize];
+            if node.count == 0 {
+                let children = [node.first, node.first + 1]
+                    .map(|child| (self.nodes[child as usize].bounds.distance_of(point), child));
+                open.extend(farther_first(children));
+                continue;
+            }
+            for (k, triangle) in self.leaf(node).iter().enumerate() {
+                let at = triangle.nearest_to_point(point);
+                let distance = (at - point).norm();
+                if distance < least || (found.is_none() && distance <= least) {
+                    least = distance;
+                    found = Some(MeshPoint {
+                        triangle: node.first as usize + k,
+                        at,
+                    });
+                }
+            }
+        }
+        found
     }
 
     /// The nearest points of a convex body (in the frame of the mesh) and this mesh, that of the body first; `None`

@@ -31,7 +31,7 @@ pub use bounds::{Bounds, Capsule};
 pub use cell::{ArmBody, Cell, Clearance, FixedBody, PlacedCell, Role};
 pub use demanded::{ClearanceCheck, Conflict, DemandedClearance};
 pub use floor::Floor;
-pub use mesh::Mesh;
+pub use mesh::{Mesh, MeshPoint};
 pub use nearest::{Nearest, Segment, Triangle};
 pub use shape::Shape;
 pub use state::CellState;

@@ -232,7 +232,7 @@ impl<const M: usize> Transformed<M> {
             scale: worst(rows, right, &middle, ResidualSide::Both).residual,
             largest: rows.iter().zip(right).fold(0.0, |most, (row, right)| {
                 let terms = row.iter().zip(&middle).map(|(a, x)| (a * x).abs());
-                terms.sum::<f64>().max(most - right.abs()) + right.abs()
+                (terms.sum::<f64>() + right.abs()).max(most)
             }),
         })
     }

@@ -11,6 +11,7 @@
 //! - [`trace`]: points of the tip along a path, for one or several runs.
 //! - [`joint_log`]: joint positions over time.
 //! - [`bodies`]: positions and orientations as trackers export them; [`numbers`]: tables of numbers without names, workbooks.
+//! - [`scan`]: points of a real part from scanners and coordinate measuring machines.
 //! - [`conditions`]: loads and directions of motion at points of a path.
 //! - [`journal`]: all measurements of one arm, with their days and temperatures.
 //! - [`frf`]: frequency response functions of a modal test.
@@ -19,7 +20,7 @@
 //! Force records are [`Record`](armill_core::load::Record)s in the axes of the sensor. Whether the force acts on the
 //! tool or on the part, and how the sensor is oriented, is not in any file: the caller gives it.
 //!
-//! `columns`: quantity and unit of each column; samples. `force_records`: the content of a force file in any format.
+//! `columns`: quantity and unit of each column; samples. `workbook`: cells of Excel sheets. `force_records`: the content of a force file in any format.
 
 pub mod ballbar;
 pub mod bodies;
@@ -37,4 +38,6 @@ pub mod matlab;
 pub mod numbers;
 pub mod poses;
 pub mod profile;
+pub mod scan;
 pub mod trace;
+mod workbook;

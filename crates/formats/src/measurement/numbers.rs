@@ -3,23 +3,13 @@
 //! Cells of a text are separated by `;`, tab, `,` or blanks; with `;` or tab, decimal commas are read too. Lines before the first row of numbers are
 //! titles; lines that begin with `#` and empty lines are ignored. Only the requested columns need to be numbers.
 
-use std::collections::BTreeMap;
-use std::io::Cursor;
-
-use calamine::{DataRef, Reader, Xlsx};
-
+use super::workbook::{SheetCell, first_sheet, is_workbook};
 use crate::document::lines::Lines;
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
 use crate::table::sheet::{Cell, cells, number};
 
 /// Maximum number of rows.
 const MOST_ROWS: usize = 1_000_000;
-/// Maximum size of a workbook, byte; unpacked it may be eight times as large.
-const LARGEST_WORKBOOK: usize = 64 << 20;
-/// Maximum number of cells of a sheet.
-const MOST_CELLS: usize = 10_000_000;
-/// How an Excel workbook begins: a zip archive.
-const ZIP: &[u8] = b"PK\x03\x04";
 
 /// Columns of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,7 +39,7 @@ impl Columns {
 /// # Errors
 /// No such rows; a row of numbers with too few cells, or with one that is not a finite number; a damaged workbook.
 pub fn read(path: &str, bytes: &[u8], columns: Columns) -> Result<Vec<Vec<f64>>, Problems> {
-    let rows = match bytes.starts_with(ZIP) {
+    let rows = match is_workbook(bytes) {
         true => of_workbook(path, bytes, columns)?,
         false => of_text(path, bytes, columns)?,
     };
@@ -61,7 +51,7 @@ pub fn read(path: &str, bytes: &[u8], columns: Columns) -> Result<Vec<Vec<f64>>,
 
 /// Whether this is a text whose first row is numbers: there are no titles. At least `columns` of them.
 pub fn is_without_titles(bytes: &[u8], columns: usize) -> bool {
-    if bytes.starts_with(ZIP) {
+    if is_workbook(bytes) {
         return false;
     }
     let Ok(Some(line)) = Lines::new("", bytes).next_row() else {
@@ -139,7 +129,8 @@ fn of_text(path: &str, bytes: &[u8], columns: Columns) -> Result<Vec<Vec<f64>>, 
     Ok(rows)
 }
 
-fn blank_separated(text: &str) -> Vec<Cell<'_>> {
+/// The words of a line with their places.
+pub(super) fn blank_separated(text: &str) -> Vec<Cell<'_>> {
     let start = |part: &str| part.as_ptr() as usize - text.as_ptr() as usize;
     text.split_whitespace()
         .map(|part| Cell {
@@ -150,45 +141,12 @@ fn blank_separated(text: &str) -> Vec<Cell<'_>> {
 }
 
 fn of_workbook(path: &str, bytes: &[u8], columns: Columns) -> Result<Vec<Vec<f64>>, Problems> {
-    let refused = |message: String, hint: &str| Problems::from(Problem::of_file(path, message, hint));
-    if bytes.len() > LARGEST_WORKBOOK {
-        let message = format!("the workbook is larger than {} MiB", LARGEST_WORKBOOK >> 20);
-        return Err(refused(message, "save the sheet as CSV"));
-    }
-    let damaged = |error: &dyn std::fmt::Display| {
-        refused(
-            format!("not a workbook that can be read: {error}"),
-            "save the sheet as CSV, or the workbook as .xlsx",
-        )
-    };
-    check_unpacked_size(bytes).map_err(|message| damaged(&message))?;
-    let mut workbook: Xlsx<_> = Xlsx::new(Cursor::new(bytes)).map_err(|error| damaged(&error))?;
-    let Some(name) = workbook.sheet_names().first().cloned() else {
-        return Err(damaged(&"it has no sheet"));
-    };
-    let mut sheet = workbook
-        .worksheet_cells_reader(&name)
-        .map_err(|error| damaged(&error))?;
-    // A cell at the far corner of the sheet must not take the memory of all cells before it.
-    let mut sparse: BTreeMap<u32, Vec<(u32, Option<f64>)>> = BTreeMap::new();
-    let mut count = 0;
-    while let Some(cell) = sheet.next_cell().map_err(|error| damaged(&error))? {
-        let value = match cell.get_value() {
-            DataRef::Empty => continue,
-            DataRef::Float(value) => Some(*value).filter(|value| value.is_finite()),
-            DataRef::Int(value) => Some(*value as f64),
-            DataRef::String(text) => number(text, ';').filter(|value| value.is_finite()),
-            DataRef::SharedString(text) => number(text, ';').filter(|value| value.is_finite()),
-            _ => None,
-        };
-        count += 1;
-        if count > MOST_CELLS {
-            let message = format!("the sheet has more than {MOST_CELLS} cells");
-            return Err(refused(message, "save the requested columns as CSV"));
-        }
-        let (row, column) = cell.get_position();
-        sparse.entry(row).or_default().push((column, value));
-    }
+    let value = |text: &str| number(text, ';').filter(|value| value.is_finite());
+    let sparse = first_sheet(path, bytes, |cell| match cell {
+        SheetCell::Number(number) => Some(number).filter(|number| number.is_finite()),
+        SheetCell::Text(text) => value(text),
+        SheetCell::Other => None,
+    })?;
     // The table begins at its leftmost cell.
     let left = sparse
         .values()
@@ -240,22 +198,9 @@ fn sheet_row(row: &[(u32, Option<f64>)], left: u32, columns: Columns) -> Option<
     (numbers.len() == columns.count()).then_some(numbers)
 }
 
-/// Refuses an archive that would unpack to more than eight times the largest workbook.
-fn check_unpacked_size(bytes: &[u8]) -> Result<(), String> {
-    let archive = rawzip::ZipArchive::from_slice(bytes).map_err(|error| error.to_string())?;
-    let mut size: u64 = 0;
-    for entry in archive.entries() {
-        let entry = entry.map_err(|error| error.to_string())?;
-        size = size.saturating_add(entry.uncompressed_size_hint());
-    }
-    match size > 8 * LARGEST_WORKBOOK as u64 {
-        true => Err(format!("it unpacks to {} MiB", size >> 20)),
-        false => Ok(()),
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::workbook::tests::workbook_of;
     use super::*;
 
     fn of(text: &str, columns: Columns) -> Result<Vec<Vec<f64>>, Problems> {
@@ -310,40 +255,6 @@ mod tests {
     }
 
     const SHEET: &str = r#"<?xml version="1.0"?><worksheet xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main"><sheetData><row r="1"><c r="A1" t="inlineStr"><is><t>J1</t></is></c></row><row r="2"><c r="A2" t="inlineStr"><is><t>P1</t></is></c><c r="B2"><v>1.5</v></c><c r="C2"><v>-2</v></c></row><row r="3"><c r="A3" t="inlineStr"><is><t>P2</t></is></c><c r="B3"><v>3</v></c><c r="C3"><v>4</v></c></row></sheetData></worksheet>"#;
-
-    fn workbook_of(sheet: &str) -> Vec<u8> {
-        let files = [
-            (
-                "[Content_Types].xml",
-                r#"<?xml version="1.0"?><Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types"><Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/><Default Extension="xml" ContentType="application/xml"/><Override PartName="/xl/workbook.xml" ContentType="application/vnd.openxmlformats-officedocument.spreadsheetml.sheet.main+xml"/></Types>"#,
-            ),
-            (
-                "_rels/.rels",
-                r#"<?xml version="1.0"?><Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Id="r1" Type="http://schemas.openxmlformats.org/officeDocument/2006/relationships/officeDocument" Target="xl/workbook.xml"/></Relationships>"#,
-            ),
-            (
-                "xl/workbook.xml",
-                r#"<?xml version="1.0"?><workbook xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main" xmlns:r="http://schemas.openxmlformats.org/officeDocument/2006/relationships"><sheets><sheet name="Sheet1" sheetId="1" r:id="r1"/></sheets></workbook>"#,
-            ),
-            (
-                "xl/_rels/workbook.xml.rels",
-                r#"<?xml version="1.0"?><Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Id="r1" Type="http://schemas.openxmlformats.org/officeDocument/2006/relationships/worksheet" Target="worksheets/sheet1.xml"/></Relationships>"#,
-            ),
-            ("xl/worksheets/sheet1.xml", sheet),
-        ];
-        let mut bytes = Cursor::new(Vec::new());
-        let mut archive = rawzip::ZipArchiveWriter::new(&mut bytes);
-        for (name, text) in files {
-            use std::io::Write as _;
-            let (mut entry, config) = archive.new_file(name).start().unwrap();
-            let mut data = config.wrap(&mut entry);
-            data.write_all(text.as_bytes()).unwrap();
-            let (_, output) = data.finish().unwrap();
-            entry.finish(output).unwrap();
-        }
-        archive.finish().unwrap();
-        bytes.into_inner()
-    }
 
     #[test]
     fn the_first_sheet_of_a_workbook_is_read_and_damaged_ones_are_refused() {

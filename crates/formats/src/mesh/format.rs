@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use super::triangle_mesh::TriangleMesh;
+use super::triangle_mesh::{PointCloud, TriangleMesh};
 use super::{dae, obj, ply, stl, three_mf};
 use crate::document::{Problem, Problems};
 
@@ -92,6 +92,14 @@ pub fn read(shown: &str, bytes: &[u8]) -> Result<TriangleMesh, Problems> {
         MeshFormat::ThreeMf => three_mf::read(shown, bytes),
         MeshFormat::Dae => dae::read(shown, bytes),
     }
+}
+
+/// The points of a PLY file in `bytes`, which need not have faces; `shown` is the path that problems show.
+///
+/// # Errors
+/// All problems of its vertices, at most 200.
+pub fn read_ply_points(shown: &str, bytes: &[u8]) -> Result<PointCloud, Problems> {
+    ply::read_points(shown, bytes)
 }
 
 /// The name of the content if it is clearly of another format, and what to do.

@@ -34,9 +34,9 @@ mod triangle_mesh;
 mod unit;
 
 pub use assembly::{LARGEST_COORDINATE, MOST_TRIANGLES};
-pub use format::{MeshFormat, endings, read};
+pub use format::{MeshFormat, endings, read, read_ply_points};
 pub use report::MeshReport;
-pub use triangle_mesh::TriangleMesh;
+pub use triangle_mesh::{PointCloud, TriangleMesh};
 pub use unit::{MeshUnit, likely_unit};
 
 #[cfg(test)]

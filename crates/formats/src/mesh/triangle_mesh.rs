@@ -23,6 +23,17 @@ pub struct TriangleMesh {
     pub notes: Vec<String>,
 }
 
+/// Points without triangles, in the unit and in the axes of the file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PointCloud {
+    /// Places, file units.
+    pub points: Vec<[f64; 3]>,
+    /// A normal of each point as the file gives it; `None` if it has none.
+    pub normals: Option<Vec<[f64; 3]>>,
+    /// Whether the file has faces too.
+    pub has_faces: bool,
+}
+
 impl TriangleMesh {
     /// Smallest and largest coordinates, file units; zeros for a mesh without vertices.
     pub fn bounds(&self) -> [[f64; 3]; 2] {

@@ -161,12 +161,24 @@ pub(crate) fn named_columns<C: Copy>(
     meaning: impl Fn(&str) -> Result<Option<C>, (String, String)>,
     is_same: impl Fn(C, C) -> bool,
 ) -> NamedColumns<C> {
+    let found = cells(&header.text, separator_of(&header.text));
+    named_cells(path, header, found, meaning, is_same)
+}
+
+/// The same of names that are already apart.
+pub(crate) fn named_cells<C: Copy>(
+    path: &str,
+    header: &Line,
+    names: Vec<Cell<'_>>,
+    meaning: impl Fn(&str) -> Result<Option<C>, (String, String)>,
+    is_same: impl Fn(C, C) -> bool,
+) -> NamedColumns<C> {
     let mut found = NamedColumns {
         columns: Vec::new(),
         unused: Vec::new(),
         problems: Vec::new(),
     };
-    for cell in cells(&header.text, separator_of(&header.text)) {
+    for cell in names {
         let mut report = |message, hint: &str| {
             let problem = header.problem(path, cell.span.clone(), message, hint);
             found.problems.push(problem);

@@ -12,8 +12,8 @@
 pub mod columns;
 mod length_unit;
 mod measured;
-mod plain;
-mod qif;
+pub(super) mod plain;
+pub(super) mod qif;
 mod table;
 
 use std::io::BufRead;

@@ -107,7 +107,7 @@ pub(super) fn read(
 }
 
 /// The numbers of a row with their positions.
-fn pieces(text: &str) -> impl Iterator<Item = (usize, &str)> {
+pub(in crate::measurement) fn pieces(text: &str) -> impl Iterator<Item = (usize, &str)> {
     // Commas separate numbers only if blanks and semicolons do not.
     let is_parted = text.trim().contains([' ', '\t', ';']);
     let parts = move |c: char| c.is_whitespace() || c == ';' || (c == ',' && !is_parted);

@@ -104,7 +104,7 @@ fn circles(path: &str, text: &str) -> Result<Vec<ActualCircle>, Problems> {
 }
 
 /// Length of the file's unit in m; 1 if it is not given, because QIF then uses SI units.
-fn unit(source: &Source, document: &Document<'_>) -> Result<f64, Problems> {
+pub(in crate::measurement) fn unit(source: &Source, document: &Document<'_>) -> Result<f64, Problems> {
     let units = document
         .descendants()
         .find(|node| node.tag_name().name() == "LinearUnit");
@@ -123,7 +123,7 @@ fn unit(source: &Source, document: &Document<'_>) -> Result<f64, Problems> {
 }
 
 /// Names of the feature items, by their ids.
-fn names<'a>(document: &'a Document<'_>) -> BTreeMap<&'a str, &'a str> {
+pub(in crate::measurement) fn names<'a>(document: &'a Document<'_>) -> BTreeMap<&'a str, &'a str> {
     let items = document.descendants().filter_map(|node| {
         let name = children(node, "FeatureName").next()?.text()?;
         Some((node.attribute("id")?, name.trim()))
@@ -136,7 +136,7 @@ fn names<'a>(document: &'a Document<'_>) -> BTreeMap<&'a str, &'a str> {
 }
 
 /// The `N` finite numbers in an element, if there are exactly `N`.
-fn numbers<const N: usize>(node: Node<'_, '_>) -> Option<[f64; N]> {
+pub(in crate::measurement) fn numbers<const N: usize>(node: Node<'_, '_>) -> Option<[f64; N]> {
     let words: Option<Vec<f64>> = node
         .text()?
         .split_whitespace()

@@ -26,6 +26,15 @@ pub(super) struct Header {
     pub elements: Vec<Element>,
 }
 
+/// What is required of a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Content {
+    /// Vertices and faces.
+    Mesh,
+    /// Vertices, with or without faces.
+    Points,
+}
+
 /// How numbers are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Encoding {
@@ -109,7 +118,11 @@ impl Scalar {
 ///
 /// # Errors
 /// The first line that is wrong: the rest could not be read.
-pub(super) fn read<'a>(name: &str, bytes: &'a [u8]) -> Result<(Header, TextLines<'a>), Problems> {
+pub(super) fn read<'a>(
+    name: &str,
+    bytes: &'a [u8],
+    content: Content,
+) -> Result<(Header, TextLines<'a>), Problems> {
     let mut lines = TextLines::new(bytes);
     let mut elements = Vec::new();
     let mut encoding = None;
@@ -152,7 +165,7 @@ pub(super) fn read<'a>(name: &str, bytes: &'a [u8]) -> Result<(Header, TextLines
             [b"end_header"] => {
                 let encoding =
                     encoding.ok_or_else(|| refused("the header has no line `format`".to_owned()))?;
-                check(name, &line, &mut elements)?;
+                check(name, &line, &mut elements, content)?;
                 return Ok((Header { encoding, elements }, lines));
             }
             _ => return Err(refused("not a line of the header of a PLY file".to_owned())),
@@ -204,17 +217,26 @@ fn property(words: &[&[u8]]) -> Result<Property, String> {
 ///
 /// # Errors
 /// Triangle strips; two elements of one name; no vertices or faces.
-fn check(name: &str, line: &TextLine<'_>, elements: &mut Vec<Element>) -> Result<(), Problems> {
+fn check(
+    name: &str,
+    line: &TextLine<'_>,
+    elements: &mut Vec<Element>,
+    content: Content,
+) -> Result<(), Problems> {
     elements.retain(|element| !element.properties.is_empty());
     let refused = |message: String, hint: &str| Err(line.problem(name, line.bytes, message, hint).into());
     let with_name = |of: &str| elements.iter().filter(|element| element.name == of).count();
-    if with_name("tristrips") > 0 && with_name("face") == 0 {
+    if content == Content::Mesh && with_name("tristrips") > 0 && with_name("face") == 0 {
         return refused(
             "triangle strips are not read".to_owned(),
             "export the mesh with faces",
         );
     }
-    for required in ["vertex", "face"] {
+    let required = match content {
+        Content::Mesh => &["vertex", "face"][..],
+        Content::Points => &["vertex"],
+    };
+    for required in required {
         let count = with_name(required);
         if count != 1 {
             let message = format!("the header has {count} elements `{required}`: 1 required");

@@ -15,12 +15,12 @@
 mod header;
 mod values;
 
-use header::{Element, Property};
+use header::{Content, Element, Property};
 use values::{Fault, Values};
 
 use super::assembly::{Assembly, Points, checked};
 use super::text_lines::NUMBERS;
-use super::triangle_mesh::TriangleMesh;
+use super::triangle_mesh::{PointCloud, TriangleMesh};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
 
 /// Reads a PLY file; `name` is the path that problems show.
@@ -28,7 +28,7 @@ use crate::document::{MOST_PROBLEMS, Problem, Problems};
 /// # Errors
 /// See [`read`](super::format::read).
 pub(super) fn read(name: &str, bytes: &[u8]) -> Result<TriangleMesh, Problems> {
-    let (header, lines) = header::read(name, bytes)?;
+    let (header, lines) = header::read(name, bytes, Content::Mesh)?;
     let mut values = Values::new(bytes, lines, header.encoding);
     let mut problems = Vec::new();
     let mut points = Vec::new();
@@ -60,6 +60,62 @@ pub(super) fn read(name: &str, bytes: &[u8]) -> Result<TriangleMesh, Problems> {
             .push("what follows the last element of the header was not used".to_owned());
     }
     Ok(mesh)
+}
+
+/// The points of a PLY file, with or without faces; `name` is the path that problems show.
+///
+/// # Errors
+/// As of [`read`], but faces are neither required nor read.
+pub(super) fn read_points(name: &str, bytes: &[u8]) -> Result<PointCloud, Problems> {
+    let (header, lines) = header::read(name, bytes, Content::Points)?;
+    let mut values = Values::new(bytes, lines, header.encoding);
+    let mut problems = Vec::new();
+    let mut cloud = PointCloud::default();
+    for element in &header.elements {
+        if element.name == "vertex" {
+            let start = values.clone();
+            cloud.points = vertices(name, element, &mut values, &mut problems)?;
+            cloud.normals = normals(element, start);
+        } else {
+            cloud.has_faces |= element.name == "face" && element.count > 0;
+            // What follows the vertices is not used.
+            if !cloud.points.is_empty() {
+                continue;
+            }
+            for index in 0..element.count {
+                row(element, &mut values, |_, _| {})
+                    .map_err(|fault| values.problem(name, element, index, fault))?;
+            }
+        }
+    }
+    Problems::from(problems).into_result()?;
+    Ok(cloud)
+}
+
+/// The properties `nx`, `ny`, `nz` of vertices that were read before.
+fn normals(element: &Element, mut values: Values<'_>) -> Option<Vec<[f64; 3]>> {
+    let names = ["nx", "ny", "nz"];
+    let is_normal =
+        |axis: usize, property: &Property| property.list_count.is_none() && property.name == names[axis];
+    let place = |axis: usize| {
+        element
+            .properties
+            .iter()
+            .position(|property| is_normal(axis, property))
+    };
+    let places = [place(0)?, place(1)?, place(2)?];
+    let mut normals = Vec::with_capacity(values.most_rows(element));
+    for _ in 0..element.count {
+        let mut normal = [0.0; 3];
+        let each = |property: usize, value| {
+            if let Some(axis) = places.iter().position(|place| *place == property) {
+                normal[axis] = value;
+            }
+        };
+        row(element, &mut values, each).ok()?;
+        normals.push(normal);
+    }
+    Some(normals)
 }
 
 /// Takes the values of an element; `each` gets the index of a property and a value. Of lists all values, without their
