@@ -12,7 +12,7 @@
 //! - [`table`]: columns of results as CSV, Parquet and VTK.
 //! - [`toolpath`]: tool path programs in.
 //! - [`language`]: the languages of robot controllers, and how to recognise them.
-//! - [`mesh`]: triangle meshes in, of five formats.
+//! - [`mesh`]: triangle meshes in, of five formats; [`surface`]: coloured surfaces with values out, in four formats.
 //! - [`measurement`]: records of forces, tables of load tests, points of round profiles and circular tests in.
 //! - [`file`](mod@file): files that are written: whole or not at all, never over what is not ours.
 //! - [`input`]: files that are read: which ones, how far.
@@ -36,6 +36,7 @@ pub mod modal;
 pub mod motion;
 pub mod robot;
 pub mod sources;
+pub mod surface;
 pub mod table;
 pub mod tool_assembly;
 pub mod toolpath;

@@ -28,8 +28,8 @@ use super::surface::SurfacePoint;
 use super::surface_mesh::SurfaceMesh;
 use super::swept::across;
 
-/// Most triangles of a mesh: it limits the memory.
-const MOST_TRIANGLES: usize = 50_000_000;
+/// Most triangles of a mesh: about 4 GB while it is made.
+const MOST_TRIANGLES: usize = 20_000_000;
 
 impl DexelPart {
     /// Triangles of the mesh with this stride, without creating it.

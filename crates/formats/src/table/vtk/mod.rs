@@ -1,7 +1,7 @@
 //! Fields in space for ParaView: VTK XML files, little endian, base64, `header_type="UInt64"`.
 //!
 //! - [`Image`]: a regular grid in three dimensions, `.vti`.
-//! - [`PolyData`]: points anywhere, joined to quadrilaterals and lines, `.vtp`.
+//! - [`PolyData`]: points anywhere, joined to quadrilaterals, triangles and lines, `.vtp`.
 //!
 //! This module writes the values at the points and the bytes of an array; `image` and `poly_data` have the geometry.
 //!
@@ -81,7 +81,7 @@ pub enum VtkError {
         /// How many all grids have together.
         expected: usize,
     },
-    /// A quadrilateral or line names a point that does not exist.
+    /// A quadrilateral, triangle or line names a point that does not exist.
     #[error("a cell names point {index}: there are {points}")]
     PointIndex {
         /// The point that is named, from 0.

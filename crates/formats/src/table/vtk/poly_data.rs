@@ -1,4 +1,4 @@
-//! Points joined to quadrilaterals and lines, or alone, as VTK poly data, `.vtp`.
+//! Points joined to quadrilaterals, triangles and lines, or alone, as VTK poly data, `.vtp`.
 //!
 //! | element | content |
 //! |---|---|
@@ -8,7 +8,7 @@
 
 use super::{PointArray, VtkError, check_arrays, check_positions, data_array, file, point_data};
 
-/// Points, the lines and quadrilaterals that join them, and values at the points.
+/// Points, the lines, quadrilaterals and triangles that join them, and values at the points.
 ///
 /// Checked when it is made: finite positions, indices, lengths of the lines, and lengths and names of the arrays.
 /// Not checked: whether quadrilaterals are flat.
@@ -22,6 +22,8 @@ pub struct PolyData {
     lines: Vec<Vec<usize>>,
     /// Corners, once round.
     quads: Vec<[usize; 4]>,
+    /// Corners, counter-clockwise seen from outside.
+    triangles: Vec<[usize; 3]>,
     /// One value a point in each.
     arrays: Vec<PointArray>,
 }
@@ -63,6 +65,7 @@ impl PolyData {
             vertices: Vec::new(),
             lines,
             quads,
+            triangles: Vec::new(),
             arrays,
         })
     }
@@ -75,6 +78,23 @@ impl PolyData {
         let vertices = (0..points_mm.len()).collect();
         let alone = Self::new(points_mm, Vec::new(), Vec::new(), arrays)?;
         Ok(Self { vertices, ..alone })
+    }
+
+    /// A surface of triangles.
+    ///
+    /// # Errors
+    /// Those of [`PolyData::new`].
+    pub fn triangles(
+        points_mm: Vec<[f64; 3]>,
+        triangles: Vec<[usize; 3]>,
+        arrays: Vec<PointArray>,
+    ) -> Result<Self, VtkError> {
+        let points = points_mm.len();
+        if let Some(&index) = triangles.iter().flatten().find(|index| **index >= points) {
+            return Err(VtkError::PointIndex { index, points });
+        }
+        let alone = Self::new(points_mm, Vec::new(), Vec::new(), arrays)?;
+        Ok(Self { triangles, ..alone })
     }
 
     /// A surface through the points of each grid, one grid after the other; `counts` are its points along its first and
@@ -137,7 +157,7 @@ pub fn write_poly_data(data: &PolyData) -> Vec<u8> {
             data.points_mm.len(),
             data.vertices.len(),
             data.lines.len(),
-            data.quads.len(),
+            data.quads.len() + data.triangles.len(),
         );
         point_data(out, &data.arrays);
         *out += "<Points>\n";
@@ -148,7 +168,9 @@ pub fn write_poly_data(data: &PolyData) -> Vec<u8> {
             cells(out, "Verts", data.vertices.chunks(1));
         }
         cells(out, "Lines", data.lines.iter().map(Vec::as_slice));
-        cells(out, "Polys", data.quads.iter().map(<[usize; 4]>::as_slice));
+        let quads = data.quads.iter().map(<[usize; 4]>::as_slice);
+        let triangles = data.triangles.iter().map(<[usize; 3]>::as_slice);
+        cells(out, "Polys", quads.chain(triangles));
         *out += "</Piece>\n</PolyData>\n";
     })
 }
