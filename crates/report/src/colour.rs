@@ -60,9 +60,9 @@ pub enum ColourScale {
 }
 
 impl ColourScale {
-    /// Colour at `t` from 0 (low) to 1 (high); beyond these the nearer end, and the low end for what is not
+    /// Red, green and blue at `t` from 0 (low) to 1 (high); beyond these the nearer end, and the low end for what is not
     /// finite.
-    pub(crate) fn at(self, t: f64) -> String {
+    pub fn rgb(self, t: f64) -> [u8; 3] {
         let gradient = match self {
             Self::Viridis => colorous::VIRIDIS,
             Self::Cividis => colorous::CIVIDIS,
@@ -71,7 +71,12 @@ impl ColourScale {
         let t = if t.is_finite() { t.clamp(0.0, 1.0) } else { 0.0 };
         let t = if self == Self::BlueRed { 1.0 - t } else { t };
         let c = gradient.eval_continuous(t);
-        mix([c.r, c.g, c.b], [255, 255, 255], SOFTENING)
+        [c.r, c.g, c.b]
+    }
+
+    /// The colour at `t` as text, softened.
+    pub(crate) fn at(self, t: f64) -> String {
+        mix(self.rgb(t), [255, 255, 255], SOFTENING)
     }
 }
 

@@ -126,17 +126,20 @@ impl PartView {
         page.finish_with_legend(&self.entries(), [BORDER_PX, bottom])
     }
 
+    /// Size of the deviations that the colours cover, um: that of 99.5 % of the values; `None` where none is finite.
+    pub fn colour_limit(values_um: &[f64]) -> Option<f64> {
+        let finite = values_um.iter().filter(|um| um.is_finite());
+        let mut sizes: Vec<f64> = finite.map(|um| um.abs()).collect();
+        let last = sizes.len().checked_sub(1)?;
+        sizes.sort_by(f64::total_cmp);
+        sizes
+            .get(((sizes.len() as f64 * COVERED) as usize).min(last))
+            .copied()
+    }
+
     /// Bands of equal range on both sides of zero.
     fn levels(&self) -> Option<Levels> {
-        let mut sizes: Vec<f64> = self
-            .values_um
-            .iter()
-            .filter(|um| um.is_finite())
-            .map(|um| um.abs())
-            .collect();
-        sizes.sort_by(f64::total_cmp);
-        let covered =
-            *sizes.get(((sizes.len() as f64 * COVERED) as usize).min(sizes.len().checked_sub(1)?))?;
+        let covered = PartView::colour_limit(&self.values_um)?;
         Levels::covering([-covered, covered])
     }
 

@@ -8,7 +8,7 @@ use armill_formats::table::{Table, csv};
 use rayon::prelude::*;
 
 use super::options::Csv;
-use crate::analysis::path::process_limits;
+use crate::analysis::path::{machined_part, process_limits};
 use crate::analysis::rows::{Layout, Rows, of_points, of_reached};
 use crate::analysis::{Analysis, AnalysisData, AnalysisResult, Subject, columns};
 use crate::error::StudyError;
@@ -32,6 +32,11 @@ pub(super) fn extensions(analysis: &Analysis, csv: Csv) -> Vec<&'static str> {
         && path.reports_limits()
     {
         extensions.push(process_limits::EXTENSION);
+    }
+    if let Subject::Path(path) = &analysis.subject
+        && path.machined_part.is_some()
+    {
+        extensions.extend(machined_part::files::EXTENSIONS.map(|(extension, _)| extension));
     }
     extensions.push(match &analysis.subject {
         Subject::Volume(..) => IMAGE,
@@ -83,6 +88,11 @@ pub(super) fn files(
             && let Some(table) = process_limits::table(&analysis.name, path, found)?
         {
             save(process_limits::EXTENSION, &csv::write(&table))?;
+        }
+        if let AnalysisData::Path(_, found) = &done.found
+            && let Some(part) = &found.machined_part
+        {
+            machined_part::files::files(&analysis.name, &part.mesh, save)?;
         }
         Ok(())
     };

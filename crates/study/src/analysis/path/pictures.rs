@@ -64,7 +64,7 @@ pub fn pictures(
     };
     let mut pictures = drawing.where_it_deviates();
     pictures.push(drawing.along());
-    pictures.extend(machined_part::pictures::picture(robot, analysis, given, found));
+    pictures.extend(machined_part::pictures::picture(given, found));
     pictures.extend(drawing.polar());
     pictures.extend(drawing.contributions());
     pictures.extend(super::motion_columns::pictures(

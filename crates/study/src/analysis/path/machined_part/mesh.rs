@@ -24,12 +24,15 @@ pub struct PartMesh {
     pub uncertainties: Vec<f64>,
 }
 
+/// Triangles at most: fluid in viewers.
+pub(super) const MOST_TRIANGLES: usize = 500_000;
+
 impl MachinedPart {
     /// The nominal surface with at most so many triangles.
     ///
     /// # Errors
     /// A part that is too large for a mesh.
-    pub fn mesh(
+    pub(super) fn triangles(
         &self,
         robot: &Robot,
         analysis: &PathAnalysis,

@@ -1,10 +1,11 @@
 //! The part that a path leaves of its stock: cut with the tool where it will be, and compared with the nominal part.
 //!
 //! [`table`]: its keys; `tools`: what cuts; `stock`: what it is cut from; [`resolve`](mod@resolve): keys, checked and in SI; [`run`]: the part, its surface and its features;
-//! [`features`]: form, size and position of faces; [`mesh`]: its surface as triangles; [`answer`], [`report`], [`pictures`]: the result in numbers, words and colours.
+//! [`features`]: form, size and position of faces; [`mesh`]: its surface as triangles; [`answer`], [`report`], [`pictures`], [`files`]: the result in numbers, words, colours and files.
 
 pub mod answer;
 pub mod features;
+pub mod files;
 pub mod mesh;
 pub mod pictures;
 pub mod report;

@@ -1,32 +1,17 @@
 //! The picture of the part in the colours of its deviation.
 
-use armill_core::robot::Robot;
 use armill_core::units::{to_mm, to_um};
 use armill_report::{PartView, PlaceMark};
 
 use super::answer::MachinedPartAnswer;
 use super::mesh::PartMesh;
-use crate::analysis::path::PathAnalysis;
 use crate::analysis::path::answer::PathAnswer;
 use crate::analysis::path::run::PathResult;
 use crate::analysis::picture::Picture;
 
-/// Triangles of the picture: finer than its pixels.
-const MOST_TRIANGLES: usize = 400_000;
-
 /// The part with its worst places; none if the study does not ask for it.
-pub fn picture(
-    robot: &Robot,
-    analysis: &PathAnalysis,
-    given: &PathAnswer,
-    found: &PathResult,
-) -> Option<Picture> {
-    let (machined, part) = (
-        analysis.machined_part.as_deref()?,
-        found.machined_part.as_deref()?,
-    );
-    let answer = given.machined_part.as_ref()?;
-    let mesh = part.mesh(robot, analysis, machined, MOST_TRIANGLES).ok()?;
+pub fn picture(given: &PathAnswer, found: &PathResult) -> Option<Picture> {
+    let (part, answer) = (found.machined_part.as_deref()?, given.machined_part.as_ref()?);
     Some(Picture {
         name: format!("{}-part", crate::file_names::slug(&given.name)),
         caption: format!(
@@ -34,7 +19,7 @@ pub fn picture(
              worst places of the table.",
             given.name
         ),
-        svg: view(&mesh, given, answer).to_svg(),
+        svg: view(&part.mesh, given, answer).to_svg(),
     })
 }
 

@@ -13,6 +13,7 @@ use armill_core::robot::Robot;
 use armill_core::source::Deviation;
 use armill_core::spatial::Twist;
 
+use super::mesh::{MOST_TRIANGLES, PartMesh};
 use super::{MachinedSetting, NominalPart};
 use crate::analysis::path::PathAnalysis;
 use crate::analysis::runner::Runner;
@@ -41,6 +42,8 @@ pub struct MachinedPart {
     pub stages: [Vec<Stage>; 2],
     /// The worst places, worst first.
     pub worst: Vec<WorstPlace>,
+    /// The nominal surface as triangles, with its deviations.
+    pub mesh: PartMesh,
     /// The path that the part was cut along: closed if it is a circle.
     pub track: Track,
 }
@@ -107,13 +110,14 @@ impl Runner<'_> {
             _ => track.clone(),
         };
         let cut = self.cut(machined, &track, &deviations);
-        let cut = cut.map_err(|error| match error {
+        let refused = |error: RemovalError| match error {
             RemovalError::Cancelled(cancelled) => StudyError::from(cancelled),
             error => StudyError::value(
                 format!("{}: {error}", analysis.shown()),
                 "check `machined_part`: stock, cell_mm, tool",
             ),
-        })?;
+        };
+        let cut = cut.map_err(refused)?;
         let points = along.answers.points.len();
         let shares = |point: &SurfaceDeviation| {
             let index = path_point(point.made_by)? % points;
@@ -128,7 +132,8 @@ impl Runner<'_> {
                 tool: shares(&point),
                 point,
             });
-        Ok(Some(MachinedPart {
+        let mut part = MachinedPart {
+            mesh: PartMesh::default(),
             worst: worst.collect(),
             surface: cut.surface,
             unknown_area: cut.unknown_area,
@@ -140,7 +145,10 @@ impl Runner<'_> {
             stages: cut.stages,
             deviations,
             track,
-        }))
+        };
+        let mesh = part.triangles(self.robot, analysis, machined, MOST_TRIANGLES);
+        part.mesh = mesh.map_err(refused)?;
+        Ok(Some(part))
     }
 
     fn cut(

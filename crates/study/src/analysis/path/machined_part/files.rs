@@ -1,0 +1,66 @@
+//! The surface of the part as files: PLY, VTK and glTF with its deviation and colours.
+
+use armill_core::units::{to_mm, to_um};
+use armill_formats::surface::{SurfaceColumn, SurfaceFormat, SurfaceTable};
+use armill_report::{ColourScale, PartView};
+
+use super::mesh::PartMesh;
+use crate::error::StudyError;
+
+/// Endings of the files, after the name of the path.
+pub const EXTENSIONS: [(&str, SurfaceFormat); 3] = [
+    ("part.ply", SurfaceFormat::Ply),
+    ("part.vtp", SurfaceFormat::Vtp),
+    ("part.glb", SurfaceFormat::Glb),
+];
+
+/// What has no value.
+const NO_VALUE: [u8; 3] = [205, 205, 205];
+
+/// The surface with its deviations, to be written in any format.
+pub fn table(title: &str, mesh: &PartMesh) -> SurfaceTable {
+    let um = |values: &[f64]| values.iter().map(|m| to_um(*m)).collect::<Vec<f64>>();
+    let deviations = um(&mesh.deviations);
+    let most = PartView::colour_limit(&deviations).unwrap_or(1.0);
+    let colour = |um: &f64| match um.is_finite() {
+        true => ColourScale::BlueRed.rgb(0.5 + 0.5 * um / most),
+        false => NO_VALUE,
+    };
+    let column = |name: &str, values: Vec<f64>| SurfaceColumn {
+        name: name.to_owned(),
+        unit: Some("um".to_owned()),
+        values,
+    };
+    SurfaceTable {
+        title: title.to_owned(),
+        vertices_mm: mesh
+            .vertices
+            .iter()
+            .map(|at| at.coords.map(to_mm).into())
+            .collect(),
+        normals: mesh.normals.iter().map(|normal| (*normal).into()).collect(),
+        triangles: mesh.triangles.clone(),
+        colours: Some(deviations.iter().map(colour).collect()),
+        columns: vec![
+            column("deviation_um", deviations),
+            column("u_um", um(&mesh.uncertainties)),
+        ],
+    }
+}
+
+/// Passes each file to `save`, its ending and bytes.
+///
+/// # Errors
+/// That of `save`; a surface that cannot be written, which would be a fault of armill.
+pub fn files(
+    title: &str,
+    mesh: &PartMesh,
+    save: &(dyn Fn(&str, &[u8]) -> Result<(), StudyError> + Sync),
+) -> Result<(), StudyError> {
+    let table = table(title, mesh);
+    EXTENSIONS.iter().try_for_each(|(extension, format)| {
+        let bytes = format.write(&table);
+        let bytes = bytes.map_err(|error| StudyError::value(format!("{title}: {error}"), "report this"))?;
+        save(extension, &bytes)
+    })
+}
