@@ -353,7 +353,7 @@ impl Step {
     fn covariance(&self, sums: &Sums) -> Matrix6<f64> {
         let determined = 6 - self.free.len();
         let freedom = sums.count.saturating_sub(determined).max(1) as f64;
-        // Weights are relative: their mean is 1.
+        // A factor of all weights cancels.
         let variance = sums.squares / freedom;
         let scale = Matrix6::from_diagonal(&Vector6::from_fn(
             |k, _| if k < 3 { 1.0 } else { 1.0 / self.extent },

@@ -333,11 +333,70 @@ fn samples_of_the_standard_are_read() {
     );
 }
 
+/// Bytes of good files are changed, dropped and doubled at random: whatever is read is valid, nothing stops.
 #[test]
-fn zz_rate() {
-    for name in ["/tmp/big.xyz", "/tmp/big.csv"] {
-        let begin = std::time::Instant::now();
-        let found = read_file(Path::new(name), name, &ScanReadOptions::default()).unwrap();
-        println!("RATE {name} {} {:?}", found.points.len(), begin.elapsed());
+fn damaged_files_are_read_or_refused() {
+    let faces = format!(
+        "{CUBE_CORNER}element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n"
+    );
+    let mut state = 1_u64;
+    let mut next = |below: usize| {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as usize % below
+    };
+    for (name, text) in [
+        ("a.xyz", "3\n1 -2.5 3 0 0.6 -0.8\n4,5 5 6 0 0 1\n7 8 9 0 0 1\n"),
+        (
+            "a.csv",
+            "name;X [um];y_mm;z_in;nx;ny;nz;nom_x;dev_um\nP;1000;2,5;3;0;0;1;4;5\n\"Q\";4;5;6;;;;;\n",
+        ),
+        ("a.qif", QIF),
+        (
+            "a.dmis",
+            "UNITS/MM\nF(P)=FEAT/POINT,CART,1,2,3,0,0,1\nFA(P)=FEAT/POINT,CART,1,2,$\n3,0,0,1\nFA(C)=FEAT/CIRCLE,INNER,CART,1,2,3,0,0,1,4\n",
+        ),
+        ("a.ply", &faces),
+    ] {
+        for _ in 0..2000 {
+            let mut bytes = text.as_bytes().to_vec();
+            for _ in 0..=next(4) {
+                let at = next(bytes.len());
+                match next(4) {
+                    0 => bytes[at] = next(256) as u8,
+                    1 => drop(bytes.remove(at)),
+                    2 => bytes.insert(at, b",; \t\n-$(<=/e9"[next(13)]),
+                    _ => bytes.truncate(at.max(1)),
+                }
+                if bytes.is_empty() {
+                    break;
+                }
+            }
+            let Ok(found) = read(name, &bytes, &ScanReadOptions::default()) else {
+                continue;
+            };
+            assert!(
+                found
+                    .points
+                    .iter()
+                    .all(|p| p.coords.iter().all(|x| x.abs() <= 1e4))
+            );
+            assert!(
+                found
+                    .normals
+                    .iter()
+                    .flatten()
+                    .all(|normal| (normal.norm() - 1.0).abs() < 1e-9)
+            );
+            for count in [
+                found.normals.len(),
+                found.nominal.len(),
+                found.deviations.len(),
+                found.names.len(),
+            ] {
+                assert!(count == 0 || count == found.points.len());
+            }
+        }
     }
 }
