@@ -45,6 +45,8 @@ pub struct PartView {
     pub values_um: Vec<f64>,
     /// Indices of the vertices of each triangle.
     pub triangles: Vec<[u32; 3]>,
+    /// Size of the deviations that the colours cover; of these deviations if left out.
+    pub range_um: Option<f64>,
     /// Places with numbers.
     pub marks: Vec<PlaceMark>,
 }
@@ -140,6 +142,10 @@ impl PartView {
     /// Bands of equal range on both sides of zero.
     fn levels(&self) -> Option<Levels> {
         let covered = PartView::colour_limit(&self.values_um)?;
+        let covered = self
+            .range_um
+            .filter(|um| um.is_finite() && *um > 0.0)
+            .unwrap_or(covered);
         Levels::covering([-covered, covered])
     }
 

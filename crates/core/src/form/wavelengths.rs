@@ -48,7 +48,7 @@ pub struct DeviationPairs<'a> {
     pub predicted: &'a [f64],
 }
 
-/// PredictionAgreement of a prediction with a measurement.
+/// How far a prediction agrees with a measurement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PredictionAgreement {
     /// Variance of the measured deviations, m^2.
@@ -62,7 +62,7 @@ pub struct PredictionAgreement {
     pub correlation: Option<f64>,
 }
 
-/// PredictionAgreement overall and by bands of wavelength.
+/// Agreement overall and by bands of wavelength.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AgreementByWavelength {
     /// Of all wavelengths.
@@ -79,7 +79,7 @@ pub struct AgreementByWavelength {
     pub correlation_uncertainty: Option<f64>,
 }
 
-/// PredictionAgreement of measured and predicted deviations, by wavelengths above `cut_offs[0]`, above `cut_offs[1]`, and below it (m).
+/// Agreement of measured and predicted deviations, by wavelengths above `cut_offs[0]`, above `cut_offs[1]`, and below it (m).
 ///
 /// # Errors
 /// Fewer than three points, lists of different lengths, values that are not finite; cut-offs that are not above 0 and

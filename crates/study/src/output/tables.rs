@@ -92,7 +92,7 @@ pub(super) fn files(
         if let AnalysisData::Path(_, found) = &done.found
             && let Some(part) = &found.machined_part
         {
-            machined_part::files::files(&analysis.name, &part.mesh, save)?;
+            machined_part::files::files(&analysis.name, part, save)?;
         }
         Ok(())
     };

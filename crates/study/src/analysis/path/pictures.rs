@@ -5,7 +5,7 @@
 //! | `vectors` | arrows of the deviation under each case | a shape under constant loads |
 //! | `track` | the path from above, coloured; `track-2` and so on: from each further side of a part that is milled from several | every other path |
 //! | `along` | deviation over distance | every path |
-//! | `part` | the part in the colours of the deviation of its surface | a machined part |
+//! | `part`; `scan-measured`, `scan-predicted`, `scan-difference` | the part in the colours of the deviation of its surface; where it was measured | a machined part |
 //! | `polar` | the resulting circle, magnified | a circle |
 //! | `shares` | shares of the joints at the worst points | a path that is reached |
 //! | `turns` | deviation over path and spin of the tool, with the chosen spin | a search |
@@ -64,7 +64,7 @@ pub fn pictures(
     };
     let mut pictures = drawing.where_it_deviates();
     pictures.push(drawing.along());
-    pictures.extend(machined_part::pictures::picture(given, found));
+    pictures.extend(machined_part::pictures::pictures(given, found));
     pictures.extend(drawing.polar());
     pictures.extend(drawing.contributions());
     pictures.extend(super::motion_columns::pictures(

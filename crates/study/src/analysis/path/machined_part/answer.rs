@@ -12,6 +12,7 @@ use serde::Serialize;
 
 use super::features::{SurfaceFeatureAnswer, features};
 use super::run::{MachinedPart, WorstPlace, displacement_at, path_point};
+use super::scan_answer::ScanAnswer;
 use super::{MachinedSetting, NominalPart};
 use crate::analysis::path::PathAnalysis;
 use crate::analysis::path::run::PathResult;
@@ -63,6 +64,8 @@ pub struct MachinedPartAnswer {
     pub worst_places: Vec<WorstPlaceAnswer>,
     /// The features of the path, on the surface that comes out.
     pub features: Vec<SurfaceFeatureAnswer>,
+    /// The measured part; none if the study names no scan.
+    pub scan: Option<ScanAnswer>,
     /// What was assumed.
     pub notes: Vec<String>,
 }
@@ -152,6 +155,7 @@ impl MachinedPartAnswer {
                 .map(|worst| worst_place(robot, analysis, part, worst))
                 .collect(),
             features: features(robot, analysis, part),
+            scan: ScanAnswer::of(analysis, machined, part),
             notes: notes(machined),
         })
     }

@@ -92,7 +92,7 @@ pub fn features(robot: &Robot, analysis: &PathAnalysis, part: &MachinedPart) -> 
 }
 
 /// The points of the faces that a feature is evaluated on, each with the tool axis of its move.
-fn points_of(
+pub(super) fn points_of(
     machined: &MachinedSetting,
     part: &MachinedPart,
     feature: &FeatureTable,

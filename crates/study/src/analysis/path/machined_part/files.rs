@@ -5,6 +5,8 @@ use armill_formats::surface::{SurfaceColumn, SurfaceFormat, SurfaceTable};
 use armill_report::{ColourScale, PartView};
 
 use super::mesh::PartMesh;
+use super::run::MachinedPart;
+use super::scan::ScanComparison;
 use crate::error::StudyError;
 
 /// Endings of the files, after the name of the path.
@@ -18,7 +20,7 @@ pub const EXTENSIONS: [(&str, SurfaceFormat); 3] = [
 const NO_VALUE: [u8; 3] = [205, 205, 205];
 
 /// The surface with its deviations, to be written in any format.
-pub fn table(title: &str, mesh: &PartMesh) -> SurfaceTable {
+pub fn table(title: &str, mesh: &PartMesh, scan: Option<&ScanComparison>) -> SurfaceTable {
     let um = |values: &[f64]| values.iter().map(|m| to_um(*m)).collect::<Vec<f64>>();
     let deviations = um(&mesh.deviations);
     let most = PartView::colour_limit(&deviations).unwrap_or(1.0);
@@ -31,6 +33,17 @@ pub fn table(title: &str, mesh: &PartMesh) -> SurfaceTable {
         unit: Some("um".to_owned()),
         values,
     };
+    let colours = deviations.iter().map(colour).collect();
+    let mut columns = vec![
+        column("deviation_um", deviations),
+        column("u_um", um(&mesh.uncertainties)),
+    ];
+    if let Some(scan) = scan {
+        let at = |value: &dyn Fn(usize) -> f64| um(&scan.at_vertices(mesh.vertices.len(), value));
+        columns.push(column("measured_um", at(&|point| scan.measured[point])));
+        let difference = at(&|point| scan.measured[point] - scan.predicted[point]);
+        columns.push(column("measured_less_predicted_um", difference));
+    }
     SurfaceTable {
         title: title.to_owned(),
         vertices_mm: mesh
@@ -40,11 +53,8 @@ pub fn table(title: &str, mesh: &PartMesh) -> SurfaceTable {
             .collect(),
         normals: mesh.normals.iter().map(|normal| (*normal).into()).collect(),
         triangles: mesh.triangles.clone(),
-        colours: Some(deviations.iter().map(colour).collect()),
-        columns: vec![
-            column("deviation_um", deviations),
-            column("u_um", um(&mesh.uncertainties)),
-        ],
+        colours: Some(colours),
+        columns,
     }
 }
 
@@ -54,10 +64,10 @@ pub fn table(title: &str, mesh: &PartMesh) -> SurfaceTable {
 /// That of `save`; a surface that cannot be written, which would be a fault of armill.
 pub fn files(
     title: &str,
-    mesh: &PartMesh,
+    part: &MachinedPart,
     save: &(dyn Fn(&str, &[u8]) -> Result<(), StudyError> + Sync),
 ) -> Result<(), StudyError> {
-    let table = table(title, mesh);
+    let table = table(title, &part.mesh, part.scan.as_ref());
     EXTENSIONS.iter().try_for_each(|(extension, format)| {
         let bytes = format.write(&table);
         let bytes = bytes.map_err(|error| StudyError::value(format!("{title}: {error}"), "report this"))?;

@@ -1,7 +1,7 @@
 //! The part that a path leaves of its stock: cut with the tool where it will be, and compared with the nominal part.
 //!
 //! [`table`]: its keys; `tools`: what cuts; `stock`: what it is cut from; [`resolve`](mod@resolve): keys, checked and in SI; [`run`]: the part, its surface and its features;
-//! [`features`]: form, size and position of faces; [`mesh`]: its surface as triangles; [`answer`], [`report`], [`pictures`], [`files`]: the result in numbers, words, colours and files.
+//! [`features`]: form, size and position of faces; [`mesh`]: its surface as triangles; [`answer`], [`report`], [`pictures`], [`files`]: the result in numbers, words, colours and files; [`scan`], [`scan_answer`]: the measured part.
 
 pub mod answer;
 pub mod features;
@@ -11,6 +11,8 @@ pub mod pictures;
 pub mod report;
 pub mod resolve;
 pub mod run;
+pub mod scan;
+pub mod scan_answer;
 mod stock;
 pub mod table;
 mod tools;

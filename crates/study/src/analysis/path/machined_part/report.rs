@@ -4,6 +4,7 @@ use armill_report::html::Table;
 
 use super::answer::{MachinedPartAnswer, WorstPlaceAnswer};
 use super::features::SurfaceFeatureAnswer;
+use super::scan_answer::{self, AgreementAnswer, DeviationStatistics, ScanAnswer};
 use crate::analysis::cells::{COUNT, NONE, columns, percent, um, without_empty_columns};
 use crate::analysis::path::answer::PathAnswer;
 use crate::analysis::words::micrometres;
@@ -26,18 +27,19 @@ pub fn sentence(part: &MachinedPartAnswer) -> String {
             worst.cause
         )
     });
+    let scan = part.scan.as_ref().map_or_else(String::new, scan_answer::sentence);
     let within = part.fraction_within.map_or_else(String::new, |within| {
         format!("{:.1} % of its area is within the tolerance", within * 100.0)
     });
     format!(
-        " The surface of the part is between {} and {} µm from the nominal one (positive: material is left); {within}{place}.",
+        " The surface of the part is between {} and {} µm from the nominal one (positive: material is left); {within}{place}.{scan}",
         signed(gouged),
         signed(left)
     )
 }
 
 /// A deviation with its sign.
-fn signed(value: f64) -> String {
+pub(super) fn signed(value: f64) -> String {
     let size = micrometres(value.abs());
     match value {
         value if value > 0.0 => format!("+{size}"),
@@ -88,6 +90,16 @@ pub fn tables(paths: &[PathAnswer]) -> Vec<Table> {
                 .iter()
                 .filter(|(_, part)| !part.features.is_empty())
                 .map(|(path, part)| features(&path.name, &part.features)),
+        )
+        .chain(
+            parts
+                .iter()
+                .filter_map(|(path, part)| Some(scan(&path.name, part.scan.as_ref()?))),
+        )
+        .chain(
+            parts
+                .iter()
+                .filter_map(|(path, part)| Some(agreement(&path.name, part.scan.as_ref()?))),
         )
         .chain(places.map(|(path, part)| worst_places(&path.name, &part.worst_places)))
         .collect()
@@ -187,6 +199,111 @@ fn features(name: &str, features: &[SurfaceFeatureAnswer]) -> Table {
         ]),
         rows: features.iter().map(row).collect(),
     })
+}
+
+/// Measured and predicted deviations: a row for the part, and one for each feature.
+fn scan(name: &str, scan: &ScanAnswer) -> Table {
+    let row = |what: &str, points: usize, of: [&DeviationStatistics; 3]| {
+        let [measured, predicted, difference] = of;
+        let mut row = vec![what.to_owned(), points.to_string()];
+        for one in [measured, predicted] {
+            row.extend([one.mean_um, one.rms_um, one.least_um, one.largest_um].map(|value| um(Some(value))));
+        }
+        row.extend([difference.mean_um, difference.rms_um].map(|value| um(Some(value))));
+        row
+    };
+    let whole = row(
+        "part",
+        scan.points,
+        [&scan.measured, &scan.predicted, &scan.difference],
+    );
+    let features = scan.features.iter().map(|feature| {
+        let of = [&feature.measured, &feature.predicted, &feature.difference];
+        row(&feature.name, feature.points, of)
+    });
+    Table {
+        caption: format!(
+            "{name}: measured points of {} and the prediction there, after the same alignment ({}): it removes ({}) mm and ({}) deg from the measured points and \
+             ({}) mm and ({}) deg from the prediction. {} points are too far from the nominal part, {} where nothing is predicted.",
+            scan.file,
+            scan.align.replace('_', " "),
+            numbers(scan.removed.translation_mm),
+            numbers(scan.removed.rotation_deg),
+            numbers(scan.removed_from_prediction.translation_mm),
+            numbers(scan.removed_from_prediction.rotation_deg),
+            scan.too_far,
+            scan.not_predicted
+        ),
+        columns: columns(&[
+            ("surface", ""),
+            ("points", COUNT),
+            ("measured: mean", "µm"),
+            ("root mean square", "µm"),
+            ("least", "µm"),
+            ("largest", "µm"),
+            ("predicted: mean", "µm"),
+            ("root mean square", "µm"),
+            ("least", "µm"),
+            ("largest", "µm"),
+            ("difference: mean", "µm"),
+            ("root mean square", "µm"),
+        ]),
+        rows: std::iter::once(whole).chain(features).collect(),
+    }
+}
+
+fn numbers(values: [f64; 3]) -> String {
+    values.map(|value| format!("{value:.3}")).join(", ")
+}
+
+/// What is explained, by wavelength and by feature.
+fn agreement(name: &str, scan: &ScanAnswer) -> Table {
+    let number = |value: Option<f64>| value.map_or_else(|| NONE.to_owned(), |value| format!("{value:.2}"));
+    let row = |what: String, of: &AgreementAnswer| {
+        vec![
+            what,
+            um(Some(of.measured_sd_um)),
+            of.explained.map_or_else(|| NONE.to_owned(), percent),
+            number(of.slope),
+            number(of.correlation),
+        ]
+    };
+    let [long, short] = scan.wavelengths_mm;
+    let rows = [
+        ("all wavelengths".to_owned(), &scan.agreement),
+        (format!("above {long} mm"), &scan.long),
+        (format!("{short} mm to {long} mm"), &scan.middle),
+        (format!("below {short} mm"), &scan.short),
+    ];
+    let features = scan.features.iter().map(|feature| {
+        let explained = feature.explained.map_or_else(|| NONE.to_owned(), percent);
+        vec![
+            feature.name.clone(),
+            NONE.to_owned(),
+            explained,
+            NONE.to_owned(),
+            NONE.to_owned(),
+        ]
+    });
+    Table {
+        caption: format!(
+            "{name}: share of the variance of the measured deviations that the prediction explains, by wavelength along the surface and by feature; slope of \
+             measured over predicted deviations (u = {})",
+            number(scan.slope_u)
+        ),
+        columns: columns(&[
+            ("part of the deviation", ""),
+            ("measured, standard deviation", "µm"),
+            ("explained", "%"),
+            ("slope", ""),
+            ("correlation", ""),
+        ]),
+        rows: rows
+            .into_iter()
+            .map(|(what, of)| row(what, of))
+            .chain(features)
+            .collect(),
+    }
 }
 
 /// The worst places of the surface of one part.

@@ -3,9 +3,11 @@
 use armill_core::clearance::{Shape, Triangle};
 use armill_core::frame::Isometry;
 use armill_core::machined::PathTool;
+use armill_core::path::Track;
 use armill_core::removal::{DexelDirections, DexelPart, PartSize, RemovalError};
 use armill_core::units::{from_mm, to_mm};
 
+use super::scan::{self, ScanSetting};
 use super::stock::{self, PartStock};
 use super::table::{DexelsName, MachinedPartTable, NominalName};
 use super::tools;
@@ -31,6 +33,8 @@ pub struct MachinedSetting {
     pub nominal: NominalPart,
     /// What cuts.
     pub tools: Vec<PathTool>,
+    /// The measured part.
+    pub scan: Option<ScanSetting>,
     /// What a user should know.
     pub notes: Vec<String>,
 }
@@ -93,6 +97,16 @@ impl Resolver<'_> {
             Some(DexelsName::Z) => DexelDirections::Z,
             Some(DexelsName::All) | None => DexelDirections::All,
         };
+        let scan = match &table.scan {
+            Some(table) => {
+                let of_part = self.path_from_part_mesh(analysis);
+                let Some(scan) = scan::resolve(log, table, self.folder, (&nominal, of_part))? else {
+                    return Ok(None);
+                };
+                Some(scan)
+            }
+            None => None,
+        };
         let (cell, notes) = cell(table, &tools, |cell| DexelPart::size(corners, cell, directions));
         let size = match DexelPart::size(corners, cell, directions) {
             Ok(size) => size,
@@ -108,6 +122,7 @@ impl Resolver<'_> {
             size,
             nominal,
             tools,
+            scan,
             notes,
         };
         let bytes = found.bytes();
@@ -152,13 +167,25 @@ impl Resolver<'_> {
             log.problem("machined_part.nominal", message, "close its holes");
             return None;
         }
-        let placing = &analysis.track.placing;
-        let path_from_part = placing.base_from_path.inverse() * analysis.track.base_from_part;
-        Some(NominalPart::Mesh(placed(
-            mesh.triangles(),
-            &(path_from_part * part_from_body),
-        )))
+        let path_from_body = path_from_part(analysis) * part_from_body;
+        Some(NominalPart::Mesh(placed(mesh.triangles(), &path_from_body)))
     }
+
+    /// From the frame of the mesh of `[part]`, if there is one.
+    fn path_from_part_mesh(&self, analysis: &PathAnalysis) -> Option<Isometry> {
+        let part = self.bodies?.part.as_ref()?;
+        let is_mesh = matches!(part.shape, Shape::Mesh(_));
+        is_mesh.then(|| path_from_part(analysis) * part.frame_from_body)
+    }
+}
+
+fn path_from_part(analysis: &PathAnalysis) -> Isometry {
+    let Track {
+        placing,
+        base_from_part,
+        ..
+    } = &analysis.track;
+    placing.base_from_path.inverse() * base_from_part
 }
 
 /// Triangles in another frame.

@@ -14,6 +14,7 @@ use armill_core::source::Deviation;
 use armill_core::spatial::Twist;
 
 use super::mesh::{MOST_TRIANGLES, PartMesh};
+use super::scan::{self, ScanComparison};
 use super::{MachinedSetting, NominalPart};
 use crate::analysis::path::PathAnalysis;
 use crate::analysis::runner::Runner;
@@ -42,6 +43,8 @@ pub struct MachinedPart {
     pub stages: [Vec<Stage>; 2],
     /// The worst places, worst first.
     pub worst: Vec<WorstPlace>,
+    /// The measured part, if the study names a scan.
+    pub scan: Option<ScanComparison>,
     /// The nominal surface as triangles, with its deviations.
     pub mesh: PartMesh,
     /// The path that the part was cut along: closed if it is a circle.
@@ -134,6 +137,7 @@ impl Runner<'_> {
             });
         let mut part = MachinedPart {
             mesh: PartMesh::default(),
+            scan: None,
             worst: worst.collect(),
             surface: cut.surface,
             unknown_area: cut.unknown_area,
@@ -148,6 +152,13 @@ impl Runner<'_> {
         };
         let mesh = part.triangles(self.robot, analysis, machined, MOST_TRIANGLES);
         part.mesh = mesh.map_err(refused)?;
+        if let Some(scan) = &machined.scan {
+            let found = scan::compared(scan, machined, &part.mesh).map_err(|error| {
+                let message = format!("{}: {error} ({})", analysis.shown(), scan.file);
+                StudyError::value(message, "check the frame, the unit and `farthest_mm` of the scan")
+            });
+            part.scan = Some(found?);
+        }
         Ok(Some(part))
     }
 

@@ -21,6 +21,63 @@ pub struct MachinedPartTable {
     pub stock: Option<PartStockTable>,
     /// The tool; that of the cut or drill if left out. Sizes in the program take precedence.
     pub tool: Option<PartToolTable>,
+    /// Measured points of the real part, to compare with the prediction.
+    pub scan: Option<ScanTable>,
+}
+
+/// Measured points of the real part.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ScanTable {
+    /// Its file, relative to the study: mesh, points or CMM results.
+    pub file: String,
+    /// Unit of its lengths, where the file does not give it; mm if left out.
+    pub unit: Option<MeshUnitName>,
+    /// Frame of its coordinates: `program`, or `part` for the frame of the mesh of `[part]`. The frame of the nominal part if left out.
+    pub frame: Option<NominalName>,
+    /// How the points are moved onto the nominal part: `none` (they are in its frame), `best_fit` (default), `datums`.
+    pub align: Option<AlignName>,
+    /// Datum points for `align = "datums"`.
+    pub datums: Option<DatumsTable>,
+    /// Radius of the probe, where the points are its centres.
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub probe_radius_mm: Option<f64>,
+    /// Points farther from the nominal part are left out; 2 if not given.
+    #[schemars(range(min = 1e-3, max = 1e3))]
+    pub farthest_mm: Option<f64>,
+    /// Wavelengths that separate long, middle and short ones; 20 and 2 if left out.
+    #[schemars(inner(range(min = 1e-3, max = 1e4)))]
+    pub wavelengths_mm: Option<[f64; 2]>,
+}
+
+/// How measured points are moved onto the nominal part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum AlignName {
+    /// Not at all.
+    None,
+    /// By least squares.
+    BestFit,
+    /// By datum points: three of a primary, two of a secondary, one of a tertiary plane.
+    Datums,
+}
+
+/// Nominal positions of datum points, in the frame of the scan.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DatumsTable {
+    /// Three or more on the primary plane.
+    #[schemars(length(min = 3, max = 1000), inner(inner(range(min = -1e6, max = 1e6))))]
+    pub primary_mm: Vec<[f64; 3]>,
+    /// Two or more on the secondary plane.
+    #[schemars(length(min = 2, max = 1000), inner(inner(range(min = -1e6, max = 1e6))))]
+    pub secondary_mm: Vec<[f64; 3]>,
+    /// One on the tertiary plane.
+    #[schemars(inner(range(min = -1e6, max = 1e6)))]
+    pub tertiary_mm: [f64; 3],
+    /// Measured points within this distance of a datum point are averaged; 1 if left out.
+    #[schemars(range(min = 1e-3, max = 1e3))]
+    pub radius_mm: Option<f64>,
 }
 
 /// Directions of dexels.
