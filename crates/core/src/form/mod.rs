@@ -4,7 +4,7 @@
 //! (flatness, tilt, orientation), [`cylinder`] (least squares, minimum zone, inscribed, circumscribed, size, position),
 //! [`slices`] (roundness along a cylinder), [`profile`] (profile of a surface). `neighbours`: points in the cells of a grid;
 //! [`thickness`](mod@thickness) (of a wall), [`wavelengths`] (what a prediction explains). [`surface`] (nearest place on a mesh, with sign),
-//! [`align`] (best fit to it), [`datum`] (3-2-1). `error`: errors of all these.
+//! [`align`] (best fit to it), [`datum`] (3-2-1), [`superposition`](mod@superposition) (pairs of points). `error`: errors of all these.
 //!
 //! Points in m, in one frame. Theory: `docs/theory/form.md`.
 
@@ -18,6 +18,7 @@ mod neighbours;
 pub mod plane;
 pub mod profile;
 pub mod slices;
+pub mod superposition;
 pub mod surface;
 pub mod thickness;
 pub mod wavelengths;
@@ -31,6 +32,7 @@ pub use line::Straightness;
 pub use plane::{Flatness, PlaneDeparture};
 pub use profile::{SurfaceDeviation, SurfaceProfile};
 pub use slices::SliceRoundness;
+pub use superposition::{Superposition, superposition};
 pub use surface::NominalSurface;
 pub use thickness::Thickness;
 pub use wavelengths::AgreementByWavelength;

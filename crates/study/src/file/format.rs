@@ -118,6 +118,7 @@ impl StudyFile {
             pedestal: self.pedestal.as_ref(),
             floor: self.floor,
             part: self.part.as_ref(),
+            plane: &self.plane,
             least_clearance_mm: self.least_clearance_mm,
             robot: &self.robot,
             tool_has_bodies: tools.any(|tool| !tool.body.is_empty()),

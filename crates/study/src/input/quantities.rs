@@ -104,16 +104,27 @@ pub fn plane_at(
     table: &PlaneTable,
     base_from_reference: &Isometry,
 ) -> Option<(Plane, Option<f64>)> {
+    let Some((reference_from_part, tilt)) = reference_from_part(table) else {
+        log.problem(
+            "plane.rotation_deg",
+            "a plane has either `tilt_deg` or `rotation_deg`",
+            "remove one",
+        );
+        return None;
+    };
+    Some((
+        Plane {
+            base_from_part: base_from_reference * reference_from_part,
+        },
+        tilt,
+    ))
+}
+
+/// The plane in the frame that the table counts from, and its tilt, rad; `None` with tilt and rotation.
+pub fn reference_from_part(table: &PlaneTable) -> Option<(Isometry, Option<f64>)> {
     let centre = Point3::from(from_mm(Vector3::from(table.centre_mm)));
-    let (reference_from_part, tilt) = match (table.tilt_deg, table.rotation_deg) {
-        (Some(_), Some(_)) => {
-            log.problem(
-                "plane.rotation_deg",
-                "a plane has either `tilt_deg` or `rotation_deg`",
-                "remove one",
-            );
-            return None;
-        }
+    Some(match (table.tilt_deg, table.rotation_deg) {
+        (Some(_), Some(_)) => return None,
         (None, Some(angles)) => {
             let rotation = Vector3::from(angles).map(from_deg);
             (from_xyz_and_fixed_angles(centre.coords, rotation), None)
@@ -122,13 +133,7 @@ pub fn plane_at(
             let tilt = from_deg(tilt.unwrap_or(0.0));
             (Plane::tilted(centre, tilt).base_from_part, Some(tilt))
         }
-    };
-    Some((
-        Plane {
-            base_from_part: base_from_reference * reference_from_part,
-        },
-        tilt,
-    ))
+    })
 }
 
 /// The load cases in their own frame; those in the axes of base_link in the axes of base, which are the same unless a

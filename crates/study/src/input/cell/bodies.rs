@@ -3,9 +3,11 @@
 use std::path::Path;
 
 use armill_core::clearance::{ArmBody, Role};
+use armill_core::form::superposition;
 use armill_core::frame::Isometry;
+use armill_core::nalgebra::Point3;
 use armill_core::robot::Attachment;
-use armill_core::units::from_mm;
+use armill_core::units::{from_mm, to_mm};
 use armill_formats::robot::RobotDescription;
 
 use crate::error::StudyError;
@@ -15,8 +17,8 @@ use crate::input::cell::named_shape::{FLOOR, NamedShape};
 use crate::input::cell::shape::shape_of;
 use crate::input::cell::tables::{FloorTable, ObstacleTable, PartTable, PedestalTable};
 use crate::input::problem_log::ProblemLog;
-use crate::input::quantities::pose_mm_deg;
-use crate::input::tables::ToolTable;
+use crate::input::quantities::{pose_mm_deg, reference_from_part};
+use crate::input::tables::{PlaneTable, ToolTable};
 
 /// The tables of a study that are about its cell.
 #[derive(Clone, Copy, Debug)]
@@ -29,6 +31,8 @@ pub struct CellTables<'a> {
     pub floor: Option<FloorTable>,
     /// The part.
     pub part: Option<&'a PartTable>,
+    /// The plane of the study, which the part is on.
+    pub plane: &'a PlaneTable,
     /// The demanded clearance.
     pub least_clearance_mm: Option<f64>,
     /// The robot as the study names it.
@@ -140,7 +144,7 @@ impl CellBodies {
             part = Some(NamedShape {
                 name: PART.to_owned(),
                 shape: found.shape,
-                frame_from_body: pose_or_none(table.part_from_body_mm_deg.as_ref()),
+                frame_from_body: part_from_body(log, table, tables.plane, &mut notes),
                 table: PART.to_owned(),
             });
         }
@@ -173,6 +177,69 @@ impl CellBodies {
             least: from_mm(tables.least_clearance_mm.unwrap_or(0.0)),
             notes,
         }))
+    }
+}
+
+/// Points that do not fit by more than this, relative to their distance from each other, have another unit or order.
+const MISFIT: f64 = 0.02;
+
+/// Position of the part on the plane: as given, or from its measured points.
+fn part_from_body(
+    log: &mut ProblemLog<'_>,
+    table: &PartTable,
+    plane: &PlaneTable,
+    notes: &mut Vec<String>,
+) -> Isometry {
+    let given = pose_or_none(table.part_from_body_mm_deg.as_ref());
+    let Some(points) = &table.points else {
+        return given;
+    };
+    const KEY: &str = "part.points";
+    if table.part_from_body_mm_deg.is_some() {
+        log.problem(
+            KEY,
+            "the part has `part_from_body_mm_deg` and `points`",
+            "remove one",
+        );
+        return given;
+    }
+    let in_si = |mm: &[[f64; 3]]| {
+        mm.iter()
+            .map(|mm| Point3::from(mm.map(from_mm)))
+            .collect::<Vec<_>>()
+    };
+    let (body, measured) = (in_si(&points.body_mm), in_si(&points.measured_mm));
+    let found = match superposition(&body, &measured) {
+        Ok(found) => found,
+        Err(error) => {
+            let hint = "body_mm = [[0, 0, 0], [100, 0, 0], [0, 50, 0]], measured_mm: the same points in the reference frame";
+            log.problem(KEY, error.to_string(), hint);
+            return given;
+        }
+    };
+    let farthest = |points: &[Point3<f64>]| {
+        let from_first = points.iter().map(|point| (point - points[0]).norm());
+        from_first.fold(0.0, f64::max)
+    };
+    let largest = found.residuals.iter().copied().fold(0.0, f64::max);
+    if largest > MISFIT * farthest(&body) {
+        let message = format!(
+            "the measured points do not fit: {:.3} mm are left at one of them, and the body's points are up to {:.1} mm apart",
+            to_mm(largest),
+            to_mm(farthest(&body))
+        );
+        log.problem(KEY, message, "check their order, and that both are in mm");
+        return given;
+    }
+    notes.push(format!(
+        "the part is placed by {} measured points; the largest distance that is left is {:.3} mm.",
+        body.len(),
+        to_mm(largest)
+    ));
+    match reference_from_part(plane) {
+        Some((reference_from_part, _)) => reference_from_part.inverse() * found.motion,
+        // Reported at the plane.
+        None => given,
     }
 }
 

@@ -107,6 +107,20 @@ pub struct PartTable {
     /// then rotations about the fixed axes x, y, z in degrees.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub part_from_body_mm_deg: Option<[f64; 6]>,
+    /// Three or more points of it and where they were measured, in place of `part_from_body_mm_deg`.
+    pub points: Option<PartPointsTable>,
+}
+
+/// Points of a body, and where they were measured; pairs in the same order.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PartPointsTable {
+    /// In the frame of the body's coordinates.
+    #[schemars(length(min = 3, max = 1000), inner(inner(range(min = -1e6, max = 1e6))))]
+    pub body_mm: Vec<[f64; 3]>,
+    /// In the reference frame of the study.
+    #[schemars(length(min = 3, max = 1000), inner(inner(range(min = -1e6, max = 1e6))))]
+    pub measured_mm: Vec<[f64; 3]>,
 }
 
 /// Unit of the coordinates of a mesh.
