@@ -43,7 +43,7 @@ fn edge_between(one: usize, other: usize) -> usize {
 fn corners_of(face: usize) -> [usize; 4] {
     let axis = face / 2;
     let [i, j] = across(axis);
-    let first = face % 2 << axis;
+    let first = (face % 2) << axis;
     [first, first | 1 << i, first | 1 << i | 1 << j, first | 1 << j]
 }
 
@@ -56,7 +56,7 @@ impl Cycles {
         let mut least: [usize; 12] = std::array::from_fn(|edge| edge);
         let mut is_crossed = [false; 12];
         let mut four_crossed = [false; 6];
-        for face in 0..6 {
+        for (face, is_four) in four_crossed.iter_mut().enumerate() {
             let corners = corners_of(face);
             // Between each corner and the next one.
             let edges = [0, 1, 2, 3].map(|n| edge_between(corners[n], corners[(n + 1) % 4]));
@@ -72,8 +72,8 @@ impl Cycles {
                     }
                 }
             };
-            four_crossed[face] = crossed == [true; 4];
-            if four_crossed[face] {
+            *is_four = crossed == [true; 4];
+            if *is_four {
                 let around_inside = otherwise != Some(face as u8);
                 for n in (0..4).filter(|n| is_inside(corners[*n]) == around_inside) {
                     join(edges[(n + 3) % 4], edges[n]);

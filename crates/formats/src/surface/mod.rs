@@ -7,7 +7,7 @@
 //! | glTF binary, `.glb` | geometry, normals, colours, values; m, y up | `glb` |
 //! | STL, binary | geometry; mm | `stl` |
 //!
-//! Read in this order: [`surface_table`] (what is written, and its checks), the formats, [`format`](mod@format) (which one). Meshes in: [`mesh`](crate::mesh).
+//! Read in this order: [`surface_table`] (what is written, and its checks), `text` (headers that are ASCII), the formats, [`format`](mod@format) (which one). Meshes in: [`mesh`](crate::mesh).
 
 pub mod format;
 mod glb;
