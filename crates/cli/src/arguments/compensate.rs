@@ -32,6 +32,9 @@ pub(crate) struct CompensateArguments {
     /// Write the nominal path without compensation (for a baseline test)
     #[arg(long)]
     pub nominal: bool,
+    /// Compensate only what shows on the surface of the part (`machined_part` of the path), and leave the rest
+    #[arg(long, conflicts_with = "nominal")]
+    pub surface: bool,
     #[command(flatten)]
     pub program: ProgramOptions,
     /// Feed, if the path does not specify one

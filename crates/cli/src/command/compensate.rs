@@ -5,7 +5,7 @@
 
 use armill_core::optimize::Compensation;
 use armill_plan::compensate::in_place::allow_programs;
-use armill_plan::compensate::{Commanded, CompensationAnswer, compensate};
+use armill_plan::compensate::{Commanded, CompensationAnswer, Requested, compensate};
 use armill_study::{StudyError, studies};
 
 use super::program::{requested, save};
@@ -33,12 +33,15 @@ pub(crate) fn run(arguments: &CompensateArguments) -> Result<Outcome, StudyError
         &study,
         arguments.analysis.as_deref(),
     ));
-    let compensation = match arguments.nominal {
-        true => Compensation::NONE,
-        false => Compensation::USUAL,
+    let how = Requested {
+        iteration: match arguments.nominal {
+            true => Compensation::NONE,
+            false => Compensation::USUAL,
+        },
+        normal_to_surface: arguments.surface,
     };
     let name = arguments.analysis.as_deref();
-    let commanded = progress.watch(|watch| compensate(&study, name, compensation, watch))?;
+    let commanded = progress.watch(|watch| compensate(&study, name, how, watch))?;
     let files: Vec<(String, &[u8])> = commanded.iter().flat_map(Commanded::files).collect();
     folder.allow(files.iter().map(|(name, _)| name.as_str()))?;
     for (name, bytes) in files {

@@ -2,7 +2,7 @@
 //!
 //! Read in this order: [`tip`] (displacement and rotation of the tool at each point of a path, by all sources), [`moves`] (the moves of the tool, as
 //! programmed or displaced), [`faces`] (what made a surface, and its normals), [`surface`] (deviation normal to the nominal surface), `nearest` (the distance of a point from the surface of a part),
-//! [`volumes`] (material left and removed too much), [`worst`] (the worst places, each from another part of the surface).
+//! [`volumes`] (material left and removed too much), [`worst`] (the worst places, each from another part of the surface), [`directions`] (in which a displacement of the tool shows).
 //!
 //! ```text
 //! path + deviations -> moves -> removal -> part
@@ -11,6 +11,7 @@
 //!
 //! The nominal part and the part have the same raster, so their surfaces are compared along each dexel.
 
+pub mod directions;
 pub mod faces;
 pub mod moves;
 mod nearest;
@@ -19,6 +20,7 @@ pub mod tip;
 pub mod volumes;
 pub mod worst;
 
+pub use directions::surface_directions;
 pub use faces::{CutBy, MadePart};
 pub use moves::{MachiningPath, PathTool, Stage};
 pub use surface::{PartComparison, SearchReach, SurfaceComparison, SurfaceDeviation};

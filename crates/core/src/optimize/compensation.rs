@@ -15,8 +15,10 @@
 //! divided by the reach: two iterations are enough. Only the position of the tip is changed, not its axis. One path can
 //! compensate only one of several load cases: the mean of all is used. The remaining deviation of each load case is the
 //! residual.
+//!
+//! Where only the surface counts, `x_cmd = x - P delta(x_cmd)` with a projector `P` at each point ([`surface_directions`](crate::machined::surface_directions)).
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 use crate::kernel::{Answers, BranchChoice, Question};
 use crate::load::{LoadFrame, PathLoad};
@@ -81,6 +83,23 @@ pub fn compensated(
     requested: Compensation,
     watch: Watch<'_>,
 ) -> Result<Compensated, Cancelled> {
+    compensated_along(question, path, choices, (requested, None), watch)
+}
+
+/// [`compensated`] in these directions alone: a projector for each point, path axes.
+///
+/// # Errors
+/// [`Cancelled`] if the watch cancels.
+///
+/// # Panics
+/// If the load does not [cover](PathLoad::covers) the points of the track, or there are fewer projectors than points.
+pub fn compensated_along(
+    question: &Question<'_>,
+    path: LoadedTrack<'_>,
+    choices: &[(usize, BranchChoice)],
+    (requested, directions): (Compensation, Option<&[Matrix3<f64>]>),
+    watch: Watch<'_>,
+) -> Result<Compensated, Cancelled> {
     let (track, load) = (path.track, nominal_load(path.load));
     let follow = |track: &Track| along_postures(question, track, load.clone(), choices.to_vec(), watch);
     let path_from_base = track.placing.base_from_path.rotation.inverse();
@@ -91,6 +110,7 @@ pub fn compensated(
         let mut moved = 0.0_f64;
         for (index, _) in along.answers.evaluations() {
             let delta = path_from_base * mean(&along.answers, index);
+            let delta = directions.map_or(delta, |directions| directions[index] * delta);
             let to = track.path.points[index].at - delta;
             let at = &mut commanded.path.points[index].at;
             moved = moved.max((to - *at).norm());

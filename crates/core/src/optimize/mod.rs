@@ -44,7 +44,7 @@ mod walk;
 mod winding;
 mod window;
 
-pub use compensation::{Compensated, Compensation, compensated, residual_of};
+pub use compensation::{Compensated, Compensation, compensated, compensated_along, residual_of};
 pub use free_path::FreePath;
 pub use freedoms::{LeanRange, MOST_MOVING, MovingAxis};
 pub use gain::{FollowedTrack, Gain, LeastGain, gain, gain_along};

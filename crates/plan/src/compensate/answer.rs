@@ -6,7 +6,7 @@ use armill_core::source::StiffnessModel;
 use armill_study::file::resolve::Study;
 use serde::Serialize;
 
-use super::{Commanded, CompensatedPath};
+use super::{Commanded, CompensatedPath, CompensatedSurface};
 
 /// Result of the compensation of the paths of a study.
 #[derive(Clone, Debug, Serialize)]
@@ -51,6 +51,13 @@ impl CompensationAnswer {
         .collect();
         for path in &self.paths {
             let name = &path.name;
+            lines.extend(path.surface.iter().map(|surface| {
+                let CompensatedSurface { before, after } = surface;
+                format!(
+                    "{name}: surface of the part between {:+.1} and {:+.1} µm ({:.1} µm rms), compensated between {:+.1} and {:+.1} µm ({:.1} µm rms), cut again in the model",
+                    before.most_gouged_um, before.most_left_um, before.rms_um, after.most_gouged_um, after.most_left_um, after.rms_um
+                )
+            }));
             let collisions = path.collisions.as_ref().map_or(0, |collisions| collisions.points);
             let out_of_reach = path.unreachable - collisions;
             if out_of_reach + path.outside_joint_limits > 0 {

@@ -17,6 +17,7 @@ use serde::Serialize;
 
 use super::error_answer::ErrorAnswer;
 use super::in_place::RewrittenProgramAnswer;
+use super::surface::CompensatedSurface;
 
 /// One path, before and after.
 #[derive(Clone, Debug, Serialize)]
@@ -47,6 +48,8 @@ pub struct CompensatedPath {
     pub file: String,
     /// The program that the path is from, with changed targets; none for another path, or if `notes` give a reason.
     pub in_place: Option<RewrittenProgramAnswer>,
+    /// The surface of the part that comes out, before and after; none if the study does not ask for it.
+    pub surface: Option<CompensatedSurface>,
     /// What a user must know, each a sentence.
     pub notes: Vec<String>,
 }

@@ -92,6 +92,7 @@ pub(super) fn of_holes<'a>(
             .count(),
         file: format!("{}.commanded.csv", armill_study::file_names::slug(name)),
         in_place: None,
+        surface: None,
         notes: caution(name, largest_correction_um).into_iter().collect(),
     };
     let table = Table::new(name, position_columns(&commanded.track))?;

@@ -12,7 +12,7 @@
 //! For a path from a robot program, that program is returned too, with changed targets ([`in_place`]).
 //!
 //! `answer`: the result of all paths, in numbers and sentences; `commanded`: a commanded path or set of holes; `error_answer`: the distances from the path; `holes`: holes instead of a
-//! path; `in_place`: the program that a path is from, rewritten; `to_measure`: what acted on the arm at each point, for its journal.
+//! path; `in_place`: the program that a path is from, rewritten; `surface`: the part that comes out before and after; `to_measure`: what acted on the arm at each point, for its journal.
 //!
 //! The correction is the elastic deviation (and that of gravity, backlash and the calibrated robot, if known)
 //! under the mean of the load cases, of a cut under its nominal force; the difference of the cases is reported as
@@ -23,15 +23,18 @@ mod commanded;
 pub mod error_answer;
 mod holes;
 pub mod in_place;
+mod surface;
 mod to_measure;
 
 pub use answer::CompensationAnswer;
 pub use commanded::{CollisionsAnswer, Commanded, CompensatedPath};
 pub use error_answer::ErrorAnswer;
+pub use surface::{CompensatedSurface, SurfaceNumbers};
 
 use armill_core::kernel::Answers;
+use armill_core::machined::surface_directions;
 use armill_core::nalgebra::Vector3;
-use armill_core::optimize::{Compensated, Compensation, compensated};
+use armill_core::optimize::{Compensated, Compensation, compensated_along};
 use armill_core::path::{LoadedTrack, Shape, Track};
 use armill_core::units::{to_mm, to_um};
 use armill_core::watch::Watch;
@@ -48,6 +51,24 @@ use self::holes::of_holes;
 use self::in_place::{RewrittenProgram, in_place};
 use self::to_measure::to_measure;
 
+/// How paths are compensated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Requested {
+    /// The fixed-point iteration.
+    pub iteration: Compensation,
+    /// Whether a path with a machined part is compensated only in the directions that show on its surface.
+    pub normal_to_surface: bool,
+}
+
+impl From<Compensation> for Requested {
+    fn from(iteration: Compensation) -> Requested {
+        Requested {
+            iteration,
+            normal_to_surface: false,
+        }
+    }
+}
+
 /// Compensates every path and set of holes of the study, or the one called `name`. A circle is closed: its first point is commanded
 /// again at its end.
 ///
@@ -56,14 +77,15 @@ use self::to_measure::to_measure;
 pub fn compensate<'a>(
     study: &'a Study,
     name: Option<&str>,
-    compensation: Compensation,
+    requested: impl Into<Requested>,
     watch: Watch<'_>,
 ) -> Result<Vec<Commanded<'a>>, StudyError> {
+    let requested = requested.into();
     let runner = Runner::new(&study.robot.robot, watch)?;
     let paths = study.paths(name);
-    let paths = paths.map(|(name, path)| of_path(&runner, name, path, compensation));
+    let paths = paths.map(|(name, path)| of_path(&runner, name, path, requested));
     let holes = study.holes(name);
-    let holes = holes.map(|(name, holes)| of_holes(&runner, name, holes, compensation));
+    let holes = holes.map(|(name, holes)| of_holes(&runner, name, holes, requested.iteration));
     let all: Vec<Commanded<'a>> = paths.chain(holes).collect::<Result<_, _>>()?;
     if all.is_empty() {
         let message = match name {
@@ -94,7 +116,7 @@ fn of_path<'a>(
     runner: &Runner<'_>,
     name: &str,
     path: &'a PathAnalysis,
-    compensation: Compensation,
+    requested: Requested,
 ) -> Result<Commanded<'a>, StudyError> {
     let closed;
     let analysis = match path.shape() {
@@ -118,13 +140,20 @@ fn of_path<'a>(
     let load = &followed.load;
     let drawn = followed.turned.as_ref().unwrap_or(&analysis.track);
     let question = runner.question(&analysis.setting);
-    let mut found = compensated(
+    let before = surface::uncompensated(runner, analysis, drawn, &followed.along)?;
+    let directions = match (requested.normal_to_surface, &before) {
+        (false, _) => None,
+        (true, Some(part)) => Some(surface_directions(drawn.len(), &part.surface.points)),
+        (true, None) => return Err(surface::no_part(name)),
+    };
+    let mut found = compensated_along(
         &question,
         LoadedTrack { track: drawn, load },
         &followed.along.choices,
-        compensation,
+        (requested.iteration, directions.as_deref()),
         runner.watch,
     )?;
+    let surface = surface::answer(runner, analysis, (drawn, before.as_ref()), &found)?;
     // The tool cuts where the nominal path is, with the postures of the commanded one.
     runner.keep_clear_of_stock(analysis, &mut found.along)?;
     let rewritten = in_place(runner, analysis, &followed, load, &found.track)?;
@@ -166,6 +195,7 @@ fn of_path<'a>(
             .count(),
         file,
         in_place: in_place.as_ref().map(|written| written.given.clone()),
+        surface,
         notes,
     };
     Ok(Commanded {

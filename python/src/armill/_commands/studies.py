@@ -156,6 +156,7 @@ def compensate(
     analysis: str | None = None,
     out: Path | None = None,
     nominal: bool = False,
+    surface: bool = False,
     program: Path | None = None,
     frame: int | None = None,
     tool: int | None = None,

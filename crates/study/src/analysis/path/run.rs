@@ -200,7 +200,7 @@ impl Runner<'_> {
             process: (analysis.cut.as_ref())
                 .and_then(|cut| ProcessLoads::of(&cut.cutting, &analysis.track, &along.load)),
             machined_part: self
-                .machined_part(analysis, track, &along, motion.as_ref())?
+                .machined_part(analysis, track, (track, &along), motion.as_ref())?
                 .map(Box::new),
             along,
             forces,

@@ -81,15 +81,15 @@ const TURN: f64 = 0.02;
 const LEAST_TURN: f64 = 1e-6;
 
 impl Runner<'_> {
-    /// The part that comes out of `track` in these postures; `None` if the study does not ask for it.
+    /// The part that comes out of `track` in these postures, which is meant to be that of the track `nominal`; `None` if the study does not ask for it.
     ///
     /// # Errors
     /// A stock that is not a solid; cancelled by the watch.
     pub fn machined_part(
         &self,
         analysis: &PathAnalysis,
-        track: &Track,
-        along: &AlongPath,
+        nominal: &Track,
+        (track, along): (&Track, &AlongPath),
         motion: Option<&Motion>,
     ) -> Result<Option<MachinedPart>, StudyError> {
         let Some(machined) = &analysis.machined_part else {
@@ -105,14 +105,14 @@ impl Runner<'_> {
             motion: &displacement,
         };
         let mut deviations = followed.deviations(self.watch)?;
-        let track = match analysis.shape() {
+        let (track, nominal) = match analysis.shape() {
             Some(shape @ Shape::Circle { .. }) => {
                 deviations.extend(deviations.first().copied());
-                track.closed(shape.length())
+                (track.closed(shape.length()), nominal.closed(shape.length()))
             }
-            _ => track.clone(),
+            _ => (track.clone(), nominal.clone()),
         };
-        let cut = self.cut(machined, &track, &deviations);
+        let cut = self.cut(machined, [&track, &nominal], &deviations);
         let refused = |error: RemovalError| match error {
             RemovalError::Cancelled(cancelled) => StudyError::from(cancelled),
             error => StudyError::value(
@@ -165,19 +165,20 @@ impl Runner<'_> {
     fn cut(
         &self,
         machined: &MachinedSetting,
-        track: &Track,
+        [track, nominal]: [&Track; 2],
         deviations: &[Option<TipDeviation>],
     ) -> Result<CutPart, RemovalError> {
         let stock = DexelPart::new(&machined.stock.solid(), machined.cell, machined.directions)?;
         let turn_tolerance = turn_tolerance(machined);
-        let path = MachiningPath {
+        let path = |track| MachiningPath {
             track,
             tools: &machined.tools,
             turn_tolerance,
         };
-        let stages = [path.stages(Some(deviations)), path.stages(None)];
+        let (path, nominal_path) = (path(track), path(nominal));
+        let stages = [path.stages(Some(deviations)), nominal_path.stages(None)];
         let uncut = stock.volume();
-        let (programmed, removals) = path.cut(stock.clone(), &stages[1], self.watch)?;
+        let (programmed, removals) = nominal_path.cut(stock.clone(), &stages[1], self.watch)?;
         let nominal = match &machined.nominal {
             NominalPart::Program => programmed,
             NominalPart::Mesh(triangles) => {
