@@ -6,6 +6,7 @@
 
 use std::path::Path;
 
+use armill_core::machined::FollowedPath;
 use armill_core::nalgebra::{DMatrix, Vector3};
 use armill_core::optimize::Compensation;
 use armill_core::robot::{LearntAxes, LearntSettings, ResidualAt, SmallMotion, UncertainGeometry};
@@ -14,6 +15,7 @@ use armill_formats::robot::armill::{
     self, Geometry, GeometryCovarianceTable, LearntTable, residuals_file, with_geometry, with_residual,
 };
 use armill_plan::compensate::compensate;
+use armill_study::analysis::runner::Runner;
 use armill_study::live::{PoseTarget, PostureQuestion, StudyText, answer_json, postures};
 use serde_json::Value;
 
@@ -303,6 +305,53 @@ fn the_same_point_has_the_same_total_and_parts_on_every_surface() {
         "{before:?}"
     );
     assert!(after.max_um < before.max_um, "{after:?}");
+}
+
+#[test]
+fn the_tool_that_cuts_a_part_deviates_as_its_path() {
+    let folder = cell();
+    // One load case: the part is cut under the mean of all.
+    let text = STUDY.replace("[[60, -35, 20], [-20, 50, 30]]", "[[60, -35, 20]]");
+    std::fs::write(folder.path().join("study.toml"), text).unwrap();
+    let study = armill_study::studies::find(folder.path())
+        .unwrap()
+        .read()
+        .unwrap();
+    let (_, path) = study.paths(Some("line")).next().unwrap();
+    let runner = Runner::new(&study.robot.robot, Watch::NONE).unwrap();
+    let found = runner.path(path).unwrap();
+    let motion = |index: usize| path.setting.motion_displacement(found.motion.as_ref(), index);
+    let followed = FollowedPath {
+        arm: runner.question(&path.setting).arm,
+        uncertainty: path.setting.uncertainty,
+        track: &path.track,
+        along: &found.along,
+        motion: &motion,
+    };
+    for (index, deviation) in followed.deviations(Watch::NONE).unwrap().iter().enumerate() {
+        let (deviation, of_path) = (deviation.unwrap(), found.along.answers.deviations_at(index)[0]);
+        assert!(
+            (deviation.twist.linear - of_path).norm() < SAME * of_path.norm(),
+            "{index}"
+        );
+        let shares = followed.deviation_at(index).unwrap().shares;
+        let sum: Vector3<f64> = shares.iter().map(|share| share.linear).sum();
+        assert!(
+            (sum - of_path).norm() < SAME * of_path.norm(),
+            "{index}: {shares:?}"
+        );
+    }
+    let worst = &found.worst[0];
+    let evaluation = worst.answers.points[0].unwrap();
+    let of_path = worst.answers.deviations_at(0)[0];
+    let normal = path.track.stop(worst.index).normal;
+    let in_plane = (of_path - normal.into_inner() * of_path.dot(&normal)).normalize();
+    let covariance = followed.deviations(Watch::NONE).unwrap()[worst.index]
+        .unwrap()
+        .covariance;
+    let u = in_plane.dot(&(covariance * in_plane)).sqrt();
+    let expected = evaluation.in_plane_uncertainty.unwrap();
+    assert!((u - expected).abs() < 1e-6 * expected, "{u} {expected}");
 }
 
 #[test]

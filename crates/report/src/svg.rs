@@ -257,13 +257,12 @@ impl Svg {
         );
     }
 
-    /// An image that fills `area`; `href` is a data URI.
+    /// An image that fills `area`, from a data URI.
     pub(crate) fn image(&mut self, area: Rect, href: &str) {
-        let Rect { x, y, w, h } = area;
-        let [x, y, w, h] = [x, y, w, h].map(num);
+        let [x, y, w, h] = [area.x, area.y, area.w, area.h].map(num);
         let _ = writeln!(
             self.body,
-            r#"<image x="{x}" y="{y}" width="{w}" height="{h}" preserveAspectRatio="none" href="{href}"/>"#
+            "<image x='{x}' y='{y}' width='{w}' height='{h}' href='{href}'/>"
         );
     }
 

@@ -22,6 +22,14 @@ pub enum EndOrigin {
 pub(super) const STOCK: u32 = 1 << 31;
 
 impl EndOrigin {
+    /// The index of the move; `None` of the stock.
+    pub fn move_index(self) -> Option<usize> {
+        match self {
+            EndOrigin::Move(index) => Some(index as usize),
+            EndOrigin::Stock(_) => None,
+        }
+    }
+
     pub(super) fn of_code(code: u32) -> EndOrigin {
         if code >= STOCK {
             EndOrigin::Stock(code - STOCK)

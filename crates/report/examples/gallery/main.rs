@@ -7,6 +7,7 @@ mod budget;
 mod corner;
 mod fields;
 mod frf;
+mod part;
 mod paths;
 mod torsion;
 
@@ -29,6 +30,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         .chain(budget::pictures())
         .chain(arms::pictures())
         .chain(torsion::pictures())
+        .chain(part::pictures())
         .collect();
     for (name, svg) in &pictures {
         write(&folder, &format!("{name}.svg"), svg.as_bytes())?;

@@ -11,9 +11,9 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::features::{SurfaceFeatureAnswer, features};
-use super::run::{MachinedPart, WorstPlace, displacement_at, path_point};
+use super::run::{MachinedPart, WorstPlace, displacement_at};
 use super::scan_answer::ScanAnswer;
-use super::{MachinedSetting, NominalPart};
+use super::setting::{MachinedSetting, NominalPart};
 use crate::analysis::path::PathAnalysis;
 use crate::analysis::path::run::PathResult;
 use crate::analysis::words::motion_in_words;
@@ -29,7 +29,7 @@ pub struct MachinedPartAnswer {
     /// Directions of the dexels: `all` or `z`.
     pub dexels: &'static str,
     /// Number of dexels.
-    pub dexel_count: f64,
+    pub dexel_count: u64,
     /// Points of the nominal surface that are compared.
     pub points: usize,
     /// Their area.
@@ -131,7 +131,7 @@ impl MachinedPartAnswer {
                 DexelDirections::All => "all",
                 DexelDirections::Z => "z",
             },
-            dexel_count: machined.size.dexels,
+            dexel_count: machined.size.dexels as u64,
             points: points.len(),
             area_mm2: to_mm(to_mm(area)),
             unknown_area_mm2: to_mm(to_mm(part.unknown_area)),
@@ -177,7 +177,7 @@ fn worst_place(
     worst: &WorstPlace,
 ) -> WorstPlaceAnswer {
     let point = &worst.point;
-    let index = path_point(point.made_by);
+    let index = point.made_by.move_index();
     let shares: Vec<f64> = worst.tool.as_ref().map_or_else(Vec::new, |(index, deviation)| {
         let along = |twist| displacement_at(&part.track, *index, &point.position, twist).dot(&point.normal);
         deviation.shares.iter().map(along).collect()
@@ -203,7 +203,7 @@ fn worst_place(
 /// Why the deviation is large: the contributor with the largest part of it, or what the tool does not reach.
 fn cause(names: &[String], point: &SurfaceDeviation, shares: &[f64]) -> String {
     let displaced: f64 = shares.iter().sum();
-    if path_point(point.made_by).is_none() {
+    if point.made_by.move_index().is_none() {
         return "material that is not cut".to_owned();
     }
     if displaced / point.deviation < EXPLAINED {

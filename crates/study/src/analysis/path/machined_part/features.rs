@@ -19,8 +19,8 @@ use armill_core::units::{to_deg, to_mm, to_um};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::run::{MachinedPart, path_point};
-use super::{MachinedSetting, NominalPart};
+use super::run::MachinedPart;
+use super::setting::{MachinedSetting, NominalPart};
 use crate::analysis::path::PathAnalysis;
 use crate::analysis::path::feature::{FeatureName, FeatureTable};
 
@@ -103,7 +103,10 @@ pub(super) fn points_of(
             NominalPart::Program => point.nominal_by,
             NominalPart::Mesh(_) => point.made_by,
         };
-        let Some(of_path) = path_point(made_by).and_then(|index| track.path.points.get(index)) else {
+        let Some(of_path) = made_by
+            .move_index()
+            .and_then(|index| track.path.points.get(index))
+        else {
             return false;
         };
         let [first, last] = feature.lines;

@@ -1,13 +1,9 @@
 //! The nominal surface of a part as triangles, with the deviation at each vertex: for pictures, files and the live page.
 
+use armill_core::machined::PartComparison;
 use armill_core::nalgebra::{Point3, Vector3};
-use armill_core::removal::{RemovalError, SurfacePoint};
-use armill_core::robot::Robot;
+use armill_core::removal::{DexelPart, EndOrigin, RemovalError, SurfacePoint};
 use rayon::prelude::*;
-
-use super::MachinedSetting;
-use super::run::{MachinedPart, path_point};
-use crate::analysis::path::PathAnalysis;
 
 /// A surface with its deviation, frame of the path.
 #[derive(Clone, Debug, Default)]
@@ -27,47 +23,49 @@ pub struct PartMesh {
 /// Triangles at most: fluid in viewers.
 pub(super) const MOST_TRIANGLES: usize = 500_000;
 
-impl MachinedPart {
-    /// The nominal surface with at most so many triangles.
+/// The surface of a nominal part, and what is known of its points.
+pub(super) struct ComparedSurface<'a, V> {
+    /// The nominal part.
+    pub nominal: &'a DexelPart,
+    /// The comparison of the part with it.
+    pub comparison: PartComparison<'a>,
+    /// Whether the deviation of the tool is known at each point of the path.
+    pub is_known: &'a [bool],
+    /// Variance of the deviation along a normal of what a move makes, m^2.
+    pub variance: V,
+}
+
+impl<V> ComparedSurface<'_, V>
+where
+    V: Fn(EndOrigin, &Vector3<f64>) -> Option<f64>,
+{
+    /// The surface with at most so many triangles.
     ///
     /// # Errors
     /// A part that is too large for a mesh.
-    pub(super) fn triangles(
-        &self,
-        robot: &Robot,
-        analysis: &PathAnalysis,
-        machined: &MachinedSetting,
-        most_triangles: usize,
-    ) -> Result<PartMesh, RemovalError> {
-        let comparison = self.comparison(machined);
+    pub(super) fn triangles(&self, most_triangles: usize) -> Result<PartMesh, RemovalError> {
         let stride = self.nominal.mesh_stride(most_triangles)?;
-        let mesh = self
-            .nominal
-            .surface_mesh(stride, |point| comparison.nominal_normal(point))?;
-        let is_known = |point: &SurfacePoint| {
-            let at = |index: usize| self.deviations.get(index).is_none_or(Option::is_some);
-            path_point(point.origin).is_none_or(|index| at(index) && at(index.saturating_sub(1)))
-        };
+        let (comparison, is_known) = (&self.comparison, self.is_known);
+        let normal = |point: &SurfacePoint| comparison.nominal_normal(point);
+        let mesh = self.nominal.surface_mesh(stride, normal)?;
+        let at = |index: usize| is_known.get(index).is_none_or(|known| *known);
         let deviation = |point: &SurfacePoint| {
-            let known = Some(point).filter(|point| is_known(point));
-            known
-                .and_then(|point| comparison.deviation_at(point))
-                .unwrap_or(f64::NAN)
+            let index = point.origin.move_index();
+            let known = index.is_none_or(|index| at(index) && at(index.saturating_sub(1)));
+            let deviation = known.then(|| comparison.deviation_at(point)).flatten();
+            deviation.unwrap_or(f64::NAN)
         };
         let of_points: Vec<f64> = mesh.points.par_iter().map(deviation).collect();
+        let of_variance = |(point, deviation): (&SurfacePoint, &f64)| {
+            let normal = (!deviation.is_nan()).then(|| normal(point)).flatten();
+            let found = normal.and_then(|normal| (self.variance)(point.origin, &normal));
+            found.map_or(f64::NAN, f64::sqrt)
+        };
+        let of_u: Vec<f64> = mesh.points.iter().zip(&of_points).map(of_variance).collect();
         let values = |of_points: &[f64]| {
             let values = mesh.vertex_values(of_points).into_iter();
             values.map(|value| value.unwrap_or(f64::NAN)).collect()
         };
-        let variance = self.variance(robot, analysis);
-        let of_variance = |(point, deviation): (&SurfacePoint, &f64)| {
-            let normal = Some(())
-                .filter(|()| !deviation.is_nan())
-                .and_then(|()| comparison.nominal_normal(point));
-            let found = normal.and_then(|normal| variance(point.origin, &normal));
-            found.map_or(f64::NAN, f64::sqrt)
-        };
-        let of_u: Vec<f64> = mesh.points.iter().zip(&of_points).map(of_variance).collect();
         Ok(PartMesh {
             deviations: values(&of_points),
             uncertainties: values(&of_u),

@@ -1,6 +1,6 @@
 //! The part that a path leaves of its stock: cut with the tool where it will be, and compared with the nominal part.
 //!
-//! [`table`]: its keys; `tools`: what cuts; `stock`: what it is cut from; [`resolve`](mod@resolve): keys, checked and in SI; [`run`]: the part, its surface and its features;
+//! [`table`]: its keys; `tools`: what cuts; `stock`: what it is cut from; [`setting`]: all of it in SI; [`resolve`](mod@resolve): from the keys; [`run`]: the part and its surface;
 //! [`features`]: form, size and position of faces; [`mesh`]: its surface as triangles; [`answer`], [`report`], [`pictures`], [`files`]: the result in numbers, words, colours and files; [`scan`], [`scan_answer`]: the measured part.
 
 pub mod answer;
@@ -13,10 +13,11 @@ pub mod resolve;
 pub mod run;
 pub mod scan;
 pub mod scan_answer;
+pub mod setting;
 mod stock;
 pub mod table;
 mod tools;
 
-pub use resolve::{MachinedSetting, NominalPart};
 pub use run::MachinedPart;
+pub use setting::{MachinedSetting, NominalPart};
 pub use table::MachinedPartTable;

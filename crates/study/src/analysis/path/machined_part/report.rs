@@ -4,7 +4,7 @@ use armill_report::html::Table;
 
 use super::answer::{MachinedPartAnswer, WorstPlaceAnswer};
 use super::features::SurfaceFeatureAnswer;
-use super::scan_answer::{self, AgreementAnswer, DeviationStatistics, ScanAnswer};
+use super::scan_answer::{AgreementAnswer, DeviationStatistics, ScanAnswer};
 use crate::analysis::cells::{COUNT, NONE, columns, percent, um, without_empty_columns};
 use crate::analysis::path::answer::PathAnswer;
 use crate::analysis::words::micrometres;
@@ -27,7 +27,7 @@ pub fn sentence(part: &MachinedPartAnswer) -> String {
             worst.cause
         )
     });
-    let scan = part.scan.as_ref().map_or_else(String::new, scan_answer::sentence);
+    let scan = part.scan.as_ref().map_or_else(String::new, scan_sentence);
     let within = part.fraction_within.map_or_else(String::new, |within| {
         format!("{:.1} % of its area is within the tolerance", within * 100.0)
     });
@@ -38,8 +38,29 @@ pub fn sentence(part: &MachinedPartAnswer) -> String {
     )
 }
 
+/// How much of the measured deviation is explained, as a sentence.
+fn scan_sentence(scan: &ScanAnswer) -> String {
+    let explained = scan.agreement.explained.map_or_else(
+        || "the measured deviation does not vary".to_owned(),
+        |explained| {
+            format!(
+                "the prediction explains {:.0} % of its variance",
+                100.0 * explained
+            )
+        },
+    );
+    format!(
+        " Measured ({}, {} points): between {} and {} µm; {explained}, and {} µm rms are left.",
+        scan.file,
+        scan.points,
+        signed(scan.measured.least_um),
+        signed(scan.measured.largest_um),
+        micrometres(scan.difference.rms_um)
+    )
+}
+
 /// A deviation with its sign.
-pub(super) fn signed(value: f64) -> String {
+fn signed(value: f64) -> String {
     let size = micrometres(value.abs());
     match value {
         value if value > 0.0 => format!("+{size}"),

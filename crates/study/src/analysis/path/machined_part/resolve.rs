@@ -7,8 +7,9 @@ use armill_core::path::Track;
 use armill_core::removal::{DexelDirections, DexelPart, PartSize, RemovalError};
 use armill_core::units::{from_mm, to_mm};
 
-use super::scan::{self, ScanSetting};
-use super::stock::{self, PartStock};
+use super::scan;
+use super::setting::{MachinedSetting, NominalPart};
+use super::stock;
 use super::table::{DexelsName, MachinedPartTable, NominalName};
 use super::tools;
 use crate::StudyError;
@@ -18,50 +19,10 @@ use crate::input::memory::{GIB, MOST_BYTES};
 use crate::input::problem_log::ProblemLog;
 use crate::number::decimals;
 
-/// The part that comes out of a path.
-#[derive(Clone, Debug)]
-pub struct MachinedSetting {
-    /// What it is cut from, frame of the path.
-    pub stock: PartStock,
-    /// Distance of the dexels, m.
-    pub cell: f64,
-    /// Their directions.
-    pub directions: DexelDirections,
-    /// Their number.
-    pub size: PartSize,
-    /// What the part is compared with.
-    pub nominal: NominalPart,
-    /// What cuts.
-    pub tools: Vec<PathTool>,
-    /// The measured part.
-    pub scan: Option<ScanSetting>,
-    /// What a user should know.
-    pub notes: Vec<String>,
-}
-
-/// What a part is compared with.
-#[derive(Clone, Debug)]
-pub enum NominalPart {
-    /// What the program leaves.
-    Program,
-    /// The solid within these triangles, frame of the path, m.
-    Mesh(Vec<Triangle>),
-}
-
 /// Cells across the smallest cutter where no cell is given.
 const CELLS_ACROSS: f64 = 40.0;
 /// Most dexels of a part whose cell is not given: some seconds for a program of 10^5 moves.
 const MOST_DEXELS: f64 = 3e6;
-/// Bytes of a point of the surface that is compared, with its values in files.
-const BYTES_PER_POINT: f64 = 400.0;
-
-impl MachinedSetting {
-    /// Estimated memory, bytes: the stock, the nominal part and the part, and the points of their surface, some for each dexel.
-    pub fn bytes(&self) -> f64 {
-        3.0 * self.size.bytes + self.size.dexels * BYTES_PER_POINT
-    }
-}
-
 impl Resolver<'_> {
     /// The part that comes out of this path; `None` if it has problems.
     ///

@@ -13,9 +13,9 @@ use armill_core::robot::Robot;
 use armill_core::source::Deviation;
 use armill_core::spatial::Twist;
 
-use super::mesh::{MOST_TRIANGLES, PartMesh};
+use super::mesh::{ComparedSurface, MOST_TRIANGLES, PartMesh};
 use super::scan::{self, ScanComparison};
-use super::{MachinedSetting, NominalPart};
+use super::setting::{MachinedSetting, NominalPart};
 use crate::analysis::path::PathAnalysis;
 use crate::analysis::runner::Runner;
 use crate::error::StudyError;
@@ -123,7 +123,7 @@ impl Runner<'_> {
         let cut = cut.map_err(refused)?;
         let points = along.answers.points.len();
         let shares = |point: &SurfaceDeviation| {
-            let index = path_point(point.made_by)? % points;
+            let index = point.made_by.move_index()? % points;
             Some((index, followed.deviation_at(index)?))
         };
         let corners = cut.part.corners();
@@ -150,10 +150,9 @@ impl Runner<'_> {
             deviations,
             track,
         };
-        let mesh = part.triangles(self.robot, analysis, machined, MOST_TRIANGLES);
-        part.mesh = mesh.map_err(refused)?;
+        part.mesh = part.triangles(self.robot, analysis, machined).map_err(refused)?;
         if let Some(scan) = &machined.scan {
-            let found = scan::compared(scan, machined, &part.mesh).map_err(|error| {
+            let found = scan::compared(scan, &machined.nominal, &part.mesh).map_err(|error| {
                 let message = format!("{}: {error} ({})", analysis.shown(), scan.file);
                 StudyError::value(message, "check the frame, the unit and `farthest_mm` of the scan")
             });
@@ -245,6 +244,23 @@ impl MachinedPart {
         comparison(machined, [&self.part, &self.nominal], [displaced, programmed])
     }
 
+    /// The nominal surface as triangles.
+    fn triangles(
+        &self,
+        robot: &Robot,
+        analysis: &PathAnalysis,
+        machined: &MachinedSetting,
+    ) -> Result<PartMesh, RemovalError> {
+        let is_known: Vec<bool> = self.deviations.iter().map(Option::is_some).collect();
+        let compared = ComparedSurface {
+            nominal: &self.nominal,
+            comparison: self.comparison(machined),
+            is_known: &is_known,
+            variance: self.variance(robot, analysis),
+        };
+        compared.triangles(MOST_TRIANGLES)
+    }
+
     /// Variance of the deviation along a normal (path) of a surface that a move makes, m^2: of the position of the tip there. `None` where it is not known.
     pub fn variance(
         &self,
@@ -254,7 +270,7 @@ impl MachinedPart {
         let is_known = analysis.setting.arm(robot).has_known_uncertainty();
         let base_from_path = self.track.placing.base_from_path.rotation;
         move |made_by, normal| {
-            let index = path_point(made_by).filter(|_| is_known)?;
+            let index = made_by.move_index().filter(|_| is_known)?;
             let TipDeviation { covariance, .. } = self.deviations.get(index)?.as_ref()?;
             let normal = base_from_path * normal;
             Some(normal.dot(&(covariance * normal)).max(0.0))
@@ -283,19 +299,14 @@ struct CutPart {
     stages: [Vec<Stage>; 2],
 }
 
-/// The point of the path whose move made a surface.
-pub fn path_point(made_by: EndOrigin) -> Option<usize> {
-    match made_by {
-        EndOrigin::Move(number) => Some(number as usize),
-        EndOrigin::Stock(_) => None,
-    }
-}
-
 /// The surface without what a tool made whose deviation is not known, and the area of that, m^2.
 fn known(surface: SurfaceComparison, deviations: &[Option<TipDeviation>]) -> (SurfaceComparison, f64) {
     let is_known = |point: &SurfaceDeviation| {
         let at = |index: usize| deviations.get(index).is_none_or(Option::is_some);
-        path_point(point.made_by).is_none_or(|index| at(index) && at(index.saturating_sub(1)))
+        point
+            .made_by
+            .move_index()
+            .is_none_or(|index| at(index) && at(index.saturating_sub(1)))
     };
     let (known, unknown): (Vec<_>, Vec<_>) = surface.points.into_iter().partition(is_known);
     let area = unknown

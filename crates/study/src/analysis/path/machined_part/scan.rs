@@ -15,8 +15,8 @@ use armill_formats::measurement::scan::{self, ScanReadOptions};
 use rayon::prelude::*;
 
 use super::mesh::PartMesh;
+use super::setting::{Align, DatumPoints, NominalPart, ScanSetting};
 use super::table::{AlignName, DatumsTable, NominalName, ScanTable};
-use super::{MachinedSetting, NominalPart};
 use crate::StudyError;
 use crate::input::cell::tables::MeshUnitName;
 use crate::input::problem_log::ProblemLog;
@@ -27,43 +27,6 @@ const FARTHEST: f64 = 2e-3;
 const WAVELENGTHS: [f64; 2] = [20e-3, 2e-3];
 /// Measured points within this distance of a datum point are averaged, m.
 const DATUM_RADIUS: f64 = 1e-3;
-
-/// Measured points, and how they are compared.
-#[derive(Clone, Debug)]
-pub struct ScanSetting {
-    /// Its file, as the study has it.
-    pub file: String,
-    /// Frame of the path, m; not yet aligned.
-    pub points: Vec<Point3<f64>>,
-    /// How they are aligned.
-    pub align: Align,
-    /// What is given in addition.
-    pub options: AlignmentOptions,
-    /// Wavelengths between the bands, m, descending.
-    pub wavelengths: [f64; 2],
-    /// What was assumed.
-    pub notes: Vec<String>,
-}
-
-/// An alignment.
-#[derive(Clone, Debug)]
-pub enum Align {
-    /// None.
-    None,
-    /// Least squares.
-    BestFit,
-    /// Datum points, frame of the path.
-    Datums(DatumPoints),
-}
-
-/// Nominal positions of datum points, m.
-#[derive(Clone, Debug)]
-pub struct DatumPoints {
-    primary: Vec<Point3<f64>>,
-    secondary: Vec<Point3<f64>>,
-    tertiary: Point3<f64>,
-    radius: f64,
-}
 
 /// A measured part compared with the prediction, at the points that are compared.
 #[derive(Clone, Debug)]
@@ -189,12 +152,12 @@ fn datum_points(table: &DatumsTable, path_from_scan: &Isometry) -> DatumPoints {
 /// Points that do not determine the alignment, or none near the nominal part.
 pub(super) fn compared(
     scan: &ScanSetting,
-    machined: &MachinedSetting,
+    nominal: &NominalPart,
     mesh: &PartMesh,
 ) -> Result<ScanComparison, FormError> {
     let of_mesh = |triangle: &[u32; 3]| triangle.map(|vertex| mesh.vertices[vertex as usize]);
     let predicted_surface = PredictedSurface::new(mesh).ok_or(FormError::Undetermined)?;
-    let nominal = match &machined.nominal {
+    let nominal = match nominal {
         NominalPart::Program => NominalSurface::new(mesh.triangles.iter().map(of_mesh).collect()),
         NominalPart::Mesh(triangles) => {
             NominalSurface::new(triangles.iter().map(|triangle| triangle.0).collect())

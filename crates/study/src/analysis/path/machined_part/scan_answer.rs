@@ -11,8 +11,8 @@ use serde::Serialize;
 
 use super::features::points_of;
 use super::run::MachinedPart;
-use super::scan::{Align, ScanComparison};
-use super::{MachinedSetting, report};
+use super::scan::ScanComparison;
+use super::setting::{Align, MachinedSetting};
 use crate::analysis::path::PathAnalysis;
 use crate::number::without_rounding;
 
@@ -42,6 +42,7 @@ pub struct ScanAnswer {
     /// How much of the measured deviation is explained.
     pub agreement: AgreementAnswer,
     /// Standard uncertainty of the slope; none with too small a part.
+    // unit: dimensionless
     pub slope_u: Option<f64>,
     /// Wavelengths that separate the bands.
     pub wavelengths_mm: [f64; 2],
@@ -87,10 +88,13 @@ pub struct AgreementAnswer {
     /// Standard deviation of the measured deviations.
     pub measured_sd_um: f64,
     /// Explained share of their variance: 1 of a perfect prediction, below 0 of one that is worse than its mean; none without variance.
+    // unit: dimensionless
     pub explained: Option<f64>,
     /// Slope of measured over predicted.
+    // unit: dimensionless
     pub slope: Option<f64>,
     /// Correlation.
+    // unit: dimensionless
     pub correlation: Option<f64>,
 }
 
@@ -108,6 +112,7 @@ pub struct ScanFeatureAnswer {
     /// Measured less predicted.
     pub difference: DeviationStatistics,
     /// Explained share of the variance of the measured deviations on it.
+    // unit: dimensionless
     pub explained: Option<f64>,
 }
 
@@ -249,25 +254,4 @@ fn features(
         });
     }
     all
-}
-
-/// How much of the measured deviation is explained, as a sentence.
-pub fn sentence(scan: &ScanAnswer) -> String {
-    let explained = scan.agreement.explained.map_or_else(
-        || "the measured deviation does not vary".to_owned(),
-        |explained| {
-            format!(
-                "the prediction explains {:.0} % of its variance",
-                100.0 * explained
-            )
-        },
-    );
-    format!(
-        " Measured ({}, {} points): between {} and {} µm; {explained}, and {} µm rms are left.",
-        scan.file,
-        scan.points,
-        report::signed(scan.measured.least_um),
-        report::signed(scan.measured.largest_um),
-        crate::analysis::words::micrometres(scan.difference.rms_um)
-    )
 }

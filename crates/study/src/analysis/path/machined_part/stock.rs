@@ -2,10 +2,9 @@
 
 use std::path::Path;
 
-use armill_core::clearance::{Shape, Triangle};
-use armill_core::nalgebra::Point3;
-use armill_core::removal::StockSolid;
+use armill_core::clearance::Shape;
 
+use super::setting::PartStock;
 use super::table::MachinedPartTable;
 use crate::StudyError;
 use crate::analysis::path::PathAnalysis;
@@ -14,32 +13,6 @@ use crate::input::problem_log::ProblemLog;
 
 const KEY: &str = "machined_part.stock";
 const HINT: &str = "stock = { box_mm = { from = [-50, -50, -20], to = [50, 50, 0] } }: two corners in the frame of the program";
-
-/// The stock, frame of the path, m.
-#[derive(Clone, Debug)]
-pub enum PartStock {
-    /// Between two corners.
-    Box([Point3<f64>; 2]),
-    /// Centre of the lower face, radius, height.
-    Cylinder(Point3<f64>, f64, f64),
-    /// Within triangles.
-    Mesh(Vec<Triangle>),
-}
-
-impl PartStock {
-    /// As the core has it.
-    pub fn solid(&self) -> StockSolid<'_> {
-        match self {
-            PartStock::Box(corners) => StockSolid::Box(*corners),
-            PartStock::Cylinder(base, radius, height) => StockSolid::Cylinder {
-                base: *base,
-                radius: *radius,
-                height: *height,
-            },
-            PartStock::Mesh(triangles) => StockSolid::Mesh(triangles),
-        }
-    }
-}
 
 /// The stock of `machined_part`, else that of the cut; `None` if it has problems.
 ///
