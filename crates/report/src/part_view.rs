@@ -14,7 +14,7 @@ use crate::legend::{Entry, Key};
 use crate::levels::Levels;
 use crate::page::{BORDER_PX, Heading};
 use crate::shaded::{Corner, Shaded};
-use crate::svg::{Rect, Style, Svg, Text};
+use crate::svg::{Rect, Style, Svg, Text, num};
 use crate::tolerance;
 
 /// A place with a number.
@@ -187,7 +187,10 @@ impl PartView {
             shaded.triangle(triangle.map(corner), &colour);
         }
         let data = base64::engine::general_purpose::STANDARD.encode(shaded.to_png()?);
-        svg.image(area, &format!("data:image/png;base64,{data}"));
+        let [x, y, w, h] = [area.x, area.y, area.w, area.h].map(num);
+        svg.image(&format!(
+            "x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\" href=\"data:image/png;base64,{data}\""
+        ));
         let slack_mm = SLACK * (right - left).max(high - low);
         for mark in &self.marks {
             let at = within(projection.flat(mark.at_mm));

@@ -223,7 +223,7 @@ impl Svg {
         }
     }
 
-    /// A rectangle with sharp corners. A side that is less than nothing is nothing.
+    /// A side that is less than nothing is nothing.
     pub(crate) fn rect(&mut self, r: Rect, style: &Style) {
         self.rounded(r, 0.0, style);
     }
@@ -245,7 +245,7 @@ impl Svg {
         );
     }
 
-    /// A circle; a radius that is less than nothing is nothing.
+    /// A radius that is less than nothing is nothing.
     pub(crate) fn circle(&mut self, c: Point, radius_px: f64, style: &Style) {
         let _ = writeln!(
             self.body,
@@ -257,13 +257,9 @@ impl Svg {
         );
     }
 
-    /// An image that fills `area`, from a data URI.
-    pub(crate) fn image(&mut self, area: Rect, href: &str) {
-        let [x, y, w, h] = [area.x, area.y, area.w, area.h].map(num);
-        let _ = writeln!(
-            self.body,
-            "<image x='{x}' y='{y}' width='{w}' height='{h}' href='{href}'/>"
-        );
+    /// An image with these attributes.
+    pub(crate) fn image(&mut self, attributes: &str) {
+        let _ = writeln!(self.body, "<image {attributes}/>");
     }
 
     pub(crate) fn line(&mut self, a: Point, b: Point, style: &Style) {
@@ -407,8 +403,7 @@ impl Svg {
         format!("url(#{id})")
     }
 
-    /// The complete document on white, `width_px` by `height_px` (rounded up), described by `title` for screen
-    /// readers. The same shapes give the same bytes.
+    /// The complete document on white, of this size (rounded up), described by `title`. The same shapes give the same bytes.
     pub(crate) fn finish(self, width_px: f64, height_px: f64, title: &str) -> String {
         let (w, h) = (num(width_px.ceil()), num(height_px.ceil()));
         let prefix = format!("p{:08x}-", fingerprint(&[&self.defs, &self.body]));

@@ -9,8 +9,8 @@
 //! | `x`, `a` | programmed tip and tool axis from the tip towards the spindle, path | m, - |
 //! | `delta`, `omega` | displacement of the tip and rotation of the tool, path axes | m, rad |
 //!
-//! Between two points the deviation changes evenly. A step has the number of the point that it leads to, a rapid that of the first point after it. The tool of a rapid is displaced as at
-//! that point. Where the deviation is not known, the tool is where it is programmed.
+//! Between two points the deviation changes evenly. A step has the number of the point that it leads to, a rapid that of the first point after it. A rapid begins where the
+//! cut before it ended and ends where the next one begins; between several rapids the tool is displaced as at that point. Where the deviation is not known, the tool is where it is programmed.
 
 use nalgebra::{Point3, Unit, Vector3};
 
@@ -59,8 +59,7 @@ impl MachiningPath<'_> {
         let path = &self.track.path;
         let mut stages: Vec<Stage> = Vec::new();
         let mut tool = 0;
-        // Where the tool was before, as programmed.
-        let mut position: Option<Point3<f64>> = None;
+        // Where the tool was before.
         let mut last: Option<Pose> = None;
         let mut rapids = path.rapids.iter();
         for index in 0..path.points.len() {
@@ -79,18 +78,22 @@ impl MachiningPath<'_> {
             let pose = self.pose(index, deviations);
             let number = index as u32;
             if path.begins(index) {
-                let (tip, axis) = pose;
-                let off = tip - path.points[index].at;
-                for rapid in rapids.next().iter().flat_map(|rapids| &rapids.moves) {
-                    if let Some(from) = position {
+                let off = pose.0 - path.points[index].at;
+                let rapids = rapids.next().map_or(&[][..], |rapids| &rapids.moves);
+                for (place, rapid) in rapids.iter().enumerate() {
+                    let end = match place + 1 == rapids.len() {
+                        true => pose,
+                        false => (rapid.end + off, pose.1),
+                    };
+                    if let Some(from) = last {
                         moves.push(ToolMove {
-                            ends: [from + off, rapid.end + off],
-                            axes: [axis; 2],
+                            ends: [from.0, end.0],
+                            axes: [from.1, end.1],
                             index: number,
                             is_rapid: true,
                         });
                     }
-                    position = Some(rapid.end);
+                    last = Some(end);
                 }
             } else if let Some(from) = last {
                 moves.push(ToolMove {
@@ -100,7 +103,6 @@ impl MachiningPath<'_> {
                     is_rapid: false,
                 });
             }
-            position = Some(path.points[index].at);
             last = Some(pose);
         }
         stages

@@ -65,7 +65,7 @@ pub fn table(title: &str, mesh: &PartMesh, scan: Option<&ScanComparison>) -> Sur
 pub fn files(
     title: &str,
     part: &MachinedPart,
-    save: &(dyn Fn(&str, &[u8]) -> Result<(), StudyError> + Sync),
+    save: impl Fn(&str, &[u8]) -> Result<(), StudyError>,
 ) -> Result<(), StudyError> {
     let table = table(title, &part.mesh, part.scan.as_ref());
     EXTENSIONS.iter().try_for_each(|(extension, format)| {
