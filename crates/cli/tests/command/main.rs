@@ -35,6 +35,7 @@ mod journal;
 #[cfg(unix)]
 mod killed;
 mod learn;
+mod machined_part;
 mod masses;
 mod materials;
 mod modes;

@@ -23,6 +23,8 @@ use super::error::FormError;
 use super::line::straightness;
 use crate::roundness::Plane;
 
+/// Below a nanometre the points are on a plane: the rest is rounding of coordinates, which has no optimum.
+const NEGLIGIBLE: f64 = 1e-9;
 /// Slopes below this do not change a width by more than rounding.
 const LEVEL: f64 = 1e-9;
 /// Steps until the slopes are zero: each squares them.
@@ -47,6 +49,14 @@ pub struct Flatness {
 /// Fewer than three points, points on a line, values that are not finite.
 pub fn flatness(points: &[Point3<f64>]) -> Result<Flatness, FormError> {
     let plane = least_squares_plane(points)?;
+    if plane.flatness <= NEGLIGIBLE {
+        return Ok(Flatness {
+            least_squares: plane,
+            minimum_zone: plane.flatness,
+            zone_normal: plane.normal,
+            zone_middle: plane.origin,
+        });
+    }
     let off: Vec<Vector3<f64>> = points.iter().map(|p| p - plane.origin).collect();
     let mut normal = plane.normal;
     let range = |normal: &Vector3<f64>| range(off.iter().map(|p| p.dot(normal)));

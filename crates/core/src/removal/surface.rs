@@ -39,6 +39,8 @@ pub struct SurfacePoint {
     pub origin: EndOrigin,
 }
 
+/// Distances that differ by less are equal, m: the resolution of the ends of dexels in 1 m.
+const AS_NEAR: f64 = 1e-7;
 /// Halvings of the time of a move: a billionth of a move.
 const HALVINGS: usize = 30;
 
@@ -110,5 +112,12 @@ fn least_distance(tool: &ToolSolid, stroke: &Stroke, point: &Point3<f64>) -> (f6
         *(if falls(middle) { &mut low } else { &mut high }) = middle;
     }
     let (one, other) = (at(low), at(high));
-    if one.0 <= other.0 { one } else { other }
+    // Where the tool touches the point from one time on, as a drill its hole: of two faces that are equally near, the one that the move grazes.
+    let is_as_near = (one.0.abs() - other.0.abs()).abs() <= AS_NEAR;
+    let grazes = |face: &(f64, Vector3<f64>)| face.1.dot(&travel).abs();
+    let first = match is_as_near {
+        true => grazes(&one) < grazes(&other),
+        false => one.0 <= other.0,
+    };
+    if first { one } else { other }
 }

@@ -6,7 +6,7 @@
 //! | line | those along the tool | plane: flatness, offset, tilt |
 //! | plane | those across the tool | plane: flatness, offset, tilt |
 //!
-//! A circular slot has two cylinders, an internal and an external one: each is a feature. The nominal feature is fitted to the nominal points in the same way.
+//! A circular slot has two cylinders, an internal and an external one, and a straight one two walls, left and right of the feed: each is a feature. The nominal feature is fitted to the nominal points in the same way.
 
 use armill_core::form::cylinder::{AxisSegment, cylinder_form, least_squares_cylinder};
 use armill_core::form::plane::{departure, flatness, least_squares_plane};
@@ -27,7 +27,7 @@ use crate::analysis::path::feature::{FeatureName, FeatureTable};
 /// A feature of the surface.
 #[derive(Clone, Debug, Default, Serialize, JsonSchema)]
 pub struct SurfaceFeatureAnswer {
-    /// Its name; of a slot's two cylinders with `internal` or `external`.
+    /// Its name; of a slot's two cylinders with `internal` or `external`, of its two walls with `left` or `right`.
     pub name: String,
     /// `cylinder` or `plane`.
     pub kind: &'static str,
@@ -66,7 +66,9 @@ pub struct SurfaceFeatureAnswer {
 /// A face is along the tool where its normal is this much across it (cosine), and across the tool beyond the second.
 const ALONG_TOOL: f64 = 0.5;
 const ACROSS_TOOL: f64 = 0.7;
-/// A cylinder with a smaller part of the points is the end of the other one.
+/// A wall is along the feed where its normal is this much across it (cosine): to 8 deg.
+const STRAIGHT: f64 = 0.99;
+/// A side with a smaller part of the points is the end of the other one.
 const OF_BOTH: f64 = 0.2;
 
 /// Every requested feature of a path.
@@ -74,6 +76,7 @@ pub fn features(robot: &Robot, analysis: &PathAnalysis, part: &MachinedPart) -> 
     let Some(machined) = analysis.machined_part.as_deref() else {
         return Vec::new();
     };
+    let is_of_program = matches!(machined.nominal, NominalPart::Program);
     let of = |feature: &FeatureTable| {
         let points = points_of(machined, part, feature);
         let with_common = |mut answer: SurfaceFeatureAnswer, points: &[SurfaceDeviation]| {
@@ -81,11 +84,15 @@ pub fn features(robot: &Robot, analysis: &PathAnalysis, part: &MachinedPart) -> 
             answer
         };
         match feature.kind {
-            FeatureName::Circle | FeatureName::Hole => cylinders(feature, &points)
+            FeatureName::Circle | FeatureName::Hole => cylinders(feature, (&points, is_of_program))
                 .into_iter()
                 .map(|(answer, points)| with_common(answer, &points))
                 .collect(),
-            FeatureName::Line | FeatureName::Plane => vec![with_common(plane(feature, &points), &points)],
+            FeatureName::Line => walls(feature, part, &points)
+                .into_iter()
+                .map(|(name, points)| with_common(plane(&name, &points), &points))
+                .collect(),
+            FeatureName::Plane => vec![with_common(plane(&feature.name, &points), &points)],
         }
     };
     analysis.features.iter().flat_map(of).collect()
@@ -139,10 +146,59 @@ fn add_common(
     answer.u_um = largest.and_then(u).map(to_um);
 }
 
+/// The walls along a line: of a slot the left and the right one, seen along the feed.
+fn walls(
+    feature: &FeatureTable,
+    part: &MachinedPart,
+    points: &[SurfaceDeviation],
+) -> Vec<(String, Vec<SurfaceDeviation>)> {
+    let track = &part.track;
+    // The component of the normal to the left: the material of the left wall is on the left, so that its normal points to the right.
+    let leftwards = |point: &SurfaceDeviation| {
+        let index = point.nominal_by.move_index().or(point.made_by.move_index());
+        let of_path = index.and_then(|index| track.path.points.get(index));
+        of_path.map_or(0.0, |of_path| {
+            let left = track.placing.path_spindle(of_path).cross(&of_path.direction);
+            left.try_normalize(0.0)
+                .map_or(0.0, |left| left.dot(&point.normal))
+        })
+    };
+    // The rounded ends of a slot are not its walls.
+    let straight = points.iter().filter(|point| leftwards(point).abs() > STRAIGHT);
+    let (left, right): (Vec<&SurfaceDeviation>, Vec<&SurfaceDeviation>) =
+        straight.partition(|point| leftwards(point) < 0.0);
+    let all = left.len() + right.len();
+    let sides = sides([("left", left), ("right", right)], all);
+    if sides.is_empty() {
+        return vec![(feature.name.clone(), Vec::new())];
+    }
+    let both = sides.len() > 1;
+    let named = |(side, points): (&str, Vec<SurfaceDeviation>)| {
+        let name = match both {
+            true => format!("{}, {side}", feature.name),
+            false => feature.name.clone(),
+        };
+        (name, points)
+    };
+    sides.into_iter().map(named).collect()
+}
+
+/// Those of two sides that have a good part of all points.
+fn sides<'a>(
+    sides: [(&'a str, Vec<&SurfaceDeviation>); 2],
+    all: usize,
+) -> Vec<(&'a str, Vec<SurfaceDeviation>)> {
+    let least = OF_BOTH * all as f64;
+    (sides.into_iter())
+        .filter(|(_, points)| !points.is_empty() && points.len() as f64 >= least)
+        .map(|(side, points)| (side, points.into_iter().copied().collect()))
+        .collect()
+}
+
 /// A plane: nominal and as it came out.
-fn plane(feature: &FeatureTable, points: &[SurfaceDeviation]) -> SurfaceFeatureAnswer {
+fn plane(name: &str, points: &[SurfaceDeviation]) -> SurfaceFeatureAnswer {
     let answer = SurfaceFeatureAnswer {
-        name: feature.name.clone(),
+        name: name.to_owned(),
         kind: "plane",
         ..SurfaceFeatureAnswer::default()
     };
@@ -173,7 +229,7 @@ fn plane(feature: &FeatureTable, points: &[SurfaceDeviation]) -> SurfaceFeatureA
 /// The cylinders of a circle or a hole, each with its points.
 fn cylinders(
     feature: &FeatureTable,
-    points: &[SurfaceDeviation],
+    (points, is_of_program): (&[SurfaceDeviation], bool),
 ) -> Vec<(SurfaceFeatureAnswer, Vec<SurfaceDeviation>)> {
     let missing = |points: &[SurfaceDeviation], name: &str, error: &FormError| {
         let answer = SurfaceFeatureAnswer {
@@ -190,19 +246,14 @@ fn cylinders(
     let is_internal = |point: &&SurfaceDeviation| (centre - point.position).dot(&point.normal) > 0.0;
     let (internal, external): (Vec<&SurfaceDeviation>, Vec<&SurfaceDeviation>) =
         points.iter().partition(is_internal);
-    let least = OF_BOTH * points.len() as f64;
-    let sides = [("internal", internal), ("external", external)];
-    let sides: Vec<(&str, Vec<SurfaceDeviation>)> = (sides.into_iter())
-        .filter(|(_, points)| points.len() as f64 >= least)
-        .map(|(side, points)| (side, points.into_iter().copied().collect()))
-        .collect();
+    let sides = sides([("internal", internal), ("external", external)], points.len());
     let both = sides.len() > 1;
     let of_side = |(side, points): (&str, Vec<SurfaceDeviation>)| {
         let name = match both {
             true => format!("{}, {side}", feature.name),
             false => feature.name.clone(),
         };
-        match cylinder(&name, axis, &points) {
+        match cylinder(&name, axis, (&points, is_of_program)) {
             Ok(answer) => (answer, points),
             Err(error) => missing(&points, &name, &error),
         }
@@ -239,10 +290,9 @@ fn axis_and_centre(points: &[SurfaceDeviation]) -> Option<(UnitVector3<f64>, Poi
 fn cylinder(
     name: &str,
     axis: UnitVector3<f64>,
-    points: &[SurfaceDeviation],
+    (points, is_of_program): (&[SurfaceDeviation], bool),
 ) -> Result<SurfaceFeatureAnswer, FormError> {
     let nominal: Vec<Point3<f64>> = points.iter().map(|point| point.position).collect();
-    let made: Vec<Point3<f64>> = points.iter().map(|point| point.on_part).collect();
     let (_, centre) = axis_and_centre(points).ok_or(FormError::Undetermined)?;
     let start = Cylinder {
         at: centre,
@@ -253,7 +303,19 @@ fn cylinder(
             .sum::<f64>()
             / nominal.len().max(1) as f64,
     };
-    let nominal_cylinder = least_squares_cylinder(&nominal, &start)?;
+    let mut nominal_cylinder = least_squares_cylinder(&nominal, &start)?;
+    let mut made: Vec<Point3<f64>> = points.iter().map(|point| point.on_part).collect();
+    if is_of_program {
+        // The points of an arc are on it, and the chords between them inside: those are not of the part.
+        let distances = nominal.iter().map(|point| nominal_cylinder.distance(point));
+        nominal_cylinder.radius = distances.fold(0.0, f64::max);
+        for (made, point) in made.iter_mut().zip(points) {
+            let off = point.position - nominal_cylinder.at;
+            let across = off - nominal_cylinder.axis.into_inner() * off.dot(&nominal_cylinder.axis);
+            let outwards = across.try_normalize(0.0).unwrap_or_default();
+            *made += outwards * (nominal_cylinder.radius - across.norm());
+        }
+    }
     let form = cylinder_form(&made, &nominal_cylinder)?;
     let heights = || {
         nominal
