@@ -98,7 +98,7 @@ impl Cylinder {
         [x, self.axis.cross(&x)]
     }
 
-    /// Its axis displaced and tilted: along the first direction and the second, slopes in the same directions, and the radius.
+    /// Its axis displaced and tilted: along the first direction and the second, slopes along them, and the radius.
     fn changed(&self, by: [f64; 5]) -> Cylinder {
         let [x, y] = self.directions();
         let axis = self.axis.as_ref() + x * by[2] + y * by[3];

@@ -6,7 +6,7 @@
 //! | `FA(P1)=FEAT/POINT,CART,x,y,z,i,j,k` | a measured point with its normal |
 //! | `F(P1)=FEAT/POINT,CART,x,y,z,i,j,k` | its nominal point |
 //! | `PTDATA/CART,x,y,z,i,j,k`, `PTMEAS/CART,x,y,z,i,j,k` | a measured point without name |
-//! | `FA(C1)=FEAT/CIRCLE,INNER,CART,x,y,z,i,j,k,diameter` | a feature; also `CYLNDR`, and `PLANE` without diameter |
+//! | `FA(C1)=FEAT/CIRCLE,INNER,CART,x,y,z,i,j,k,diameter` | a feature; the same for `CYLNDR`, and `PLANE` without diameter |
 //!
 //! `$` at the end of a line continues a statement, `$$` begins a remark, other statements are not used. Points are in the part
 //! coordinate system that is active there; changes of it are not followed and are noted.
