@@ -6,7 +6,7 @@
 use armill_core::watch::Watch;
 
 use crate::analysis::runner::Runner;
-use crate::analysis::{Analysis, AnalysisResult};
+use crate::analysis::{Analysis, AnalysisData, AnalysisResult, Subject};
 use crate::error::StudyError;
 use crate::file::resolve::Study;
 
@@ -18,8 +18,16 @@ pub fn point_count(study: &Study) -> usize {
     study
         .analyses
         .iter()
-        .map(|analysis| analysis.subject.points_to_evaluate())
+        .map(|analysis| analysis.subject.points_to_evaluate() + machining_steps(analysis))
         .sum()
+}
+
+/// Steps of the removal of the part of a path.
+fn machining_steps(analysis: &Analysis) -> usize {
+    match &analysis.subject {
+        Subject::Path(path) => path.machining_steps(),
+        _ => 0,
+    }
 }
 
 /// All analyses of the study, done in its order on the threads of the current rayon pool.
@@ -29,6 +37,24 @@ pub fn point_count(study: &Study) -> usize {
 ///
 /// `watch` is notified of every point and may cancel. The same study gives the same values on any number of threads.
 pub fn run<'a>(study: &'a Study, watch: Watch<'_>) -> Result<Vec<AnalysisResult<'a>>, StudyError> {
+    let mut all = run_without_parts(study, watch)?;
+    let runner = Runner::new(&study.robot.robot, watch)?;
+    for done in &mut all {
+        if let AnalysisData::Path(path, found) = &mut done.found {
+            runner.cut_part(path, found)?;
+        }
+    }
+    Ok(all)
+}
+
+/// The same without the parts that come out of paths: for views that show the paths alone.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_without_parts<'a>(
+    study: &'a Study,
+    watch: Watch<'_>,
+) -> Result<Vec<AnalysisResult<'a>>, StudyError> {
     let runner = Runner::new(&study.robot.robot, watch)?;
     let done = |analysis: &'a Analysis| {
         let found = analysis.subject.run(&runner)?;

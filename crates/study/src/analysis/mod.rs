@@ -129,7 +129,7 @@ impl Subject {
             Subject::Map(sheet) => sheet.grid.len(),
             Subject::Sections(sections) => sections.iter().map(|(_, sheet)| sheet.grid.len()).sum(),
             Subject::Volume(_, grid) => grid.len(),
-            Subject::Path(path) => path.track.len() * path::run::passes(path) + path.machining_steps(),
+            Subject::Path(path) => path.track.len() * path::run::passes(path),
             Subject::Holes(holes) => holes.path.track.len(),
         }
     }

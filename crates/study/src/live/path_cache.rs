@@ -17,7 +17,7 @@ use crate::live::lobes::{LobesAnswer, LobesQuestion, lobes, lobes_of};
 use crate::live::path_columns::column_bytes;
 use crate::live::posture::{PostureQuestion, PosturesAnswer, postures, postures_of};
 use crate::live::{EditedAnalysis, StudyText};
-use crate::run::run;
+use crate::run::run_without_parts;
 
 /// The last path that was evaluated; empty at first.
 #[derive(Debug, Default)]
@@ -72,7 +72,7 @@ impl PathCache {
         }
         let inputs = Inputs::current();
         let edited = inputs.during(|| text.one_analysis(analysis))?;
-        let mut done = run(&edited.study, watch)?;
+        let mut done = run_without_parts(&edited.study, watch)?;
         let bytes = column_bytes(&edited, &done[0], keys)?;
         let found = done.remove(0).into_path();
         self.keep(text, edited, found, inputs);

@@ -23,7 +23,7 @@ use crate::live::posture::axes;
 use crate::live::{EditedAnalysis, StudyText};
 use crate::number::{decimals, without_rounding};
 use crate::output;
-use crate::run::run;
+use crate::run::run_without_parts;
 
 /// The parts of one analysis that can be drawn, base.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -126,7 +126,7 @@ pub fn scene(
 ) -> Result<SceneAnswer, StudyError> {
     let edited = text.one_analysis(analysis)?;
     let done = match has_points(&edited.study) {
-        true => run(&edited.study, watch)?,
+        true => run_without_parts(&edited.study, watch)?,
         false => Vec::new(),
     };
     scene_of(&edited, &done)

@@ -20,7 +20,7 @@ use crate::live::{
     ChangedValue, EditedAnalysis, LinesAnswer, OutlinedAnalysis, PathCache, SceneAnswer, StudyText,
     ValuesAnswer,
 };
-use crate::run::run;
+use crate::run::run_without_parts;
 
 /// What is shown.
 #[derive(Clone, Copy, Debug, Default)]
@@ -87,7 +87,7 @@ pub fn view(
     };
     let Some(paths) = question.paths else {
         let edited = text.one_analysis(question.analysis)?;
-        let done = run(&edited.study, watch)?;
+        let done = run_without_parts(&edited.study, watch)?;
         return shown(question, &new, (&edited, &done), watch);
     };
     let kept = paths.with(text, question.analysis, |edited, done| {
@@ -98,7 +98,7 @@ pub fn view(
     }
     let inputs = Inputs::current();
     let edited = inputs.during(|| text.one_analysis(question.analysis))?;
-    let done = run(&edited.study, watch)?;
+    let done = run_without_parts(&edited.study, watch)?;
     let answer = shown(question, &new, (&edited, &done), watch)?;
     let found = done.into_iter().next().and_then(AnalysisResult::into_path);
     paths.keep(text, edited, found, inputs);

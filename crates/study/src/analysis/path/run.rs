@@ -46,7 +46,7 @@ pub struct PathResult {
     pub limits: Option<ProgramLimits>,
     /// The motion along it, if it was requested; the load is then that at the feed that is reached.
     pub motion: Option<Motion>,
-    /// The part that comes out, if it was requested.
+    /// The part that comes out, if it was requested and is cut ([`Runner::cut_part`]).
     pub machined_part: Option<Box<MachinedPart>>,
     /// The search for spins and branches, if there was one.
     pub searched: Option<SearchResult>,
@@ -199,9 +199,7 @@ impl Runner<'_> {
             },
             process: (analysis.cut.as_ref())
                 .and_then(|cut| ProcessLoads::of(&cut.cutting, &analysis.track, &along.load)),
-            machined_part: self
-                .machined_part(analysis, track, (track, &along), motion.as_ref())?
-                .map(Box::new),
+            machined_part: None,
             along,
             forces,
             limits,

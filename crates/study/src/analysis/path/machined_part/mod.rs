@@ -1,9 +1,10 @@
 //! The part that a path leaves of its stock: cut with the tool where it will be, and compared with the nominal part.
 //!
-//! [`table`]: its keys; `tools`: what cuts; `stock`: what it is cut from; [`setting`]: all of it in SI; [`resolve`](mod@resolve): from the keys; [`run`]: the part and its surface;
+//! [`table`]: its keys; `tools`: what cuts; `stock`: what it is cut from; [`setting`]: all of it in SI; [`resolve`](mod@resolve): from the keys; [`run`]: the part and its surface; `cut`: of a path as it was followed;
 //! [`features`]: form, size and position of faces; [`mesh`]: its surface as triangles; [`answer`], [`report`], [`pictures`], [`files`]: the result in numbers, words, colours and files; [`scan`], [`scan_answer`]: the measured part.
 
 pub mod answer;
+mod cut;
 pub mod features;
 pub mod files;
 pub mod mesh;
