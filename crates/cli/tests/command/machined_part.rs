@@ -17,7 +17,7 @@ load = {{ cases_n = [{force_n}] }}
 [[analysis]]
 kind = "path"
 name = "cut"
-program = {{ file = "cut.ngc", limits = false, feature = [{feature}] }}
+program = {{ file = "cut.ngc", limits = false, chord_error_mm = 0.00005, feature = [{feature}] }}
 machined_part = {{ {machined} }}
 "#
     )

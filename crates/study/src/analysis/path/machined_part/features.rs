@@ -66,8 +66,8 @@ pub struct SurfaceFeatureAnswer {
 /// A face is along the tool where its normal is this much across it (cosine), and across the tool beyond the second.
 const ALONG_TOOL: f64 = 0.5;
 const ACROSS_TOOL: f64 = 0.7;
-/// A wall is along the feed where its normal is this much across it (cosine): to 8 deg.
-const STRAIGHT: f64 = 0.99;
+/// A wall is along the feed where its normal is this much across it (cosine): to 1.8 deg, so that a rounded end has no part in it.
+const STRAIGHT: f64 = 0.9995;
 /// A side with a smaller part of the points is the end of the other one.
 const OF_BOTH: f64 = 0.2;
 
