@@ -3459,6 +3459,8 @@ export interface components {
             vibration: components["schemas"]["VibrationAnswer"] | null;
             /** @description Effect of backlash and geometry on the deviations; none if load and gravity alone move the tool. */
             unloaded: components["schemas"]["UnloadedAnswer"] | null;
+            /** @description The part that comes out; none if the study does not ask for it. */
+            machined_part: components["schemas"]["MachinedPartAnswer"] | null;
             /** @description What was skipped or assumed. */
             notes: string[];
         };
@@ -4174,6 +4176,360 @@ export interface components {
              * @description Number of reversals of the joint on the cuts of the path.
              */
             reversals: number;
+        };
+        /** @description A part that comes out of a path. */
+        MachinedPartAnswer: {
+            /** @description What it is compared with: `program` or `part`. */
+            nominal: string;
+            /**
+             * Format: double
+             * @description Distance of the dexels.
+             */
+            cell_mm: number;
+            /** @description Directions of the dexels: `all` or `z`. */
+            dexels: string;
+            /**
+             * Format: uint64
+             * @description Number of dexels.
+             */
+            dexel_count: number;
+            /**
+             * Format: uint
+             * @description Points of the nominal surface that are compared.
+             */
+            points: number;
+            /**
+             * Format: double
+             * @description Their area.
+             */
+            area_mm2: number;
+            /**
+             * Format: double
+             * @description Area where the deviation of the tool is not known: it is not included in any other value.
+             */
+            unknown_area_mm2: number;
+            /**
+             * Format: double
+             * @description Nominal area that has no surface of the part within reach: material that is not cut, or a wall that is gone.
+             */
+            missing_area_mm2: number;
+            /**
+             * Format: double
+             * @description Largest deviation outwards: material that is left.
+             */
+            most_left_um: number | null;
+            /**
+             * Format: double
+             * @description Largest deviation inwards, negative: too much is removed.
+             */
+            most_gouged_um: number | null;
+            /**
+             * Format: double
+             * @description Mean deviation.
+             */
+            mean_um: number | null;
+            /**
+             * Format: double
+             * @description Root mean square deviation.
+             */
+            rms_um: number | null;
+            /**
+             * Format: double
+             * @description Part of the area whose deviation is within the tolerance by size.
+             */
+            fraction_within: number | null;
+            /**
+             * Format: double
+             * @description Profile of the surface (ISO 1101): twice the largest deviation by size.
+             */
+            profile_um: number | null;
+            /**
+             * Format: double
+             * @description Volume that is removed from the stock.
+             */
+            removed_mm3: number;
+            /**
+             * Format: double
+             * @description Material of the part outside of the nominal part.
+             */
+            left_mm3: number;
+            /**
+             * Format: double
+             * @description Material of the nominal part that the part lacks.
+             */
+            gouged_mm3: number;
+            /** @description Lines before which a rapid meets material. */
+            rapids_in_material: number[];
+            /** @description Lines at which shank or holder meets material. */
+            shank_in_material: number[];
+            /** @description The worst places, worst first, each from another part of the surface. */
+            worst_places: components["schemas"]["WorstPlaceAnswer"][];
+            /** @description The features of the path, on the surface that comes out. */
+            features: components["schemas"]["SurfaceFeatureAnswer"][];
+            /** @description The measured part; none if the study names no scan. */
+            scan: components["schemas"]["ScanAnswer"] | null;
+            /** @description What was assumed. */
+            notes: string[];
+        };
+        /** @description A place of the surface with a large deviation, and why. */
+        WorstPlaceAnswer: {
+            /** @description Place on the nominal surface, frame of the program. */
+            xyz_mm: [
+                number,
+                number,
+                number
+            ];
+            /** @description Nominal normal, out of the material. */
+            normal_axis: [
+                number,
+                number,
+                number
+            ];
+            /**
+             * Format: double
+             * @description Deviation along it.
+             */
+            deviation_um: number;
+            /**
+             * Format: double
+             * @description Its standard uncertainty; none if it is not known.
+             */
+            u_um: number | null;
+            /**
+             * Format: uint32
+             * @description Line of the program whose move makes the surface; none where the stock remains.
+             */
+            line: number | null;
+            /**
+             * Format: uint
+             * @description Number of the operation of that line, from 1; none in a program without operations.
+             */
+            operation: number | null;
+            /** @description Why, in words. */
+            cause: string;
+            /** @description Contribution of each contributor of the path's setting along the normal: they add up to the displacement of the tool. */
+            share_um: number[];
+        };
+        /** @description A feature of the surface. */
+        SurfaceFeatureAnswer: {
+            /** @description Its name; of a slot's two cylinders with `internal` or `external`, of its two walls with `left` or `right`. */
+            name: string;
+            /** @description `cylinder` or `plane`. */
+            kind: string;
+            /**
+             * Format: uint
+             * @description Points of its surface.
+             */
+            points: number;
+            /**
+             * Format: double
+             * @description Mean deviation, positive where material is left.
+             */
+            mean_um: number | null;
+            /**
+             * Format: double
+             * @description Profile of its surface (ISO 1101): twice the largest deviation by size.
+             */
+            profile_um: number | null;
+            /**
+             * Format: double
+             * @description Standard uncertainty of the largest deviation; none if it is not known.
+             */
+            u_um: number | null;
+            /**
+             * Format: double
+             * @description Flatness (ISO 1101, minimum zone).
+             */
+            flatness_um: number | null;
+            /**
+             * Format: double
+             * @description Distance of the mean plane from the nominal one, positive where material is left.
+             */
+            offset_um: number | null;
+            /**
+             * Format: double
+             * @description Angle between both planes.
+             */
+            tilt_deg: number | null;
+            /**
+             * Format: double
+             * @description Nominal diameter.
+             */
+            nominal_diameter_mm: number | null;
+            /**
+             * Format: double
+             * @description Global least-squares size (ISO 14405-1 GG) less the nominal diameter.
+             */
+            diameter_change_um: number | null;
+            /**
+             * Format: double
+             * @description Maximum inscribed size (GX).
+             */
+            inscribed_diameter_mm: number | null;
+            /**
+             * Format: double
+             * @description Minimum circumscribed size (GN).
+             */
+            circumscribed_diameter_mm: number | null;
+            /**
+             * Format: double
+             * @description Cylindricity (ISO 1101, minimum zone).
+             */
+            cylindricity_um: number | null;
+            /**
+             * Format: double
+             * @description Position of the axis (ISO 1101): diameter of the zone about the nominal axis over the length of the feature.
+             */
+            position_um: number | null;
+            /** @description Displacement of the axis in the middle of the feature, frame of the program. */
+            axis_shift_um: [
+                number,
+                number,
+                number
+            ] | null;
+            /** @description Why there is no result. */
+            missing: string | null;
+        };
+        /** @description Measured points of a part, and the prediction there. */
+        ScanAnswer: {
+            /** @description Its file. */
+            file: string;
+            /** @description `none`, `best_fit` or `datums`. */
+            align: string;
+            /**
+             * Format: uint
+             * @description Points that are compared.
+             */
+            points: number;
+            /**
+             * Format: uint
+             * @description Points farther from the nominal part than the limit.
+             */
+            too_far: number;
+            /**
+             * Format: uint
+             * @description Points near the nominal part where nothing is predicted.
+             */
+            not_predicted: number;
+            /** @description What the alignment takes from the measured points. */
+            removed: components["schemas"]["RemovedMotion"];
+            /** @description What the same alignment takes from the prediction. */
+            removed_from_prediction: components["schemas"]["RemovedMotion"];
+            /** @description Measured deviations. */
+            measured: components["schemas"]["DeviationStatistics"];
+            /** @description Predicted deviations at the same points. */
+            predicted: components["schemas"]["DeviationStatistics"];
+            /** @description Measured less predicted. */
+            difference: components["schemas"]["DeviationStatistics"];
+            /** @description How much of the measured deviation is explained. */
+            agreement: components["schemas"]["AgreementAnswer"];
+            /**
+             * Format: double
+             * @description Standard uncertainty of the slope; none with too small a part.
+             */
+            slope_u: number | null;
+            /** @description Wavelengths that separate the bands. */
+            wavelengths_mm: [
+                number,
+                number
+            ];
+            /** @description The same of wavelengths above the first. */
+            long: components["schemas"]["AgreementAnswer"];
+            /** @description Between both. */
+            middle: components["schemas"]["AgreementAnswer"];
+            /** @description Below the second. */
+            short: components["schemas"]["AgreementAnswer"];
+            /** @description Each feature of the path with points. */
+            features: components["schemas"]["ScanFeatureAnswer"][];
+            /** @description What was assumed. */
+            notes: string[];
+        };
+        /** @description A motion that an alignment removes. */
+        RemovedMotion: {
+            /** @description Displacement at the mean of the points, frame of the program. */
+            translation_mm: [
+                number,
+                number,
+                number
+            ];
+            /** @description Rotation vector. */
+            rotation_deg: [
+                number,
+                number,
+                number
+            ];
+        };
+        /** @description Deviations of a set of points. */
+        DeviationStatistics: {
+            /**
+             * Format: double
+             * @description Mean.
+             */
+            mean_um: number;
+            /**
+             * Format: double
+             * @description Root mean square.
+             */
+            rms_um: number;
+            /**
+             * Format: double
+             * @description Least.
+             */
+            least_um: number;
+            /**
+             * Format: double
+             * @description Largest.
+             */
+            largest_um: number;
+            /**
+             * Format: double
+             * @description Fraction within the tolerance by size.
+             */
+            fraction_within: number;
+        };
+        /** @description How far a prediction agrees with a measurement. */
+        AgreementAnswer: {
+            /**
+             * Format: double
+             * @description Standard deviation of the measured deviations.
+             */
+            measured_sd_um: number;
+            /**
+             * Format: double
+             * @description Explained share of their variance: 1 of a perfect prediction, below 0 of one that is worse than its mean; none without variance.
+             */
+            explained: number | null;
+            /**
+             * Format: double
+             * @description Slope of measured over predicted.
+             */
+            slope: number | null;
+            /**
+             * Format: double
+             * @description Correlation.
+             */
+            correlation: number | null;
+        };
+        /** @description A feature, measured and predicted. */
+        ScanFeatureAnswer: {
+            /** @description Its name. */
+            name: string;
+            /**
+             * Format: uint
+             * @description Measured points on it.
+             */
+            points: number;
+            /** @description Measured deviations. */
+            measured: components["schemas"]["DeviationStatistics"];
+            /** @description Predicted deviations. */
+            predicted: components["schemas"]["DeviationStatistics"];
+            /** @description Measured less predicted. */
+            difference: components["schemas"]["DeviationStatistics"];
+            /**
+             * Format: double
+             * @description Explained share of the variance of the measured deviations on it.
+             */
+            explained: number | null;
         };
         /** @description A box of points, the tool oriented as on the plane. */
         VolumeAnswer: {
