@@ -243,7 +243,7 @@ fn what_cannot_be_cut_or_compared_is_refused_with_its_key() {
     ];
     for (machined, message) in cases {
         cell.file("study.toml", study("[0, 100, 0]", SOFT_AXIS_1, &machined, ""));
-        cell.armill(&["run", "study.toml"]).refused(&[&message]);
+        cell.armill(&["run", "study.toml"]).refused(&[message]);
     }
 }
 
