@@ -11,7 +11,7 @@ use crate::analysis::path::run::PathResult;
 use crate::analysis::picture::Picture;
 use crate::file_names::slug;
 
-/// The part with its worst places, and the measured part beside the prediction; none if the study does not ask for it.
+/// The part with its worst places, and the measured part with the prediction there; none if the study does not ask for it.
 pub fn pictures(given: &PathAnswer, found: &PathResult) -> Vec<Picture> {
     let (Some(part), Some(answer)) = (&found.machined_part, &given.machined_part) else {
         return Vec::new();
