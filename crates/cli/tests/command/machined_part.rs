@@ -26,6 +26,9 @@ machined_part = {{ {machined} }}
 const SOFT_AXIS_1: &str = "[1e-6, 0, 0, 0, 0, 0]";
 const STOCK: &str = "stock = { box_mm = { from = [-40, -60, -10], to = [40, 60, 0] } }";
 
+/// A slot along y, 80 mm long.
+const SLOT: &str = "G21 G90 G0 X0 Y-40 Z5\nG1 Z-2 F600\nG1 Y40\nG0 Z5\nM2\n";
+
 /// The answer of the part.
 fn part(cell: &Cell, args: &[&str]) -> Value {
     let given = [&["run", "study.toml", "--json", "--no-pictures"], args].concat();
@@ -36,10 +39,7 @@ fn part(cell: &Cell, args: &[&str]) -> Value {
 #[test]
 fn the_walls_of_a_slot_are_off_by_the_turn_of_one_soft_joint() {
     let cell = Cell::new();
-    cell.file(
-        "cut.ngc",
-        "G21 G90 G0 X0 Y-40 Z5\nG1 Z-2 F600\nG1 Y40\nG0 Z5\nM2\n",
-    );
+    cell.file("cut.ngc", SLOT);
     let machined = format!("cell_mm = 0.5, {STOCK}, tool = {{ diameter_mm = 10 }}");
     let feature = r#"{ name = "slot", kind = "line", lines = [3, 3] }, { name = "floor", kind = "plane", lines = [3, 3] }"#;
     cell.file(
@@ -145,10 +145,7 @@ fn a_floor_is_left_where_the_tool_is_pushed_up() {
 #[test]
 fn a_measured_part_with_a_known_error_is_compared_and_the_error_found() {
     let cell = Cell::new();
-    cell.file(
-        "cut.ngc",
-        "G21 G90 G0 X0 Y-40 Z5\nG1 Z-2 F600\nG1 Y40\nG0 Z5\nM2\n",
-    );
+    cell.file("cut.ngc", SLOT);
     // Floor at -2 mm with a wave of 10 um and 20 mm; walls at x = -5 and 5 as predicted, x^2 of base.
     let mut points = String::from("x_mm,y_mm,z_mm\n");
     let predicted = |y_mm: f64| 0.1 * (1.0 + y_mm / 1e3).powi(2);
@@ -189,13 +186,130 @@ fn a_measured_part_with_a_known_error_is_compared_and_the_error_found() {
     assert!(number(&scan["agreement"]["explained"]) > 0.99, "{scan}");
 }
 
+/// The measured walls of the slot along y, displaced by `c x^2 F_y` with this compliance; x, y, z in mm.
+fn walls_of_slot(compliance: f64) -> Vec<[f64; 3]> {
+    let displaced = |y_mm: f64| compliance * 1e5 * (1.0 + y_mm / 1e3).powi(2);
+    let rows = (-70..=70).map(|step| f64::from(step) * 0.5);
+    let row = |y: f64| {
+        let points = [-1.5, -1.0, -0.5].map(|z| [5.0, -5.0].map(|x| [x - displaced(y), y, z]));
+        points.into_iter().flatten()
+    };
+    rows.flat_map(row).collect()
+}
+
+fn table_of(points: &[[f64; 3]]) -> String {
+    let rows = points.iter().map(|[x, y, z]| format!("{x},{y},{z}\n"));
+    std::iter::once("x_mm,y_mm,z_mm\n".to_owned())
+        .chain(rows)
+        .collect()
+}
+
+/// Witness: a joint that is 1.2 times as soft as the model has it: the model explains `1 - (0.2/1.2)^2` of the mean square, and the tool was where the walls are.
 #[test]
-fn files_of_the_part_are_written_and_named_in_the_result() {
+fn contributions_and_tips_of_a_scan_are_those_of_the_soft_joint() {
+    let cell = Cell::new();
+    cell.file("cut.ngc", SLOT);
+    cell.file("scan.csv", table_of(&walls_of_slot(1.2e-6)));
+    let scan = "scan = { file = \"scan.csv\", align = \"none\" }";
+    let machined = format!("cell_mm = 0.5, {STOCK}, tool = {{ diameter_mm = 10 }}, {scan}");
+    cell.file("study.toml", study("[0, 100, 0]", SOFT_AXIS_1, &machined, ""));
+    let part = part(&cell, &["--out", "out"]);
+    let contributions = part["scan"]["contributions"].as_array().unwrap();
+    let first = &contributions[0];
+    assert_eq!(first["name"], "S");
+    let explained = 1.0 - (0.2_f64 / 1.2).powi(2);
+    for (key, expected) in [("explained_alone", explained), ("explained_without", 0.0)] {
+        let found = number(&first[key]);
+        assert!((found - expected).abs() < 1e-3, "{key}: {found} of {expected}");
+    }
+    for other in &contributions[1..] {
+        assert!(number(&other["rms_um"]) < 0.1, "{other}");
+    }
+    let text = std::fs::read_to_string(cell.at("out/cut.scan-points.csv")).unwrap();
+    let mut lines = text.lines();
+    let names: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let of = |row: &[&str], name: &str| -> f64 {
+        let column = names.iter().position(|other| *other == name).unwrap();
+        row[column].parse().unwrap()
+    };
+    let mut rows = 0;
+    for line in lines {
+        let row: Vec<&str> = line.split(',').collect();
+        assert_eq!((of(&row, "fy_n"), of(&row, "ny").abs() < 1e-3), (100.0, true));
+        // The wall of the tool at y is at -1.2 times the predicted displacement, along its normal.
+        let along = (of(&row, "x_mm") - of(&row, "nominal_x_mm")) * of(&row, "nx");
+        let expected = -0.12 * (1.0 + of(&row, "nominal_y_mm") / 1e3).powi(2) * of(&row, "nx");
+        assert!((along - expected).abs() < 4e-3, "{line}: {along} of {expected}");
+        rows += 1;
+    }
+    assert!(rows >= 2, "{text}");
+}
+
+/// Witness: both walls of a rib are displaced in the same direction, so that its thickness is the programmed one but for `c F_y` times the difference of `x^2` at its faces.
+#[test]
+fn a_rib_between_two_slots_keeps_its_thickness() {
     let cell = Cell::new();
     cell.file(
         "cut.ngc",
-        "G21 G90 G0 X0 Y-40 Z5\nG1 Z-2 F600\nG1 Y40\nG0 Z5\nM2\n",
+        "G21 G90 G0 X-8 Y-40 Z5\nG1 Z-2 F600\nG1 Y40\nG0 Z5\nG0 X8 Y-40\nG1 Z-2\nG1 Y40\nG0 Z5\nM2\n",
     );
+    let feature = r#"{ name = "one", kind = "line", lines = [3, 3] }, { name = "other", kind = "line", lines = [7, 7] }"#;
+    let of = |between: &str| {
+        let wall = format!("walls = [{{ name = \"rib\", between = [{between}] }}]");
+        let machined = format!("cell_mm = 0.5, {STOCK}, tool = {{ diameter_mm = 10 }}, {wall}");
+        cell.file(
+            "study.toml",
+            study("[0, 100, 0]", SOFT_AXIS_1, &machined, feature),
+        );
+    };
+    of(r#""one", "other""#);
+    let wall = part(&cell, &[])["walls"][0].clone();
+    assert!((number(&wall["nominal_mm"]) - 6.0).abs() < 1e-6, "{wall}");
+    assert!(number(&wall["change_um"]).abs() < 0.02, "{wall}");
+    assert!((number(&wall["least_mm"]) - 6.0).abs() < 1e-4, "{wall}");
+    of(r#""one", "third""#);
+    cell.armill(&["run", "study.toml"])
+        .refused(&["`third` is not a line or plane", "`one`, `other`"]);
+    of(r#""one", "one""#);
+    cell.armill(&["run", "study.toml"]).refused(&["the same feature"]);
+}
+
+/// Datum points hide the motion of the whole part; the walls keep their form.
+#[test]
+fn a_scan_that_was_moved_is_found_again_by_its_datums() {
+    let cell = Cell::new();
+    cell.file("cut.ngc", SLOT);
+    let mut points = walls_of_slot(1e-6);
+    points.extend((-70..=70).flat_map(|step| [-3.0, 0.0, 3.0].map(|x| [x, f64::from(step) * 0.5, -2.0])));
+    // Turned by 1 mrad about z, and displaced.
+    let moved = |[x, y, z]: &[f64; 3]| [x - 1e-3 * y + 0.2, y + 1e-3 * x - 0.1, z + 0.05];
+    let moved: Vec<[f64; 3]> = points.iter().map(moved).collect();
+    let of = |points: &[[f64; 3]], align: &str| {
+        cell.file("scan.csv", table_of(points));
+        let scan = format!("scan = {{ file = \"scan.csv\", {align} }}");
+        let machined = format!("cell_mm = 0.5, {STOCK}, tool = {{ diameter_mm = 10 }}, {scan}");
+        cell.file("study.toml", study("[0, 100, 0]", SOFT_AXIS_1, &machined, ""));
+    };
+    let datums = "align = \"datums\", datums = { primary_mm = [[-3, -30, -2], [3, -30, -2], [0, 30, -2]], secondary_mm = [[5, -30, -1], [5, 30, -1]], tertiary_mm = [0, 0, -2], radius_mm = 1.5 }";
+    of(&moved, datums);
+    // No surface of this slot determines its place along y: a floor as tertiary datum does not either.
+    cell.armill(&["run", "study.toml"]).refused(&["scan.csv"]);
+    of(&moved, "align = \"best_fit\"");
+    let scan = part(&cell, &[])["scan"].clone();
+    assert!(number(&scan["difference"]["rms_um"]) < 0.5, "{scan}");
+    let turned = numbers(&scan["removed"]["rotation_deg"]);
+    let by_prediction = numbers(&scan["removed_from_prediction"]["rotation_deg"]);
+    let own = (turned[2] - by_prediction[2]).to_radians();
+    assert!((own + 1e-3).abs() < 2e-6, "{own} rad");
+    of(&points, "align = \"none\"");
+    let scan = part(&cell, &[])["scan"].clone();
+    assert!(number(&scan["difference"]["rms_um"]) < 0.5, "{scan}");
+}
+
+#[test]
+fn files_of_the_part_are_written_and_named_in_the_result() {
+    let cell = Cell::new();
+    cell.file("cut.ngc", SLOT);
     let machined = format!("cell_mm = 1, {STOCK}, tool = {{ diameter_mm = 10 }}");
     cell.file("study.toml", study("[0, 100, 0]", SOFT_AXIS_1, &machined, ""));
     cell.armill(&["run", "study.toml", "--out", "out"]).fine();
@@ -210,10 +324,7 @@ fn files_of_the_part_are_written_and_named_in_the_result() {
 #[test]
 fn what_cannot_be_cut_or_compared_is_refused_with_its_key() {
     let cell = Cell::new();
-    cell.file(
-        "cut.ngc",
-        "G21 G90 G0 X0 Y-40 Z5\nG1 Z-2 F600\nG1 Y40\nG0 Z5\nM2\n",
-    );
+    cell.file("cut.ngc", SLOT);
     let tool = "tool = { diameter_mm = 10 }";
     let cases = [
         (format!("cell_mm = 1, {tool}"), "a machined part needs its stock"),
@@ -250,10 +361,7 @@ fn what_cannot_be_cut_or_compared_is_refused_with_its_key() {
 #[test]
 fn compensation_of_the_surface_leaves_the_feed_and_is_cut_again() {
     let cell = Cell::new();
-    cell.file(
-        "cut.ngc",
-        "G21 G90 G0 X0 Y-40 Z5\nG1 Z-2 F600\nG1 Y40\nG0 Z5\nM2\n",
-    );
+    cell.file("cut.ngc", SLOT);
     let machined = format!("cell_mm = 0.5, {STOCK}, tool = {{ diameter_mm = 10 }}");
     cell.file("study.toml", study("[60, 100, 0]", SOFT_AXIS_1, &machined, ""));
     let whole = cell.armill(&["compensate", "study.toml", "--json"]).fine().json();

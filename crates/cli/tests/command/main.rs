@@ -54,6 +54,7 @@ mod rough;
 mod roundness;
 mod rounds;
 mod run;
+mod scanned_pocket;
 mod serve;
 mod shell;
 mod slips;

@@ -24,7 +24,7 @@ use rayon::prelude::*;
 
 use super::error::FormError;
 use super::plane::known;
-use super::profile::SurfaceDeviation;
+use super::profile::NormalDeviation;
 use super::surface::{FootPoint, NominalSurface};
 use crate::frame::Isometry;
 
@@ -101,10 +101,10 @@ pub fn deviations(
     surface: &NominalSurface,
     motion: &Isometry,
     options: &AlignmentOptions,
-) -> Vec<Option<SurfaceDeviation>> {
+) -> Vec<Option<NormalDeviation>> {
     let of = |point: &Point3<f64>| {
         let foot = surface.foot(&(motion * point), options.farthest)?.deviation;
-        Some(SurfaceDeviation {
+        Some(NormalDeviation {
             deviation: foot.deviation - options.probe_radius,
             ..foot
         })

@@ -30,7 +30,7 @@ pub use datum::{DatumNormals, DatumTargets};
 pub use error::FormError;
 pub use line::Straightness;
 pub use plane::{Flatness, PlaneDeparture};
-pub use profile::{SurfaceDeviation, SurfaceProfile};
+pub use profile::{NormalDeviation, SurfaceProfile};
 pub use slices::SliceRoundness;
 pub use superposition::{Superposition, superposition};
 pub use surface::NominalSurface;

@@ -22,7 +22,7 @@ use super::plane::known;
 
 /// A deviation at a point of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SurfaceDeviation {
+pub struct NormalDeviation {
     /// Nominal point, m.
     pub at: Point3<f64>,
     /// Outer normal, of length 1.
@@ -75,7 +75,7 @@ pub fn surface_profile(deviations: &[f64]) -> Result<SurfaceProfile, FormError> 
 /// # Errors
 /// Too few points, values that are not finite, a surface that does not determine the motion.
 pub fn fitted_surface_profile(
-    points: &[SurfaceDeviation],
+    points: &[NormalDeviation],
     freedom: MotionFreedom,
 ) -> Result<SurfaceProfile, FormError> {
     let places: Vec<Point3<f64>> = points.iter().map(|point| point.at).collect();
@@ -89,7 +89,7 @@ pub fn fitted_surface_profile(
     let right: Vec<f64> = points.iter().map(|point| point.deviation).collect();
     let fitted = match freedom {
         MotionFreedom::Rigid => {
-            let row = |point: &SurfaceDeviation| {
+            let row = |point: &NormalDeviation| {
                 let turns = (point.at.coords - centre).cross(&point.normal) / scale;
                 let n = &point.normal;
                 [n.x, n.y, n.z, turns.x, turns.y, turns.z]
@@ -102,7 +102,7 @@ pub fn fitted_surface_profile(
             let x = Vector3::ith(normal.iamin(), 1.0);
             let x = (x - normal * x.dot(&normal)).normalize();
             let y = normal.cross(&x);
-            let row = |point: &SurfaceDeviation| {
+            let row = |point: &NormalDeviation| {
                 let turns = (point.at.coords - centre).cross(&point.normal) / scale;
                 [point.normal.dot(&normal), turns.dot(&x), turns.dot(&y)]
             };

@@ -16,7 +16,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::profile::SurfaceDeviation;
+use super::profile::NormalDeviation;
 use crate::clearance::{Mesh, MeshPoint};
 
 /// A weight of a corner below this is that of a place on the opposite edge.
@@ -41,7 +41,7 @@ pub struct FootPoint {
     /// Index of the triangle in [`Mesh::triangles`].
     pub triangle: usize,
     /// Deviation along the normal, and the foot point.
-    pub deviation: SurfaceDeviation,
+    pub deviation: NormalDeviation,
 }
 
 impl NominalSurface {
@@ -119,7 +119,7 @@ impl NominalSurface {
         };
         FootPoint {
             triangle: found.triangle,
-            deviation: SurfaceDeviation {
+            deviation: NormalDeviation {
                 at: found.at,
                 normal,
                 deviation: side * distance,

@@ -11,6 +11,7 @@ use crate::load::{InputUncertainty, PathLoad};
 use crate::map::AlongPath;
 use crate::path::Track;
 use crate::predict::predict;
+use crate::removal::EndOrigin;
 use crate::robot::forward::forward;
 use crate::source::arm_state::LoadedPosture;
 use crate::source::{Arm, ArmState, Deviation, Links, MotionDisplacement};
@@ -24,6 +25,14 @@ pub struct TipDeviation {
     pub twist: Twist,
     /// Covariance of the displacement, m^2.
     pub covariance: Matrix3<f64>,
+}
+
+/// Whether the deviation of the tool is known along all of the move that made a surface: at both of its ends. What no move made is known.
+pub fn is_known(deviations: &[Option<TipDeviation>], made_by: EndOrigin) -> bool {
+    let at = |index: usize| deviations.get(index).is_none_or(Option::is_some);
+    made_by
+        .move_index()
+        .is_none_or(|index| at(index) && at(index.saturating_sub(1)))
 }
 
 /// Points between two reports of progress.

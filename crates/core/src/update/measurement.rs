@@ -41,6 +41,8 @@ pub struct Positions {
 pub enum Observed {
     /// Its coordinates, as the poses have them.
     Coordinates,
+    /// Its coordinate along a normal in the frame of the poses, one for each pose: the position of a surface that the tool has left.
+    AlongNormals(Vec<Vector3<f64>>),
     /// Its distance from a pivot; the positions of the poses are not used.
     Distances(Distances),
 }
@@ -102,8 +104,12 @@ impl Campaign {
     pub fn rows(&self) -> usize {
         match self {
             Campaign::Positions(positions) => {
-                if let Observed::Distances(distances) = &positions.observed {
-                    return distances.lengths.len() - usize::from(!distances.is_calibrated);
+                match &positions.observed {
+                    Observed::Distances(distances) => {
+                        return distances.lengths.len() - usize::from(!distances.is_calibrated);
+                    }
+                    Observed::AlongNormals(normals) => return normals.len(),
+                    Observed::Coordinates => {}
                 }
                 let turned = positions
                     .poses
@@ -151,6 +157,17 @@ impl Positions {
         }?;
         Ok([found.tracker_from_base, found.flange_from_point])
     }
+}
+
+/// Rows along the normals, from `rows` of the coordinates.
+pub(super) fn rows_along(normals: &[Vector3<f64>], rows: &DMatrix<f64>) -> DMatrix<f64> {
+    let mut along = DMatrix::zeros(normals.len(), rows.ncols());
+    for (k, normal) in normals.iter().enumerate() {
+        along
+            .row_mut(k)
+            .copy_from(&(normal.transpose() * rows.rows(3 * k, 3)));
+    }
+    along
 }
 
 impl Distances {

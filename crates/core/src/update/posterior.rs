@@ -223,6 +223,17 @@ fn sound(robot: &Robot, campaign: &Campaign) -> Result<(), &'static str> {
             if positions.poses.iter().any(|pose| pose.joints.len() != joints) {
                 return Err("it has another number of joints than the robot");
             }
+            if let Observed::AlongNormals(normals) = &positions.observed {
+                if normals.len() != positions.poses.len() {
+                    return Err("it has another number of normals than of poses");
+                }
+                if positions.poses.iter().any(|pose| pose.rotation.is_some()) {
+                    return Err("it has normals and rotations: the position of a surface has no rotation");
+                }
+                if !normals.iter().all(|normal| (normal.norm() - 1.0).abs() < 1e-6) {
+                    return Err("it has a normal that is not a unit vector");
+                }
+            }
             if let Observed::Distances(distances) = &positions.observed {
                 let is_sound = |length: &f64| *length > 0.0 && length.is_finite();
                 if distances.lengths.len() != positions.poses.len() || distances.lengths.len() < 2 {

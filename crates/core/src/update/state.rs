@@ -6,7 +6,7 @@
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
-//! | `y` | measured point, in the frame of the measurement; of a ball-bar its distance from the pivot, the origin of that frame | m |
+//! | `y` | measured point, in the frame of the measurement; of a surface its coordinate along the normal; of a ball-bar its distance from the pivot, the origin of that frame | m |
 //! | `B` | base of the robot in that frame, unknown | |
 //! | `p(q; x)` | the point by the chain with the small motions `x`, base | m |
 //! | `s_j`, `w` | screw of a joint at the point of the nominal chain; load | |
@@ -17,7 +17,7 @@
 
 use nalgebra::{DMatrix, DVector, Vector3};
 
-use super::measurement::{Campaign, Known, Observed, Positions};
+use super::measurement::{Campaign, Known, Observed, Positions, rows_along};
 use super::parameter::{Knowledge, Parameter};
 use crate::calibrate::{Arm, ParameterLocation, Unknown};
 use crate::frame::Isometry;
@@ -259,6 +259,7 @@ impl<'a> Model<'a> {
         }
         match &positions.observed {
             Observed::Coordinates => rows / positions.standard_uncertainty,
+            Observed::AlongNormals(normals) => rows_along(normals, &rows) / positions.standard_uncertainty,
             Observed::Distances(distances) => distances.rows(&rows) / positions.standard_uncertainty,
         }
     }
@@ -337,7 +338,7 @@ fn frames_of(positions: &Positions) -> Vec<Unknown> {
     };
     // Distances do not depend on the axes of the frame at the pivot.
     let base = match positions.observed {
-        Observed::Coordinates => 6,
+        Observed::Coordinates | Observed::AlongNormals(_) => 6,
         Observed::Distances(_) => 3,
     };
     of(ParameterLocation::Base, base)

@@ -14,6 +14,7 @@ use crate::source::elastic;
 use crate::spatial::Wrench;
 
 mod ball_bar;
+mod surface;
 
 const FACTORS: PriorFactors = PriorFactors {
     geometry: Prior {
@@ -299,6 +300,7 @@ fn rows_match_finite_differences() {
     });
     let campaigns = [
         part(&hidden, &work(&hidden, 3, 8), 1.0),
+        surface::measured(&hidden, &work(&hidden, 3, 8), 1.0),
         ball_bar::readings(&hidden, &work(&hidden, 4, 9), 1.0, true),
         ball_bar::readings(&hidden, &work(&hidden, 4, 10), 1.0, false),
         tracker(

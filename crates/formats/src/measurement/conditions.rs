@@ -6,6 +6,7 @@
 //! | `fx_n`, `fy_n`, `fz_n` | force on the tool at its tip, base axes; a missing column or an empty cell is 0 | `_n`, `_kn` |
 //! | `mx_n_m`, `my_n_m`, `mz_n_m` | moment about the tip | `_n_m` |
 //! | `q1_direction` ..., or `A1_direction` | direction of the last motion of a joint as the controller reports it: 1, -1; 0 or an empty cell: not known | |
+//! | `nx`, `ny`, `nz` | the position is that of a surface, known along this normal alone: its components, in the frame of the measured positions; all or none | |
 //! | `radius_mm` | reading of a ball-bar: distance of the measured point from the pivot | `_mm`, `_um`, `_m`, `_in` |
 //!
 //! Other columns are ignored: they are those of [`poses`](super::poses).
@@ -30,6 +31,8 @@ const LIMIT: RowLimit = RowLimit {
 };
 /// Largest force, N, and moment, N m: beyond that of any robot.
 const LARGEST: f64 = 1e6;
+/// How far the length of a normal may be from 1: it is rounded.
+const ROUNDED: f64 = 1e-2;
 /// Longest ball-bar, m.
 const LONGEST: f64 = 100.0;
 const HINT: &str = "joint positions (`q1_deg` ...), the load on the tool in base axes (`fx_n`, `fy_n`, `fz_n`), directions of the last motions (`q1_direction` ...)";
@@ -45,6 +48,8 @@ pub struct ConditionRow {
     pub condition: Condition,
     /// Reading of a ball-bar, m.
     pub radius: Option<f64>,
+    /// Direction in which the position is known, unit vector; `None`: in all.
+    pub normal: Option<Vector3<f64>>,
 }
 
 /// Quantity of a column, and the factor of its unit.
@@ -55,6 +60,7 @@ enum Column {
     Moment(usize),
     Direction(usize),
     Radius(f64),
+    Normal(usize),
 }
 
 /// Whether a column of this name is read here, besides joint positions.
@@ -95,6 +101,13 @@ pub fn read(path: &str, reader: impl BufRead, robot: &Robot) -> Result<Vec<Condi
         let message = format!("positions of joints are missing: {}", missing.join(", "));
         return Err(header.problem(path, 0..header.text.len(), message, HINT).into());
     }
+    let normals = (named.columns.iter().flatten()).filter(|column| matches!(column, Column::Normal(_)));
+    if ![0, 3].contains(&normals.count()) {
+        let message = "a normal has the columns `nx`, `ny` and `nz`";
+        return Err(header
+            .problem(path, 0..header.text.len(), message, "add those that are missing")
+            .into());
+    }
     let mut rows = Vec::new();
     each_row(&mut lines, separator, LIMIT, |line| {
         rows.push(row(path, line, &named.columns, (separator, robot))?);
@@ -118,6 +131,7 @@ fn row(
     let mut joints = vec![0.0; robot.joints().len()];
     let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
     let mut radius = None;
+    let mut normal: Option<Vector3<f64>> = None;
     let mut problems = Vec::new();
     for (cell, column) in cells.iter().zip(columns) {
         let Some(column) = column else { continue };
@@ -158,6 +172,11 @@ fn row(
                 radius = found;
                 (found, "a distance above 0 and not above 100 m")
             }
+            Column::Normal(axis) => {
+                let found = within(1.0 + ROUNDED);
+                normal.get_or_insert_default()[*axis] = found.unwrap_or_default();
+                (found, "a component of a unit vector: from -1 to 1")
+            }
             Column::Direction(joint) => {
                 let found = value.filter(|value| [-1.0, 0.0, 1.0].contains(value));
                 condition.directions[*joint] = found.unwrap_or_default();
@@ -169,6 +188,21 @@ fn row(
             problems.push(line.problem(path, cell.span.clone(), message, hint));
         }
     }
+    if problems.is_empty()
+        && let Some(normal) = normal
+        && (normal.norm() - 1.0).abs() > ROUNDED
+    {
+        let message = format!(
+            "the normal (`nx`, `ny`, `nz`) has the length {:.4}",
+            normal.norm()
+        );
+        problems.push(line.problem(
+            path,
+            0..line.text.len(),
+            message,
+            "a unit vector: its length is 1",
+        ));
+    }
     Problems::from(problems).into_result()?;
     condition.wrench = Wrench { force, moment };
     Ok(ConditionRow {
@@ -176,6 +210,7 @@ fn row(
         joints,
         condition,
         radius,
+        normal: normal.map(|normal| normal.normalize()),
     })
 }
 
@@ -194,6 +229,9 @@ fn meaning(name: &str, robot: &Robot) -> Result<Option<Column>, (String, String)
         return Ok(unit.map(|unit| Column::Radius(unit.factor())));
     }
     for (axis, letter) in ["x", "y", "z"].iter().enumerate() {
+        if lower == format!("n{letter}") {
+            return Ok(Some(Column::Normal(axis)));
+        }
         if let Some(unit) = lower.strip_prefix(&format!("f{letter}_")) {
             return match unit {
                 "n" => Ok(Some(Column::Force(axis, 1.0))),
@@ -248,6 +286,9 @@ mod tests {
         assert_eq!(rows[0].radius, None);
         let bar = of("q1_deg,q2_deg,radius_mm,radius_error\n0,0,150.002,7\n0,1,,\n").unwrap();
         assert!((bar[0].radius.unwrap() - 0.150_002).abs() < 1e-15 && bar[1].radius.is_none());
+        let surface = of("q1_deg,q2_deg,nx,ny,nz\n0,0,0.6,0,-0.8\n0,1,,,\n").unwrap();
+        assert_eq!(surface[0].normal, Some(Vector3::new(0.6, 0.0, -0.8)));
+        assert_eq!(surface[1].normal, None);
         assert!(is_condition("q2_direction", &two_joints()) && !is_condition("q2_deg", &two_joints()));
     }
 
@@ -270,6 +311,9 @@ mod tests {
             ("q1_deg,q2_deg\n0\n", "2:"),
             ("q1_deg,q2_deg,radius_mm\n0,0,-1\n", "a distance above 0"),
             ("q1_deg,q2_deg,radius_mm,radius_um\n0,0,1,1\n", "repeats"),
+            ("q1_deg,q2_deg,nx,ny\n0,0,1,0\n", "`nx`, `ny` and `nz`"),
+            ("q1_deg,q2_deg,nx,ny,nz\n0,0,1,1,0\n", "length 1.4142"),
+            ("q1_deg,q2_deg,nx,ny,nz\n0,0,1,0,7\n", "from -1 to 1"),
         ] {
             let problems = of(text).unwrap_err().to_string();
             assert!(problems.contains(part), "{text}: {problems}");

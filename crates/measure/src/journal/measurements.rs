@@ -150,6 +150,19 @@ fn campaign(
         .iter()
         .filter(|name| !conditions::is_condition(name, robot));
     unused.extend(passed_over.map(|name| format!("{}: {name}", entry.file)));
+    let normal_of = |line: &usize| rows.iter().find(|row| row.line == *line)?.normal;
+    let normals: Vec<Vector3<f64>> = measured.lines.iter().filter_map(normal_of).collect();
+    let observed = match normals.len() {
+        0 => Observed::Coordinates,
+        count if count == measured.lines.len() => Observed::AlongNormals(normals),
+        count => {
+            let of = measured.lines.len();
+            return Err(StudyError::value(
+                format!("{shown}: {count} of {of} positions have a normal (`nx`, `ny`, `nz`)"),
+                "a table has a normal in every row with a position, or in none",
+            ));
+        }
+    };
     Ok(Campaign::Positions(Positions {
         conditions: measured.lines.iter().map(of_line).collect(),
         poses: measured.poses,
@@ -157,7 +170,7 @@ fn campaign(
         point: known,
         standard_uncertainty: u,
         turn_length: 1.0,
-        observed: Observed::Coordinates,
+        observed,
     }))
 }
 

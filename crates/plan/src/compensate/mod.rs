@@ -12,7 +12,7 @@
 //! For a path from a robot program, that program is returned too, with changed targets ([`in_place`]).
 //!
 //! `answer`: the result of all paths, in numbers and sentences; `commanded`: a commanded path or set of holes; `error_answer`: the distances from the path; `holes`: holes instead of a
-//! path; `in_place`: the program that a path is from, rewritten; `surface`: the part that comes out before and after; `to_measure`: what acted on the arm at each point, for its journal.
+//! path; `in_place`: the program that a path is from, rewritten; `surface`: the part that comes out before and after.
 //!
 //! The correction is the elastic deviation (and that of gravity, backlash and the calibrated robot, if known)
 //! under the mean of the load cases, of a cut under its nominal force; the difference of the cases is reported as
@@ -24,7 +24,6 @@ pub mod error_answer;
 mod holes;
 pub mod in_place;
 mod surface;
-mod to_measure;
 
 pub use answer::CompensationAnswer;
 pub use commanded::{CollisionsAnswer, Commanded, CompensatedPath};
@@ -42,6 +41,7 @@ use armill_formats::table::csv;
 use armill_report::{PathPlot, Series};
 use armill_study::analysis::path::PathAnalysis;
 use armill_study::analysis::path::run::passes;
+use armill_study::analysis::path::to_measure::{NominalPath, to_measure};
 use armill_study::analysis::runner::Runner;
 use armill_study::error::StudyError;
 use armill_study::file::resolve::Study;
@@ -49,7 +49,6 @@ use armill_study::file::resolve::Study;
 use self::commanded::{caution, table};
 use self::holes::of_holes;
 use self::in_place::{RewrittenProgram, in_place};
-use self::to_measure::to_measure;
 
 /// How paths are compensated.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -198,12 +197,18 @@ fn of_path<'a>(
         surface,
         notes,
     };
+    let nominal = NominalPath {
+        robot: runner.robot,
+        nominal: drawn,
+        along: &found.along,
+    };
+    let to_measure = csv::write(&to_measure(name, &nominal)?);
     Ok(Commanded {
         picture: Some(picture(name, drawn, before, &found, in_place.as_ref())),
         holes: None,
         refused: Vec::new(),
         csv: csv::write(&table(name, &found.track)?),
-        to_measure: Some(csv::write(&to_measure(name, runner.robot, drawn, &found.along)?)),
+        to_measure: Some(to_measure),
         setting: &path.setting,
         path: (found.track, found.along.answers),
         top: drawn.top(),

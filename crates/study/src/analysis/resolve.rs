@@ -99,6 +99,8 @@ pub struct Resolver<'a> {
     pub folder: &'a Path,
     /// The bodies of the cell, if the study has any.
     pub bodies: Option<&'a CellBodies>,
+    /// Whether they have problems, and are missing for that reason.
+    pub bodies_have_problems: bool,
 }
 
 impl Resolver<'_> {

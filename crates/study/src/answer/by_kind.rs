@@ -6,7 +6,7 @@ use crate::analysis;
 use crate::analysis::holes::answer::HolesAnswer;
 use crate::analysis::map::answer::MapAnswer;
 use crate::analysis::path::PathSource;
-use crate::analysis::path::answer::PathAnswer;
+use crate::analysis::path::answer::{PathAnswer, PathVibration};
 use crate::analysis::path::vibration::engagement;
 use crate::analysis::sections::Section;
 use crate::analysis::vibration::VibrationAnswer;
@@ -54,9 +54,14 @@ impl AnalysisAnswers {
             AnalysisData::Volume(setting, volume) => AnswerKind::Volume(Box::new(
                 analysis::volume::answer::answer(robot, done.name, setting, volume, vibration(done, 0)),
             )),
-            AnalysisData::Path(analysis, found) => AnswerKind::Path(Box::new(
-                analysis::path::answer::answer(robot, done.name, analysis, found, vibration(done, 0)),
-            )),
+            AnalysisData::Path(analysis, found) => {
+                let vibration = PathVibration {
+                    series: done.vibration.first(),
+                    answer: vibration(done, 0),
+                };
+                let given = analysis::path::answer::answer(robot, done.name, analysis, found, vibration);
+                AnswerKind::Path(Box::new(given))
+            }
             AnalysisData::Holes(analysis, found) => AnswerKind::Holes(Box::new(
                 analysis::holes::answer::answer(robot, done.name, analysis, found),
             )),

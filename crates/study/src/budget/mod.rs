@@ -27,11 +27,22 @@ use crate::file::resolve::Study;
 
 /// The measurements, and the path on which they were made.
 fn circle(study: &Study) -> Result<(&Experiment, &PathAnalysis), StudyError> {
-    let nothing = || {
-        StudyError::value(
+    let has_scan = study.analyses.iter().any(|analysis| match &analysis.subject {
+        Subject::Path(path) => path
+            .machined_part
+            .as_ref()
+            .is_some_and(|part| part.scan.is_some()),
+        _ => false,
+    });
+    let nothing = || match has_scan {
+        true => StudyError::value(
+            "the study has no measured circle: its scan of the part is evaluated with the path",
+            "armill run: report and result.json have the contributions to the deviation of the scan",
+        ),
+        false => StudyError::value(
             "the study has no measurements",
             "[measured] with part = \"cmm.csv\" and ballbar = [\"first.csv\", \"second.csv\"]",
-        )
+        ),
     };
     let experiment = study.experiment.as_ref().ok_or_else(nothing)?;
     let path = study

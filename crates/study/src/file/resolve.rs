@@ -214,10 +214,12 @@ impl Parsed {
                 }
             }
         }
+        let before_bodies = log.problems.len();
         let bodies = match &robot {
             Some(robot) => CellBodies::read(&mut log, &file.cell_tables(&tables), robot, folder)?,
             None => None,
         };
+        let bodies_have_problems = log.problems.len() > before_bodies;
         let of_robot = robot
             .as_ref()
             .and_then(|robot| robot.controller.clone())
@@ -245,6 +247,7 @@ impl Parsed {
                 table,
                 folder,
                 bodies: bodies.as_ref(),
+                bodies_have_problems,
             };
             let name = name_of(table, index);
             if let Some(subject) = resolver.subject(&mut log)? {

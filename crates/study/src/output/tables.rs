@@ -8,6 +8,7 @@ use armill_formats::table::{Table, csv};
 use rayon::prelude::*;
 
 use super::options::Csv;
+use crate::analysis::path::to_measure::NominalPath;
 use crate::analysis::path::{machined_part, process_limits};
 use crate::analysis::rows::{Layout, Rows, of_points, of_reached};
 use crate::analysis::{Analysis, AnalysisData, AnalysisResult, Subject, columns};
@@ -34,9 +35,15 @@ pub(super) fn extensions(analysis: &Analysis, csv: Csv) -> Vec<&'static str> {
         extensions.push(process_limits::EXTENSION);
     }
     if let Subject::Path(path) = &analysis.subject
-        && path.machined_part.is_some()
+        && let Some(machined) = &path.machined_part
     {
         extensions.extend(machined_part::files::EXTENSIONS.map(|(extension, _)| extension));
+        extensions.extend(
+            machined
+                .scan
+                .as_ref()
+                .map(|_| machined_part::files::SCAN_EXTENSION),
+        );
     }
     extensions.push(match &analysis.subject {
         Subject::Volume(..) => IMAGE,
@@ -89,10 +96,15 @@ pub(super) fn files(
         {
             save(process_limits::EXTENSION, &csv::write(&table))?;
         }
-        if let AnalysisData::Path(_, found) = &done.found
+        if let AnalysisData::Path(path, found) = &done.found
             && let Some(part) = &found.machined_part
         {
-            machined_part::files::files(&analysis.name, part, save)?;
+            let path = NominalPath {
+                robot: &study.robot.robot,
+                nominal: &path.track,
+                along: &found.along,
+            };
+            machined_part::files::files(&analysis.name, part, &path, save)?;
         }
         Ok(())
     };

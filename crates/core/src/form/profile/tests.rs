@@ -1,9 +1,9 @@
 use super::*;
 
-fn on_plane(deviation: impl Fn(f64, f64) -> f64) -> Vec<SurfaceDeviation> {
+fn on_plane(deviation: impl Fn(f64, f64) -> f64) -> Vec<NormalDeviation> {
     let point = |k: i32| {
         let (x, y) = (f64::from(k % 11 - 5) / 50.0, f64::from(k / 11 - 5) / 50.0);
-        SurfaceDeviation {
+        NormalDeviation {
             at: Point3::new(2.0 + x, y, 0.3),
             normal: Vector3::z(),
             deviation: deviation(x, y),
@@ -51,7 +51,7 @@ fn a_motion_of_a_cube_is_removed_and_a_plane_does_not_determine_it() {
                 at[(axis + 1) % 3] = a;
                 at[(axis + 2) % 3] = b;
                 let normal = Vector3::ith(axis, side);
-                points.push(SurfaceDeviation {
+                points.push(NormalDeviation {
                     at: (at * 0.05 + Vector3::new(0.0, 0.0, 1.0)).into(),
                     normal,
                     deviation: normal.dot(&(shift + turn.cross(&(at * 0.05)))),

@@ -9,7 +9,7 @@
 //! [`robot_program`]) give its points, [`feature`] marks stretches of them; `load` puts on the load: given cases, a [`cut`], a [`drill`], or [`measured`] forces; `shape_tables`: the tables of
 //! shapes; `spin_curve`: a spin that changes along the path. [`resolve`](mod@resolve) joins these, [`run`] evaluates the path, [`motion`] what the controller makes of it. [`answer`], [`sentence`], [`warnings`] are
 //! its answer; [`columns`], [`pictures`] (with `track_views`, [`point_groups`], `turns`, [`process_limits`], `motion_columns`, `corner_picture`) and [`report`] its files. [`process_loads`]:
-//! what the cut asks of tool and spindle; [`machined_part`]: the part that comes out; [`vibration`]: the cuts whose stability is evaluated.
+//! what the cut asks of tool and spindle; [`machined_part`]: the part that comes out; [`to_measure`]: its points for the journal of the arm; [`vibration`]: the cuts whose stability is evaluated.
 
 pub mod answer;
 pub mod columns;
@@ -38,6 +38,7 @@ pub mod sentence;
 mod shape;
 pub mod shape_tables;
 mod spin_curve;
+pub mod to_measure;
 mod track_views;
 mod turns;
 pub mod vibration;

@@ -44,7 +44,7 @@ use crate::analysis::path::PathAnalysis;
 use crate::analysis::path::machined_part::answer::MachinedPartAnswer;
 use crate::analysis::path::run::PathResult;
 use crate::analysis::point::{PointAnswer, SettingAnswer};
-use crate::analysis::vibration::VibrationAnswer;
+use crate::analysis::vibration::{SeriesVibration, VibrationAnswer};
 use crate::input::setting::Setting;
 use crate::joint_order::joint_order;
 use crate::number::without_rounding;
@@ -142,13 +142,22 @@ pub struct CircleCase {
     pub roundness_um: f64,
 }
 
+/// The vibration along a path, if the study asks for it.
+#[derive(Debug, Default)]
+pub struct PathVibration<'a> {
+    /// At its points.
+    pub series: Option<&'a SeriesVibration>,
+    /// In numbers.
+    pub answer: Option<VibrationAnswer>,
+}
+
 /// The result of the path of the analysis called `name`.
 pub fn answer(
     robot: &Robot,
     name: &str,
     analysis: &PathAnalysis,
     found: &PathResult,
-    vibration: Option<VibrationAnswer>,
+    vibration: PathVibration<'_>,
 ) -> PathAnswer {
     let (setting, answers) = (&analysis.setting, &found.along.answers);
     let evaluation = || answers.evaluations().map(|(_, evaluation)| evaluation);
@@ -201,8 +210,8 @@ pub fn answer(
         program: ProgramAnswer::of(analysis, found),
         search: SearchAnswer::of(robot, analysis, found),
         motion: MotionAnswer::of(robot, analysis, found),
-        vibration,
-        machined_part: MachinedPartAnswer::of(robot, analysis, found),
+        machined_part: MachinedPartAnswer::of(robot, analysis, found, vibration.series),
+        vibration: vibration.answer,
         unloaded: UnloadedAnswer::of(robot, analysis, found),
         notes: notes(analysis, found),
         worst_points,

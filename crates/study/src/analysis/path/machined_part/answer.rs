@@ -10,12 +10,16 @@ use armill_core::units::{to_mm, to_um};
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use super::displacement::displacement_at;
 use super::features::{SurfaceFeatureAnswer, features};
-use super::run::{MachinedPart, WorstPlace, displacement_at};
+use super::roughness::ToothMarks;
+use super::run::{MachinedPart, WorstPlace};
 use super::scan_answer::ScanAnswer;
 use super::setting::{MachinedSetting, NominalPart};
+use super::thickness::{WallThicknessAnswer, thicknesses};
 use crate::analysis::path::PathAnalysis;
 use crate::analysis::path::run::PathResult;
+use crate::analysis::vibration::SeriesVibration;
 use crate::analysis::words::motion_in_words;
 use crate::number::without_rounding;
 
@@ -64,6 +68,12 @@ pub struct MachinedPartAnswer {
     pub worst_places: Vec<WorstPlaceAnswer>,
     /// The features of the path, on the surface that comes out.
     pub features: Vec<SurfaceFeatureAnswer>,
+    /// Thickness of the walls that the study names.
+    pub walls: Vec<WallThicknessAnswer>,
+    /// Largest theoretical height of the marks of the teeth along the feed, of faces along the tool; none without a cut.
+    pub feed_marks_um: Option<f64>,
+    /// Largest vibration of the tool across its axis under its teeth, from its mean position: it adds at most twice this to the height of the roughness. None without `[vibration]`.
+    pub vibration_um: Option<f64>,
     /// The measured part; none if the study names no scan.
     pub scan: Option<ScanAnswer>,
     /// What was assumed.
@@ -98,12 +108,19 @@ const EXPLAINED: f64 = 0.5;
 
 impl MachinedPartAnswer {
     /// That of a path; none if the study does not ask for it.
-    pub fn of(robot: &Robot, analysis: &PathAnalysis, found: &PathResult) -> Option<MachinedPartAnswer> {
+    pub fn of(
+        robot: &Robot,
+        analysis: &PathAnalysis,
+        found: &PathResult,
+        vibration: Option<&SeriesVibration>,
+    ) -> Option<MachinedPartAnswer> {
         let (machined, part) = (
             analysis.machined_part.as_deref()?,
             found.machined_part.as_deref()?,
         );
         let points = &part.surface.points;
+        let marks = ToothMarks::of(part, found, vibration);
+        let roughness = marks.roughness(points);
         let tolerance = analysis.setting.tolerance;
         let area: f64 = points.iter().map(|point| point.area).sum();
         let by_area = |of: &dyn Fn(&SurfaceDeviation) -> f64| {
@@ -154,8 +171,11 @@ impl MachinedPartAnswer {
             worst_places: (part.worst.iter())
                 .map(|worst| worst_place(robot, analysis, part, worst))
                 .collect(),
-            features: features(robot, analysis, part),
-            scan: ScanAnswer::of(analysis, machined, part),
+            features: features(robot, analysis, part, &marks),
+            walls: thicknesses(analysis, machined, part, &part.uncertainty(robot, analysis)),
+            feed_marks_um: roughness.feed_marks.map(to_um),
+            vibration_um: roughness.vibration.map(to_um),
+            scan: ScanAnswer::of(robot, analysis, part),
             notes: notes(machined),
         })
     }

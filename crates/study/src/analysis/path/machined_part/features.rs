@@ -19,6 +19,7 @@ use armill_core::units::{to_deg, to_mm, to_um};
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use super::roughness::ToothMarks;
 use super::run::MachinedPart;
 use super::setting::{MachinedSetting, NominalPart};
 use crate::analysis::path::PathAnalysis;
@@ -59,6 +60,10 @@ pub struct SurfaceFeatureAnswer {
     pub position_um: Option<f64>,
     /// Displacement of the axis in the middle of the feature, frame of the program.
     pub axis_shift_um: Option<[f64; 3]>,
+    /// Largest theoretical height of the marks of the teeth along the feed, of faces along the tool; none without a cut.
+    pub feed_marks_um: Option<f64>,
+    /// Largest vibration of the tool across its axis under the teeth that made it, from its mean position: it adds at most twice this to the height of the roughness. None without `[vibration]`.
+    pub vibration_um: Option<f64>,
     /// Why there is no result.
     pub missing: Option<String>,
 }
@@ -72,7 +77,12 @@ const STRAIGHT: f64 = 0.9995;
 const OF_BOTH: f64 = 0.2;
 
 /// Every requested feature of a path.
-pub fn features(robot: &Robot, analysis: &PathAnalysis, part: &MachinedPart) -> Vec<SurfaceFeatureAnswer> {
+pub fn features(
+    robot: &Robot,
+    analysis: &PathAnalysis,
+    part: &MachinedPart,
+    marks: &ToothMarks<'_>,
+) -> Vec<SurfaceFeatureAnswer> {
     let Some(machined) = analysis.machined_part.as_deref() else {
         return Vec::new();
     };
@@ -81,6 +91,9 @@ pub fn features(robot: &Robot, analysis: &PathAnalysis, part: &MachinedPart) -> 
         let points = points_of(machined, part, feature);
         let with_common = |mut answer: SurfaceFeatureAnswer, points: &[SurfaceDeviation]| {
             add_common(&mut answer, points, &part.uncertainty(robot, analysis));
+            let roughness = marks.roughness(points);
+            answer.feed_marks_um = roughness.feed_marks.map(to_um);
+            answer.vibration_um = roughness.vibration.map(to_um);
             answer
         };
         match feature.kind {
@@ -147,7 +160,7 @@ fn add_common(
 }
 
 /// The walls along a line: of a slot the left and the right one, seen along the feed.
-fn walls(
+pub(super) fn walls(
     feature: &FeatureTable,
     part: &MachinedPart,
     points: &[SurfaceDeviation],

@@ -2,11 +2,13 @@
 
 use armill_core::units::{to_mm, to_um};
 use armill_formats::surface::{SurfaceColumn, SurfaceFormat, SurfaceTable};
+use armill_formats::table::csv;
 use armill_report::{ColourScale, PartView};
 
 use super::mesh::PartMesh;
 use super::run::MachinedPart;
 use super::scan::ScanComparison;
+use crate::analysis::path::to_measure::{NominalPath, measured};
 use crate::error::StudyError;
 
 /// Endings of the files, after the name of the path.
@@ -15,6 +17,9 @@ pub const EXTENSIONS: [(&str, SurfaceFormat); 3] = [
     ("part.vtp", SurfaceFormat::Vtp),
     ("part.glb", SurfaceFormat::Glb),
 ];
+
+/// That of the table of measured points, if there is a scan.
+pub const SCAN_EXTENSION: &str = "scan-points.csv";
 
 /// What has no value.
 const NO_VALUE: [u8; 3] = [205, 205, 205];
@@ -58,19 +63,25 @@ pub fn table(title: &str, mesh: &PartMesh, scan: Option<&ScanComparison>) -> Sur
     }
 }
 
-/// Passes each file to `save`, its ending and bytes.
+/// Passes each file to `save`, its ending and bytes; `path`: with the nominal points.
 ///
 /// # Errors
 /// That of `save`; a surface that cannot be written, which would be a fault of armill.
 pub fn files(
     title: &str,
     part: &MachinedPart,
+    path: &NominalPath<'_>,
     save: impl Fn(&str, &[u8]) -> Result<(), StudyError>,
 ) -> Result<(), StudyError> {
-    let table = table(title, &part.mesh, part.scan.as_ref());
+    let scan = part.scan.as_ref().map(|scan| &scan.comparison);
+    let table = table(title, &part.mesh, scan);
     EXTENSIONS.iter().try_for_each(|(extension, format)| {
         let bytes = format.write(&table);
         let bytes = bytes.map_err(|error| StudyError::value(format!("{title}: {error}"), "report this"))?;
         save(extension, &bytes)
-    })
+    })?;
+    match &part.scan {
+        Some(scan) => save(SCAN_EXTENSION, &csv::write(&measured(title, path, &scan.tips)?)),
+        None => Ok(()),
+    }
 }

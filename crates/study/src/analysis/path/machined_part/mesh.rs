@@ -1,6 +1,6 @@
 //! The nominal surface of a part as triangles, with the deviation at each vertex: for pictures, files and the live page.
 
-use armill_core::machined::PartComparison;
+use armill_core::machined::{PartComparison, PointDeviation, TipDeviation, is_known};
 use armill_core::nalgebra::{Point3, Vector3};
 use armill_core::removal::{DexelPart, EndOrigin, RemovalError, SurfacePoint};
 use rayon::prelude::*;
@@ -18,6 +18,8 @@ pub struct PartMesh {
     pub deviations: Vec<f64>,
     /// Standard uncertainty of each, m; not a number where it is not known.
     pub uncertainties: Vec<f64>,
+    /// The point of the path whose move made the surface of the part at each vertex; none where no move did.
+    pub made_by: Vec<Option<usize>>,
 }
 
 /// Triangles at most: fluid in viewers.
@@ -29,8 +31,8 @@ pub(super) struct ComparedSurface<'a, V> {
     pub nominal: &'a DexelPart,
     /// The comparison of the part with it.
     pub comparison: PartComparison<'a>,
-    /// Whether the deviation of the tool is known at each point of the path.
-    pub is_known: &'a [bool],
+    /// The deviation of the tool at each point of the path.
+    pub deviations: &'a [Option<TipDeviation>],
     /// Variance of the deviation along a normal of what a move makes, m^2.
     pub variance: V,
 }
@@ -45,23 +47,28 @@ where
     /// A part that is too large for a mesh.
     pub(super) fn triangles(&self, most_triangles: usize) -> Result<PartMesh, RemovalError> {
         let stride = self.nominal.mesh_stride(most_triangles)?;
-        let (comparison, is_known) = (&self.comparison, self.is_known);
+        let comparison = &self.comparison;
         let normal = |point: &SurfacePoint| comparison.nominal_normal(point);
         let mesh = self.nominal.surface_mesh(stride, normal)?;
-        let at = |index: usize| is_known.get(index).is_none_or(|known| *known);
         let deviation = |point: &SurfacePoint| {
-            let index = point.origin.move_index();
-            let known = index.is_none_or(|index| at(index) && at(index.saturating_sub(1)));
-            let deviation = known.then(|| comparison.deviation_at(point)).flatten();
-            deviation.unwrap_or(f64::NAN)
+            let found = comparison.deviation_at(point)?;
+            is_known(self.deviations, found.made_by).then_some(found)
         };
-        let of_points: Vec<f64> = mesh.points.par_iter().map(deviation).collect();
-        let of_variance = |(point, deviation): (&SurfacePoint, &f64)| {
-            let normal = (!deviation.is_nan()).then(|| normal(point)).flatten();
-            let found = normal.and_then(|normal| (self.variance)(point.origin, &normal));
-            found.map_or(f64::NAN, f64::sqrt)
+        let found: Vec<Option<PointDeviation>> = mesh.points.par_iter().map(deviation).collect();
+        let of_points: Vec<f64> = (found.iter())
+            .map(|found| found.map_or(f64::NAN, |found| found.deviation))
+            .collect();
+        let of_u = |(point, found): (&SurfacePoint, &Option<PointDeviation>)| {
+            let made_by = found.as_ref()?.made_by;
+            (self.variance)(made_by, &*normal(point)?).map(f64::sqrt)
         };
-        let of_u: Vec<f64> = mesh.points.iter().zip(&of_points).map(of_variance).collect();
+        let of_u: Vec<f64> = (mesh.points.iter().zip(&found))
+            .map(|of| of_u(of).unwrap_or(f64::NAN))
+            .collect();
+        let made_by = |vertex: usize| {
+            let mut points = mesh.points_of(vertex).iter();
+            points.find_map(|point| found.get(*point as usize)?.as_ref()?.made_by.move_index())
+        };
         let values = |of_points: &[f64]| {
             let values = mesh.vertex_values(of_points).into_iter();
             values.map(|value| value.unwrap_or(f64::NAN)).collect()
@@ -69,6 +76,7 @@ where
         Ok(PartMesh {
             deviations: values(&of_points),
             uncertainties: values(&of_u),
+            made_by: (0..mesh.vertices.len()).map(made_by).collect(),
             vertices: mesh.vertices,
             normals: mesh.normals,
             triangles: mesh.triangles,

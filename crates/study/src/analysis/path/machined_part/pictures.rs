@@ -26,7 +26,7 @@ pub fn pictures(given: &PathAnswer, found: &PathResult) -> Vec<Picture> {
         svg: predicted(&part.mesh, given, answer).to_svg(),
     }];
     if let Some(scan) = &part.scan {
-        pictures.extend(measured(&part.mesh, given, answer, scan));
+        pictures.extend(measured(&part.mesh, given, answer, &scan.comparison));
     }
     pictures
 }

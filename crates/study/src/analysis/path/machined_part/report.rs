@@ -5,9 +5,11 @@ use armill_report::html::Table;
 use super::answer::{MachinedPartAnswer, WorstPlaceAnswer};
 use super::features::SurfaceFeatureAnswer;
 use super::scan_answer::{AgreementAnswer, DeviationStatistics, ScanAnswer};
+use super::scan_contributions::ScanContributionAnswer;
+use super::thickness::WallThicknessAnswer;
 use crate::analysis::cells::{COUNT, NONE, columns, percent, um, without_empty_columns};
 use crate::analysis::path::answer::PathAnswer;
-use crate::analysis::words::micrometres;
+use crate::analysis::words::{micrometres, motion_in_words};
 use crate::uncertainty_words::{deviation_in_words, u_in_words};
 
 /// The surface of the part, as a further sentence of a path.
@@ -115,12 +117,23 @@ pub fn tables(paths: &[PathAnswer]) -> Vec<Table> {
         .chain(
             parts
                 .iter()
+                .filter(|(_, part)| !part.walls.is_empty())
+                .map(|(path, part)| walls(&path.name, &part.walls)),
+        )
+        .chain(
+            parts
+                .iter()
                 .filter_map(|(path, part)| Some(scan(&path.name, part.scan.as_ref()?))),
         )
         .chain(
             parts
                 .iter()
                 .filter_map(|(path, part)| Some(agreement(&path.name, part.scan.as_ref()?))),
+        )
+        .chain(
+            parts
+                .iter()
+                .filter_map(|(path, part)| Some(contributions(&path.name, part.scan.as_ref()?))),
         )
         .chain(places.map(|(path, part)| worst_places(&path.name, &part.worst_places)))
         .collect()
@@ -143,6 +156,8 @@ fn surfaces(parts: &[(&PathAnswer, &MachinedPartAnswer)]) -> Table {
             format!("{:.1}", part.left_mm3),
             format!("{:.1}", part.gouged_mm3),
             format!("{:.0}", part.removed_mm3),
+            um(part.feed_marks_um),
+            um(part.vibration_um),
         ]
     };
     without_empty_columns(Table {
@@ -164,6 +179,8 @@ fn surfaces(parts: &[(&PathAnswer, &MachinedPartAnswer)]) -> Table {
             ("material left", "mm³"),
             ("material gouged", "mm³"),
             ("removed", "mm³"),
+            ("feed marks", "µm"),
+            ("vibration", "µm"),
         ]),
         rows: parts.iter().map(row).collect(),
     })
@@ -191,6 +208,8 @@ fn features(name: &str, features: &[SurfaceFeatureAnswer]) -> Table {
             mm(feature.circumscribed_diameter_mm),
             um(feature.cylindricity_um),
             um(feature.position_um),
+            um(feature.feed_marks_um),
+            um(feature.vibration_um),
             feature.missing.clone().unwrap_or_default(),
         ]
     };
@@ -198,7 +217,8 @@ fn features(name: &str, features: &[SurfaceFeatureAnswer]) -> Table {
         caption: format!(
             "{name}: features of the surface that comes out. Flatness, cylindricity, position and profile after ISO 1101 (minimum zones), \
              diameters after ISO 14405-1: least squares (GG) as a change from the nominal one, maximum inscribed (GX), minimum circumscribed (GN). \
-             Offset: positive where material is left."
+             Offset: positive where material is left. Feed marks: theoretical height of the marks of the teeth. Vibration: of the tool from its mean position; \
+             it adds at most twice this to the height of the roughness."
         ),
         columns: columns(&[
             ("feature", ""),
@@ -216,9 +236,48 @@ fn features(name: &str, features: &[SurfaceFeatureAnswer]) -> Table {
             ("circumscribed diameter", "mm"),
             ("cylindricity", "µm"),
             ("position", "µm"),
+            ("feed marks", "µm"),
+            ("vibration", "µm"),
             ("no result", ""),
         ]),
         rows: features.iter().map(row).collect(),
+    })
+}
+
+/// The walls of one part.
+fn walls(name: &str, walls: &[WallThicknessAnswer]) -> Table {
+    let mm = |value: Option<f64>| value.map_or_else(|| NONE.to_owned(), |value| format!("{value:.4}"));
+    let row = |wall: &WallThicknessAnswer| {
+        vec![
+            wall.name.clone(),
+            wall.between.join(", "),
+            wall.points.to_string(),
+            mm(wall.nominal_mm),
+            mm(wall.least_mm),
+            mm(wall.mean_mm),
+            mm(wall.largest_mm),
+            um(wall.change_um),
+            um(wall.u_um),
+            wall.missing.clone().unwrap_or_default(),
+        ]
+    };
+    without_empty_columns(Table {
+        caption: format!(
+            "{name}: thickness of walls, two-point sizes (ISO 14405-1, LP). Change: mean less the nominal thickness; its uncertainty is at most the sum of those of both faces."
+        ),
+        columns: columns(&[
+            ("wall", ""),
+            ("between", ""),
+            ("points", COUNT),
+            ("nominal", "mm"),
+            ("least", "mm"),
+            ("mean", "mm"),
+            ("largest", "mm"),
+            ("change", "µm"),
+            ("u of the change", "µm"),
+            ("no result", ""),
+        ]),
+        rows: walls.iter().map(row).collect(),
     })
 }
 
@@ -324,6 +383,34 @@ fn agreement(name: &str, scan: &ScanAnswer) -> Table {
             .map(|(what, of)| row(what, of))
             .chain(features)
             .collect(),
+    }
+}
+
+/// What each contributor explains of the measured deviations.
+fn contributions(name: &str, scan: &ScanAnswer) -> Table {
+    let share = |value: Option<f64>| value.map_or_else(|| NONE.to_owned(), percent);
+    let row = |of: &ScanContributionAnswer| {
+        vec![
+            motion_in_words(&of.name).unwrap_or(&of.name).to_owned(),
+            um(Some(of.largest_um)),
+            um(Some(of.rms_um)),
+            share(of.explained_alone),
+            share(of.explained_without),
+        ]
+    };
+    Table {
+        caption: format!(
+            "{name}: contributions to the predicted deviation at the measured points, after the same alignment. Alone: share of the mean square of the measured deviations \
+             that this contribution explains without the others; without: share that the others explain without it."
+        ),
+        columns: columns(&[
+            ("contribution", ""),
+            ("largest", "µm"),
+            ("root mean square", "µm"),
+            ("alone", "%"),
+            ("without", "%"),
+        ]),
+        rows: scan.contributions.iter().map(row).collect(),
     }
 }
 

@@ -8,12 +8,13 @@ use armill_core::removal::{DexelDirections, DexelPart, PartSize, RemovalError};
 use armill_core::units::{from_mm, to_mm};
 
 use super::scan;
-use super::setting::{MachinedSetting, NominalPart};
+use super::setting::{MachinedSetting, NominalPart, WallSetting};
 use super::stock;
 use super::table::{DexelsName, MachinedPartTable, NominalName};
 use super::tools;
 use crate::StudyError;
 use crate::analysis::path::PathAnalysis;
+use crate::analysis::path::feature::FeatureName;
 use crate::analysis::resolve::Resolver;
 use crate::input::memory::{GIB, MOST_BYTES};
 use crate::input::problem_log::ProblemLog;
@@ -61,6 +62,9 @@ impl Resolver<'_> {
         let scan = match &table.scan {
             Some(table) => {
                 let of_part = self.path_from_part_mesh(analysis);
+                if self.bodies_have_problems && table.frame == Some(NominalName::Part) {
+                    return Ok(None);
+                }
                 let Some(scan) = scan::resolve(log, table, self.folder, (&nominal, of_part))? else {
                     return Ok(None);
                 };
@@ -68,6 +72,7 @@ impl Resolver<'_> {
             }
             None => None,
         };
+        let walls = walls(log, table, analysis);
         let (cell, notes) = cell(table, &tools, |cell| DexelPart::size(corners, cell, directions));
         let size = match DexelPart::size(corners, cell, directions) {
             Ok(size) => size,
@@ -83,6 +88,7 @@ impl Resolver<'_> {
             size,
             nominal,
             tools,
+            walls,
             scan,
             notes,
         };
@@ -115,6 +121,9 @@ impl Resolver<'_> {
             _ => None,
         });
         let Some((mesh, part_from_body)) = mesh else {
+            if self.bodies_have_problems {
+                return None;
+            }
             let hint = "[part] mesh = \"part.stl\": the finished part";
             log.problem(
                 "machined_part.nominal",
@@ -138,6 +147,47 @@ impl Resolver<'_> {
         let is_mesh = matches!(part.shape, Shape::Mesh(_));
         is_mesh.then(|| path_from_part(analysis) * part.frame_from_body)
     }
+}
+
+/// The walls of the table, without those that have problems.
+fn walls(log: &mut ProblemLog<'_>, table: &MachinedPartTable, analysis: &PathAnalysis) -> Vec<WallSetting> {
+    let mut walls = Vec::new();
+    for (index, wall) in table.walls.iter().enumerate() {
+        let key = format!("machined_part.walls[{index}].between");
+        let names = || {
+            analysis
+                .features
+                .iter()
+                .map(|feature| format!("`{}`", feature.name))
+        };
+        let unknown = wall.between.iter().find(|name| {
+            !analysis.features.iter().any(|feature| {
+                feature.name == **name && matches!(feature.kind, FeatureName::Line | FeatureName::Plane)
+            })
+        });
+        if let Some(name) = unknown {
+            let message = format!("`{name}` is not a line or plane of `program.feature`");
+            let hint = match analysis.features.is_empty() {
+                true => "program = { .., feature = [{ name = \"left side\", kind = \"line\", lines = [40, 42] }] }".to_owned(),
+                false => format!("its features are {}", names().collect::<Vec<_>>().join(", ")),
+            };
+            log.problem(&key, message, &hint);
+            continue;
+        }
+        if wall.between[0] == wall.between[1] {
+            log.problem(
+                &key,
+                "both faces are the same feature",
+                "two features, one for each face",
+            );
+            continue;
+        }
+        walls.push(WallSetting {
+            name: wall.name.clone(),
+            between: wall.between.clone(),
+        });
+    }
+    walls
 }
 
 fn path_from_part(analysis: &PathAnalysis) -> Isometry {

@@ -1,22 +1,25 @@
 //! The part that comes out of a path: cut as programmed and with the deviations of the arm, and compared.
 
+use armill_core::form::FormError;
 use armill_core::machined::{
     CutBy, FollowedPath, MachiningPath, MadePart, MaterialDifference, PartComparison, SearchReach, Stage,
-    SurfaceComparison, SurfaceDeviation, TipDeviation, material_difference, worst_places,
+    SurfaceComparison, SurfaceDeviation, TipDeviation, is_known, material_difference, worst_places,
 };
 use armill_core::map::AlongPath;
 use armill_core::motion::Motion;
-use armill_core::nalgebra::{Point3, Vector3};
+use armill_core::nalgebra::Vector3;
 use armill_core::path::{Shape, Track};
 use armill_core::removal::{DexelPart, EndOrigin, MoveRemoval, RemovalError, StockSolid};
 use armill_core::robot::Robot;
 use armill_core::source::Deviation;
-use armill_core::spatial::Twist;
 
 use super::mesh::{ComparedSurface, MOST_TRIANGLES, PartMesh};
 use super::scan::{self, ScanComparison};
-use super::setting::{MachinedSetting, NominalPart};
+use super::scan_contributions::{ScanContributions, contributions};
+use super::scan_tips::tips;
+use super::setting::{MachinedSetting, NominalPart, ScanSetting};
 use crate::analysis::path::PathAnalysis;
+use crate::analysis::path::to_measure::MeasuredTip;
 use crate::analysis::runner::Runner;
 use crate::error::StudyError;
 
@@ -44,11 +47,22 @@ pub struct MachinedPart {
     /// The worst places, worst first.
     pub worst: Vec<WorstPlace>,
     /// The measured part, if the study names a scan.
-    pub scan: Option<ScanComparison>,
+    pub scan: Option<MeasuredPart>,
     /// The nominal surface as triangles, with its deviations.
     pub mesh: PartMesh,
     /// The path that the part was cut along: closed if it is a circle.
     pub track: Track,
+}
+
+/// A measured part, compared with the prediction.
+#[derive(Clone, Debug)]
+pub struct MeasuredPart {
+    /// Measured and predicted deviations.
+    pub comparison: ScanComparison,
+    /// What joints, springs and motion contribute to the prediction.
+    pub contributions: ScanContributions,
+    /// Where the tool was by the measured points.
+    pub tips: Vec<MeasuredTip>,
 }
 
 /// Where what must not touch material does: points of the path.
@@ -152,7 +166,8 @@ impl Runner<'_> {
         };
         part.mesh = part.triangles(self.robot, analysis, machined).map_err(refused)?;
         if let Some(scan) = &machined.scan {
-            let found = scan::compared(scan, &machined.nominal, &part.mesh).map_err(|error| {
+            let found = part.measured(scan, machined, |index| followed.deviation_at(index % points));
+            let found = found.map_err(|error| {
                 let message = format!("{}: {error} ({})", analysis.shown(), scan.file);
                 StudyError::value(message, "check the frame, the unit and `farthest_mm` of the scan")
             });
@@ -244,6 +259,23 @@ impl MachinedPart {
         comparison(machined, [&self.part, &self.nominal], [displaced, programmed])
     }
 
+    /// The measured part; `at`: the deviation of the tool at a point of the path with its shares.
+    fn measured(
+        &self,
+        scan: &ScanSetting,
+        machined: &MachinedSetting,
+        at: impl Fn(usize) -> Option<Deviation> + Sync,
+    ) -> Result<MeasuredPart, FormError> {
+        let nominal = scan::nominal_surface(&machined.nominal, &self.mesh)?;
+        let comparison = scan::compared(scan, &nominal, &self.mesh)?;
+        let of_part = (&self.mesh, &self.track);
+        Ok(MeasuredPart {
+            contributions: contributions((scan, &nominal), &comparison, of_part, &at)?,
+            tips: tips(&comparison, of_part, &at),
+            comparison,
+        })
+    }
+
     /// The nominal surface as triangles.
     fn triangles(
         &self,
@@ -251,11 +283,10 @@ impl MachinedPart {
         analysis: &PathAnalysis,
         machined: &MachinedSetting,
     ) -> Result<PartMesh, RemovalError> {
-        let is_known: Vec<bool> = self.deviations.iter().map(Option::is_some).collect();
         let compared = ComparedSurface {
             nominal: &self.nominal,
             comparison: self.comparison(machined),
-            is_known: &is_known,
+            deviations: &self.deviations,
             variance: self.variance(robot, analysis),
         };
         compared.triangles(MOST_TRIANGLES)
@@ -301,14 +332,10 @@ struct CutPart {
 
 /// The surface without what a tool made whose deviation is not known, and the area of that, m^2.
 fn known(surface: SurfaceComparison, deviations: &[Option<TipDeviation>]) -> (SurfaceComparison, f64) {
-    let is_known = |point: &SurfaceDeviation| {
-        let at = |index: usize| deviations.get(index).is_none_or(Option::is_some);
-        point
-            .made_by
-            .move_index()
-            .is_none_or(|index| at(index) && at(index.saturating_sub(1)))
-    };
-    let (known, unknown): (Vec<_>, Vec<_>) = surface.points.into_iter().partition(is_known);
+    let (known, unknown): (Vec<_>, Vec<_>) = surface
+        .points
+        .into_iter()
+        .partition(|point| is_known(deviations, point.made_by));
     let area = unknown
         .iter()
         .map(|point| point.area)
@@ -334,11 +361,4 @@ fn contacts(stages: &[Stage], removals: &[MoveRemoval]) -> Contacts {
         }
     }
     found
-}
-
-/// Displacement of the material of the tool at a point of the surface (path axes) under this twist of the tool (base), m.
-pub fn displacement_at(track: &Track, index: usize, point: &Point3<f64>, twist: &Twist) -> Vector3<f64> {
-    let path_from_base = track.placing.base_from_path.rotation.inverse();
-    let from_tip = point - track.path.points[index].at;
-    path_from_base * twist.linear + (path_from_base * twist.angular).cross(&from_tip)
 }

@@ -39,6 +39,8 @@ pub struct ScanComparison {
     pub measured: Vec<f64>,
     /// Predicted deviations after the same alignment, m.
     pub predicted: Vec<f64>,
+    /// Predicted deviations before alignment, m.
+    pub unaligned: Vec<f64>,
     /// Where each point is on the triangles of the part: vertices and their weights.
     pub places: Vec<MeshPlace>,
     /// The motion of the measured points by the alignment.
@@ -146,27 +148,32 @@ fn datum_points(table: &DatumsTable, path_from_scan: &Isometry) -> DatumPoints {
     }
 }
 
+/// The nominal surface: that of the mesh of `[part]`, or what the program leaves.
+///
+/// # Errors
+/// A surface without area.
+pub(super) fn nominal_surface(nominal: &NominalPart, mesh: &PartMesh) -> Result<NominalSurface, FormError> {
+    let of_mesh = |triangle: &[u32; 3]| triangle.map(|vertex| mesh.vertices[vertex as usize]);
+    let triangles = match nominal {
+        NominalPart::Program => mesh.triangles.iter().map(of_mesh).collect(),
+        NominalPart::Mesh(triangles) => triangles.iter().map(|triangle| triangle.0).collect(),
+    };
+    NominalSurface::new(triangles).ok_or(FormError::Undetermined)
+}
+
 /// Compares measured points with the prediction of `mesh`.
 ///
 /// # Errors
 /// Points that do not determine the alignment, or none near the nominal part.
 pub(super) fn compared(
     scan: &ScanSetting,
-    nominal: &NominalPart,
+    nominal: &NominalSurface,
     mesh: &PartMesh,
 ) -> Result<ScanComparison, FormError> {
-    let of_mesh = |triangle: &[u32; 3]| triangle.map(|vertex| mesh.vertices[vertex as usize]);
     let predicted_surface = PredictedSurface::new(mesh).ok_or(FormError::Undetermined)?;
-    let nominal = match nominal {
-        NominalPart::Program => NominalSurface::new(mesh.triangles.iter().map(of_mesh).collect()),
-        NominalPart::Mesh(triangles) => {
-            NominalSurface::new(triangles.iter().map(|triangle| triangle.0).collect())
-        }
-    };
-    let nominal = nominal.ok_or(FormError::Undetermined)?;
-    let motion = motion(scan, &scan.points, &nominal)?;
-    let feet = deviations(&scan.points, &nominal, &motion, &scan.options);
-    let predicted_at = |foot: &Option<armill_core::form::SurfaceDeviation>| {
+    let motion = motion(scan, &scan.points, nominal)?;
+    let feet = deviations(&scan.points, nominal, &motion, &scan.options);
+    let predicted_at = |foot: &Option<armill_core::form::NormalDeviation>| {
         foot.as_ref()
             .map(|foot| predicted_surface.at(&foot.at, &foot.normal))
     };
@@ -181,6 +188,7 @@ pub(super) fn compared(
         predicted_motion: Isometry::identity(),
         too_far: 0,
         not_predicted: 0,
+        unaligned: Vec::new(),
     };
     for (foot, predicted) in feet.iter().zip(predicted) {
         match (foot, predicted.flatten()) {
@@ -191,14 +199,17 @@ pub(super) fn compared(
                 found.points.push(foot.at);
                 found.normals.push(foot.normal);
                 found.measured.push(foot.deviation);
-                found.predicted.push(predicted);
+                found.unaligned.push(predicted);
             }
         }
     }
     if found.points.is_empty() {
         return Err(FormError::TooFew { needed: 1, given: 0 });
     }
-    found.align_predicted(scan, &nominal)?;
+    let places = (&found.points[..], &found.normals[..]);
+    let (predicted, predicted_motion) = aligned(scan, nominal, places, &found.unaligned)?;
+    found.predicted = predicted;
+    found.predicted_motion = predicted_motion;
     Ok(found)
 }
 
@@ -216,25 +227,36 @@ impl ScanComparison {
         let mean = |[sum, weight]: [f64; 2]| if weight > 0.0 { sum / weight } else { f64::NAN };
         sums.into_iter().map(mean).collect()
     }
+}
 
-    /// Takes from the prediction what the alignment takes from the measured points: the predicted points are aligned in the same way.
-    fn align_predicted(&mut self, scan: &ScanSetting, nominal: &NominalSurface) -> Result<(), FormError> {
-        let places = self.points.iter().zip(&self.normals).zip(&self.predicted);
-        let moved: Vec<Point3<f64>> = places.map(|((at, normal), by)| at + normal * *by).collect();
-        let centres = ScanSetting {
-            options: AlignmentOptions {
-                probe_radius: 0.0,
-                ..scan.options
-            },
-            ..scan.without_points()
-        };
-        self.predicted_motion = motion(&centres, &moved, nominal)?;
-        let places = self.points.iter().zip(&self.normals).zip(&mut self.predicted);
-        for (((at, normal), predicted), point) in places.zip(&moved) {
-            *predicted = (self.predicted_motion * point - at).dot(normal);
-        }
-        Ok(())
-    }
+/// Deviations along the normals of points on the nominal surface after the alignment of the scan, as if the part were measured there: what the alignment takes from measured points is taken
+/// from them; and the motion by it.
+///
+/// # Errors
+/// Points that do not determine the alignment.
+pub(super) fn aligned(
+    scan: &ScanSetting,
+    nominal: &NominalSurface,
+    (points, normals): (&[Point3<f64>], &[Vector3<f64>]),
+    deviations: &[f64],
+) -> Result<(Vec<f64>, Isometry), FormError> {
+    let places = || points.iter().zip(normals);
+    let moved: Vec<Point3<f64>> = places()
+        .zip(deviations)
+        .map(|((at, normal), by)| at + normal * *by)
+        .collect();
+    let surface_points = ScanSetting {
+        options: AlignmentOptions {
+            probe_radius: 0.0,
+            ..scan.options
+        },
+        ..scan.without_points()
+    };
+    let motion = motion(&surface_points, &moved, nominal)?;
+    let along = places()
+        .zip(&moved)
+        .map(|((at, normal), point)| (motion * point - at).dot(normal));
+    Ok((along.collect(), motion))
 }
 
 impl ScanSetting {

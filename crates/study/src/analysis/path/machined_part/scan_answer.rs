@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use armill_core::form::wavelengths::{DeviationPairs, PredictionAgreement, agreement_by_wavelength};
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::{Point3, Vector3};
+use armill_core::robot::Robot;
 use armill_core::units::{to_deg, to_mm, to_um};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -12,6 +13,7 @@ use serde::Serialize;
 use super::features::points_of;
 use super::run::MachinedPart;
 use super::scan::ScanComparison;
+use super::scan_contributions::ScanContributionAnswer;
 use super::setting::{Align, MachinedSetting};
 use crate::analysis::path::PathAnalysis;
 use crate::number::without_rounding;
@@ -52,6 +54,8 @@ pub struct ScanAnswer {
     pub middle: AgreementAnswer,
     /// Below the second.
     pub short: AgreementAnswer,
+    /// What joints, springs and motion contribute to the prediction, after the same alignment.
+    pub contributions: Vec<ScanContributionAnswer>,
     /// Each feature of the path with points.
     pub features: Vec<ScanFeatureAnswer>,
     /// What was assumed.
@@ -118,12 +122,11 @@ pub struct ScanFeatureAnswer {
 
 impl ScanAnswer {
     /// That of a part; none if the study names no scan.
-    pub fn of(
-        analysis: &PathAnalysis,
-        machined: &MachinedSetting,
-        part: &MachinedPart,
-    ) -> Option<ScanAnswer> {
-        let (scan, found) = (machined.scan.as_ref()?, part.scan.as_ref()?);
+    pub fn of(robot: &Robot, analysis: &PathAnalysis, part: &MachinedPart) -> Option<ScanAnswer> {
+        let (machined, measured) = (analysis.machined_part.as_deref()?, part.scan.as_ref()?);
+        let (scan, found) = (machined.scan.as_ref()?, &measured.comparison);
+        let names = analysis.setting.contributor_names(robot);
+        let contributions = measured.contributions.answer(&names, found);
         let tolerance = analysis.setting.tolerance;
         let pairs = DeviationPairs {
             points: &found.points,
@@ -168,6 +171,7 @@ impl ScanAnswer {
             long,
             middle,
             short,
+            contributions,
             features: features(analysis, machined, part, found),
             notes,
         })

@@ -21,6 +21,8 @@ pub struct MachinedSetting {
     pub nominal: NominalPart,
     /// What cuts.
     pub tools: Vec<PathTool>,
+    /// Walls whose thickness is evaluated.
+    pub walls: Vec<WallSetting>,
     /// The measured part.
     pub scan: Option<ScanSetting>,
     /// What a user should know.
@@ -60,6 +62,15 @@ impl PartStock {
             PartStock::Mesh(triangles) => StockSolid::Mesh(triangles),
         }
     }
+}
+
+/// A wall between the faces of two features.
+#[derive(Clone, Debug)]
+pub struct WallSetting {
+    /// Its name.
+    pub name: String,
+    /// Names of the features.
+    pub between: [String; 2],
 }
 
 /// Measured points, and how they are compared.

@@ -21,8 +21,21 @@ pub struct MachinedPartTable {
     pub stock: Option<PartStockTable>,
     /// The tool; that of the cut or drill if left out. Sizes in the program take precedence.
     pub tool: Option<PartToolTable>,
+    /// Walls whose thickness is evaluated.
+    #[serde(default)]
+    pub walls: Vec<WallTable>,
     /// Measured points of the real part, to compare with the prediction.
     pub scan: Option<ScanTable>,
+}
+
+/// A wall between two features of the program.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WallTable {
+    /// Its name.
+    pub name: String,
+    /// Names of two features of the program: lines or planes that face away from each other.
+    pub between: [String; 2],
 }
 
 /// Measured points of the real part.
