@@ -15,5 +15,7 @@ mod points;
 mod program;
 mod volumes;
 
+/// A cubic millimetre in m^3.
+const MM3: f64 = 1e-9;
 /// A millimetre in m.
 const MM: f64 = 1e-3;

@@ -1,4 +1,4 @@
-//! A tool on a move, and whether it reaches a point: by bisection of time, with the largest speed of a point of the tool as a bound.
+//! A tool on a move, and whether it reaches a point: on a line by golden sections of time, else by bisection with the largest speed of a point of the tool as a bound.
 
 use armill_core::nalgebra::{Point3, Rotation3, Unit, Vector3};
 use armill_core::path::{Course, Move};
@@ -14,7 +14,7 @@ pub struct Body {
 impl Body {
     /// Distance of a point from the body, negative inside; it is never greater than the true one, and has its sign. `rho` is the distance from the axis, `h` the
     /// height above the tip.
-    fn distance(&self, rho: f64, h: f64) -> f64 {
+    pub fn distance(&self, rho: f64, h: f64) -> f64 {
         let (out, down) = (rho - (self.radius - self.corner), self.corner - h);
         let sides = (rho - self.radius).max(-h).max(h - self.length);
         match out > 0.0 && down > 0.0 {
@@ -34,6 +34,8 @@ pub struct MovingTool {
     first_axis: Unit<Vector3<f64>>,
     /// Turn of the tool axis: direction and angle, rad.
     turn: Option<(Unit<Vector3<f64>>, f64)>,
+    /// Length of the way of the tip, m.
+    way: f64,
     /// Speed of the fastest point of the tool, m per move.
     speed: f64,
     /// Line of the program.
@@ -55,6 +57,7 @@ impl MovingTool {
             course: to.course,
             first_axis: axes[0],
             turn,
+            way: 0.0,
             speed: 0.0,
             line: to.line,
             is_rapid: !to.pace.cuts(),
@@ -69,6 +72,7 @@ impl MovingTool {
                 radius * arc.sweep + rest.norm()
             }
         };
+        moving.way = way;
         moving.speed = way + turn.map_or(0.0, |(_, angle)| angle) * body.length.hypot(body.radius);
         moving
     }
@@ -81,8 +85,28 @@ impl MovingTool {
         arc.centre + Rotation3::from_axis_angle(&arc.axis, arc.sweep * part) * (self.start - arc.centre)
     }
 
+    /// Whether the tip moves.
+    pub fn has_length(&self) -> bool {
+        self.way > 0.0
+    }
+
+    /// Length of the way of the tip, m.
+    pub fn way(&self) -> f64 {
+        self.way
+    }
+
+    /// Whether its tool is rounded.
+    pub fn has_ball(&self) -> bool {
+        self.body.corner > 0.0
+    }
+
+    /// Its tool.
+    pub fn body(&self) -> Body {
+        self.body
+    }
+
     /// Tip and axis at a part of the move.
-    fn pose(&self, part: f64) -> (Point3<f64>, Vector3<f64>) {
+    pub fn pose(&self, part: f64) -> (Point3<f64>, Vector3<f64>) {
         let tip = match self.course {
             Course::Line => self.start + (self.end - self.start) * part,
             Course::Arc(_) => self.on_arc(part) + (self.end - self.on_arc(1.0)) * part,
@@ -105,8 +129,11 @@ impl MovingTool {
     }
 
     /// Whether the tool reaches a point between these parts of the move.
-    pub fn reaches(&self, point: &Point3<f64>, [from, to]: [f64; 2]) -> bool {
-        let mut open = vec![[from, to]];
+    pub fn reaches(&self, point: &Point3<f64>, parts: [f64; 2]) -> bool {
+        if self.is_straight() {
+            return self.least_on_line(point, parts, 0.0) <= 0.0;
+        }
+        let mut open = vec![parts];
         while let Some([from, to]) = open.pop() {
             let middle = 0.5 * (from + to);
             let distance = self.distance(point, middle);
@@ -123,6 +150,9 @@ impl MovingTool {
 
     /// The least distance of a point from the tool on the move if it is less than `least`, m: to a nanometre or two.
     pub fn least_distance(&self, point: &Point3<f64>, mut least: f64) -> f64 {
+        if self.is_straight() {
+            return least.min(self.least_on_line(point, [0.0, 1.0], f64::NEG_INFINITY));
+        }
         let mut open = vec![[0.0, 1.0]];
         while let Some([from, to]) = open.pop() {
             let middle = 0.5 * (from + to);
@@ -131,6 +161,37 @@ impl MovingTool {
             let nearer = self.speed * 0.5 * (to - from);
             if distance - nearer < least && nearer > RESOLUTION {
                 open.extend([[from, middle], [middle, to]]);
+            }
+        }
+        least
+    }
+
+    /// Whether the tool moves along a line without a turn of its axis.
+    fn is_straight(&self) -> bool {
+        matches!(self.course, Course::Line) && self.turn.is_none()
+    }
+
+    /// The least distance on a line, to the resolution; or one that is not above `enough`. The body is convex, so the distance is a convex function of time.
+    fn least_on_line(&self, point: &Point3<f64>, [mut from, mut to]: [f64; 2], enough: f64) -> f64 {
+        const GOLDEN: f64 = 0.618_033_988_749_894_9;
+        let at = |part: f64| self.distance(point, part);
+        let mut inner = [to - GOLDEN * (to - from), from + GOLDEN * (to - from)];
+        let mut values = inner.map(at);
+        let mut least = at(from).min(at(to)).min(values[0]).min(values[1]);
+        while least > enough && self.speed * (to - from) > RESOLUTION {
+            if values[0] < values[1] {
+                to = inner[1];
+                inner = [to - GOLDEN * (to - from), inner[0]];
+                values = [at(inner[0]), values[0]];
+            } else {
+                from = inner[0];
+                inner = [inner[1], from + GOLDEN * (to - from)];
+                values = [values[1], at(inner[1])];
+            }
+            least = least.min(values[0]).min(values[1]);
+            // No point of the tool comes nearer than this.
+            if enough.is_finite() && least - self.speed * (to - from) > enough {
+                break;
             }
         }
         least

@@ -5,8 +5,8 @@ use std::path::Path;
 use armill_core::frame::Isometry;
 use armill_core::load::EndMillBody;
 use armill_core::machined::{MachiningPath, PathTool, Stage};
-use armill_core::nalgebra::{Point3, Vector3};
-use armill_core::path::{Operation, PathBuilder, Placing, Sampling, Spin, Step, Track};
+use armill_core::nalgebra::{Point3, Rotation3, Vector3};
+use armill_core::path::{Course, Operation, PathBuilder, Placing, Sampling, Spin, Step, Track};
 use armill_core::removal::{DexelDirections, DexelPart, MoveRemoval, StockSolid, ToolSolid};
 use armill_core::watch::Watch;
 use armill_formats::toolpath::apt::{self, AptReadOptions};
@@ -26,8 +26,10 @@ pub struct Program {
     pub tool_mm: [f64; 3],
     /// Two corners of the stock, mm.
     pub stock_mm: [[f64; 3]; 2],
-    /// Side of a cell, mm.
+    /// Side of a cell, mm. No plane of the program may go through dexels: they would be decided by rounding.
     pub cell_mm: f64,
+    /// Angle about y from the frame of the program to the one that is cut in, deg.
+    pub turned_deg: f64,
 }
 
 /// To the end of the program.
@@ -40,14 +42,16 @@ pub const CARVING: Program = Program {
     tool_mm: [10.0, 5.0, 80.0],
     stock_mm: [[-50.0, -50.0, -50.0], [50.0, 50.0, 0.0]],
     cell_mm: 0.5,
+    turned_deg: 0.0,
 };
-/// A plate of 350 x 150 x 10.5 mm: holes, then slots and outlines with flat end mills of 5, 6 and 8 mm.
+/// A plate of 350 x 150 x 10.5 mm: holes by a drill of 4 mm, here a flat end mill, then slots and outlines with flat end mills of 5, 6 and 8 mm.
 pub const PLATE: Program = Program {
     file: "apt/parts-2021/basemach.apt",
     moves: [0, END],
     tool_mm: [5.0, 0.0, 60.0],
     stock_mm: [[0.0, 0.0, -10.5], [350.0, 150.0, 0.0]],
-    cell_mm: 0.5,
+    cell_mm: 0.49,
+    turned_deg: 0.0,
 };
 /// A block of 95 x 150 x 120 mm, cut from above and then from another side (3+2): flat end mills of 6 and 20 mm, many arcs.
 pub const BLOCK: Program = Program {
@@ -55,7 +59,8 @@ pub const BLOCK: Program = Program {
     moves: [0, END],
     tool_mm: [6.0, 0.0, 250.0],
     stock_mm: [[0.0, 0.0, -120.0], [95.0, 150.0, 0.0]],
-    cell_mm: 1.0,
+    cell_mm: 0.97,
+    turned_deg: 0.0,
 };
 /// A support that is faced and drilled with the tool tilted by 10 deg (3+2).
 pub const SUPPORT: Program = Program {
@@ -64,6 +69,7 @@ pub const SUPPORT: Program = Program {
     tool_mm: [16.0, 0.0, 90.0],
     stock_mm: [[0.0, 0.0, -30.0], [45.0, 40.0, 5.0]],
     cell_mm: 0.25,
+    turned_deg: 0.0,
 };
 /// An impeller in five axes. The file names no tool: a ball nose of 4 mm; its stock is a block.
 pub const IMPELLER: Program = Program {
@@ -72,6 +78,7 @@ pub const IMPELLER: Program = Program {
     tool_mm: [4.0, 2.0, 25.0],
     stock_mm: [[-40.0, -40.0, -5.0], [40.0, 40.0, 35.0]],
     cell_mm: 0.5,
+    turned_deg: 0.0,
 };
 
 /// A program that was read.
@@ -99,11 +106,6 @@ pub struct CutPart {
 pub const CHORD: f64 = 1e-6;
 
 impl Program {
-    /// This program with other moves.
-    pub fn part_of(self, moves: [usize; 2]) -> Program {
-        Program { moves, ..self }
-    }
-
     /// Two corners of the stock, m.
     pub fn corners(&self) -> [Point3<f64>; 2] {
         self.stock_mm.map(|corner| Point3::from(corner) * MM)
@@ -129,6 +131,16 @@ impl Program {
             }
         };
         read.unwrap_or_else(|problems| panic!("{problems}"));
+        let turn = Rotation3::from_axis_angle(&Vector3::y_axis(), self.turned_deg.to_radians());
+        for step in &mut steps {
+            if let Step::Move(next) = step {
+                next.end = turn * next.end;
+                next.axis = next.axis.map(|axis| turn * axis);
+                if let Course::Arc(arc) = &mut next.course {
+                    (arc.centre, arc.axis) = (turn * arc.centre, turn * arc.axis);
+                }
+            }
+        }
         let mut number = 0;
         steps.retain(|step| {
             let is_move = matches!(step, Step::Move(_));
