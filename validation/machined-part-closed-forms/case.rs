@@ -141,10 +141,10 @@ impl Machining {
 
 /// The largest difference of a deviation from `delta . n` at points that are kept, mm.
 fn along_normals(machining: Option<Machining>, kept: impl Fn(&Vector3<f64>) -> bool) -> f64 {
-    let surface = machining.and_then(|machining| machining.surface()).unwrap_or_default();
-    let points = surface
-        .iter()
-        .filter(|point| kept(&(point.position.coords / MM)));
+    let surface = machining
+        .and_then(|machining| machining.surface())
+        .unwrap_or_default();
+    let points = surface.iter().filter(|point| kept(&(point.position.coords / MM)));
     worst(points.map(|point| point.deviation / MM - Vector3::from(DELTA).dot(&point.normal)))
 }
 
@@ -166,11 +166,18 @@ pub fn checks() -> Vec<Check> {
     let mut places = Vec::new();
     for pass in -5_i32..=5 {
         let y = 2.0 * f64::from(pass);
-        places.extend([To([0.0, y, 5.0], Pace::Rapid), To([0.0, y, -3.0], CUT), To([60.0, y, -3.0], CUT)]);
+        places.extend([
+            To([0.0, y, 5.0], Pace::Rapid),
+            To([0.0, y, -3.0], CUT),
+            To([60.0, y, -3.0], CUT),
+        ]);
     }
     let [_, over, up] = DELTA;
     let heights = machining([10.0, 5.0], &places).and_then(|machining| machining.heights());
-    let between = heights.unwrap_or_default().into_iter().filter(|[y, _]| y.abs() < 9.0);
+    let between = heights
+        .unwrap_or_default()
+        .into_iter()
+        .filter(|[y, _]| y.abs() < 9.0);
     let scallops = between.map(|[y, height]| {
         let from_pass = (y - over) - 2.0 * ((y - over) / 2.0).round();
         height - (-3.0 + up + 5.0 - (25.0 - from_pass * from_pass).sqrt())
@@ -184,9 +191,25 @@ pub fn checks() -> Vec<Check> {
         Check::printed(what, REFERENCE, bound, 4)
     };
     vec![
-        row("slot of a displaced flat end mill, floor and walls: displacement along the normal", in_slot, 1e-4),
-        row("groove of a displaced ball nose: displacement along the normal", in_groove, 2e-3),
-        row("hole of a displaced tool: displacement along the normal", in_hole, 2e-3),
-        row("scallops of displaced passes of a ball nose, r - sqrt(r^2 - y^2)", worst(scallops), 1e-4),
+        row(
+            "slot of a displaced flat end mill, floor and walls: displacement along the normal",
+            in_slot,
+            1e-4,
+        ),
+        row(
+            "groove of a displaced ball nose: displacement along the normal",
+            in_groove,
+            2e-3,
+        ),
+        row(
+            "hole of a displaced tool: displacement along the normal",
+            in_hole,
+            2e-3,
+        ),
+        row(
+            "scallops of displaced passes of a ball nose, r - sqrt(r^2 - y^2)",
+            worst(scallops),
+            1e-4,
+        ),
     ]
 }

@@ -10,8 +10,8 @@
 //! | `delta`, `omega` | displacement of the tip and rotation of the tool, path axes | m, rad |
 //!
 //! Between two points the deviation changes evenly. A step has the number of the point that it leads to, a rapid that of the first point after it. A rapid begins where the
-//! cut before it ended and ends where the next one begins; between several rapids the tool is displaced and rotated as at that point, from the end and the axis of each rapid. A rapid before a change of the tool
-//! has the tool before. Where the deviation is not known, the tool is where it is programmed.
+//! cut before it ended and ends where the next one begins; of several rapids, each with its own axis, the first is displaced and rotated as at the
+//! point before, so that a tool leaves its hole as it came, and the others as at that point. A rapid before a change of the tool has the tool before. Where the deviation is not known, the tool is where it is programmed.
 
 use nalgebra::{Point3, Unit, Vector3};
 
@@ -110,6 +110,7 @@ impl MachiningPath<'_> {
                     way.tool = if place < changed { before } else { tool };
                     let end = match place + 1 == moves.len() {
                         true => pose,
+                        false if place == 0 => self.rapid_pose(index.saturating_sub(1), rapid, deviations),
                         false => self.rapid_pose(index, rapid, deviations),
                     };
                     way.go(end, index as u32, true);
@@ -161,7 +162,7 @@ impl MachiningPath<'_> {
         self.displaced((point.at, placing.path_spindle(point)), index, deviations)
     }
 
-    /// The tool at the end of a rapid before this point.
+    /// The tool at the end of a rapid, displaced as at this point.
     fn rapid_pose(&self, index: usize, rapid: &Move, deviations: Option<&[Option<TipDeviation>]>) -> Pose {
         let (placing, point) = (&self.track.placing, &self.track.path.points[index]);
         let axis = rapid.axis.filter(|_| !placing.keeps_axis);

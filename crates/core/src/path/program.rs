@@ -49,9 +49,7 @@ pub struct Operation {
 impl Operation {
     /// Whether the operation after this one has another tool: number, diameter or corner.
     pub(super) fn has_other_tool(&self, next: &Operation) -> bool {
-        self.tool != next.tool
-            || self.diameter != next.diameter
-            || self.corner_radius != next.corner_radius
+        self.tool != next.tool || self.diameter != next.diameter || self.corner_radius != next.corner_radius
     }
 }
 

@@ -127,7 +127,7 @@ fn a_rapid_ends_with_its_own_axis_and_the_last_one_with_that_of_the_next_cut() {
 }
 
 #[test]
-fn rapids_between_two_cuts_are_displaced_and_rotated_as_the_second() {
+fn a_rapid_out_of_a_hole_is_displaced_as_the_hole_and_the_next_one_as_the_next_cut() {
     let track = hole_and_slot();
     let tools = [end_mill(4.0, 0.0)];
     let path = MachiningPath {
@@ -135,11 +135,26 @@ fn rapids_between_two_cuts_are_displaced_and_rotated_as_the_second() {
         tools: &tools,
         turn_tolerance: 1e-6,
     };
-    let displaced = path.stages(Some(&everywhere(&track, [0.1, 0.2, 0.3], [0.0, 1e-3, 0.0])));
-    for (of, programmed) in displaced[0].moves.iter().zip(&path.stages(None)[0].moves) {
-        let by = (of.ends[1] - programmed.ends[1]) / MM;
-        assert!((by - Vector3::new(0.1, 0.2, 0.3)).norm() < 1e-9, "{by}");
-        // The rotation about y tilts the axis towards x.
-        assert!((of.axes[1].x - 1e-3).abs() < 1e-8, "{:?}", of.axes[1]);
+    // The hole has two points.
+    let mut deviations = everywhere(&track, [0.1, 0.2, 0.3], [0.0, 1e-3, 0.0]);
+    let hole = everywhere(&track, [-0.2, 0.0, 0.0], [0.0; 3]);
+    deviations[..2].copy_from_slice(&hole[..2]);
+    let displaced = path.stages(Some(&deviations));
+    let by: Vec<Vector3<f64>> = displaced[0]
+        .moves
+        .iter()
+        .zip(&path.stages(None)[0].moves)
+        .map(|(of, programmed)| (of.ends[1] - programmed.ends[1]) / MM)
+        .collect();
+    for (number, by) in by.iter().enumerate() {
+        let expected = match number < 2 {
+            true => Vector3::new(-0.2, 0.0, 0.0),
+            false => Vector3::new(0.1, 0.2, 0.3),
+        };
+        assert!((by - expected).norm() < 1e-9, "{number}: {by}");
     }
+    assert!(displaced[0].moves[1].is_rapid);
+    // A rotation about y tilts the axis towards x.
+    let tilts: Vec<f64> = displaced[0].moves.iter().map(|of| of.axes[1].x).collect();
+    assert!(tilts[1] == 0.0 && tilts[2..].iter().all(|tilt| (tilt - 1e-3).abs() < 1e-8));
 }

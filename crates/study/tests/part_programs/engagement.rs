@@ -12,10 +12,10 @@ use armill_core::path::{EngagementKind, Pass, PassEngagement, Stock};
 use armill_core::removal::DexelDirections;
 use rayon::prelude::*;
 
-use crate::{MM, MM3};
 use crate::moving_tool::MovingTool;
 use crate::points::Numbers;
 use crate::program::{BLOCK, CARVING, PLATE, Program, Read, SUPPORT};
+use crate::{MM, MM3};
 
 /// Least height of material that points find in front of a flat tool, m.
 const LEAST: f64 = 1e-5;
@@ -32,7 +32,11 @@ fn by_height_map(read: &Read) -> (Vec<PassEngagement>, f64) {
     let mut stock = Stock::new(read.program.corners(), read.program.cell_mm * MM).unwrap();
     let mut body = 0;
     let all = (0..path.points.len()).map(|index| {
-        while read.bodies.get(body + 1).is_some_and(|(first, _)| *first <= index) {
+        while read
+            .bodies
+            .get(body + 1)
+            .is_some_and(|(first, _)| *first <= index)
+        {
             body += 1;
         }
         let point = &path.points[index];
@@ -53,7 +57,12 @@ fn by_height_map(read: &Read) -> (Vec<PassEngagement>, f64) {
 fn by_dexels(read: &Read) -> (Vec<f64>, f64) {
     let cut = read.cut(DexelDirections::Z);
     let mut volumes = vec![0.0; read.track.path.points.len()];
-    for (of, removal) in cut.stages.iter().flat_map(|stage| &stage.moves).zip(&cut.removals) {
+    for (of, removal) in cut
+        .stages
+        .iter()
+        .flat_map(|stage| &stage.moves)
+        .zip(&cut.removals)
+    {
         volumes[of.index as usize] += removal.volume;
     }
     (volumes, cut.part.volume())
@@ -73,10 +82,16 @@ fn rounding(read: &Read, index: usize, radius: f64) -> f64 {
 
 /// Volumes of all steps, and the strip ahead at some places.
 fn compare(program: Program) {
-    let Some(read) = program.read(2.0 * MM) else { return };
+    let Some(read) = program.read(2.0 * MM) else {
+        return;
+    };
     let (heights, left) = by_height_map(&read);
     let (volumes, left_of_dexels) = by_dexels(&read);
-    let radius = read.bodies.iter().map(|(_, body)| body.radius()).fold(0.0, f64::max);
+    let radius = read
+        .bodies
+        .iter()
+        .map(|(_, body)| body.radius())
+        .fold(0.0, f64::max);
     let (mut greatest, mut grazed) = (0.0_f64, 0);
     for (index, (one, other)) in heights.iter().zip(&volumes).enumerate() {
         let off = (one.volume - other).abs();
@@ -91,7 +106,10 @@ fn compare(program: Program) {
     assert!(1000 * grazed < heights.len(), "{grazed}");
     let removed: f64 = volumes.iter().sum();
     // Each of both volumes is a sum of rounded heights.
-    assert!((left - left_of_dexels).abs() < 1e-7 * (left + removed), "{left} {left_of_dexels}");
+    assert!(
+        (left - left_of_dexels).abs() < 1e-7 * (left + removed),
+        "{left} {left_of_dexels}"
+    );
     let places = places(&read, &heights);
     let of_places: Vec<Vec<Strip>> = places.par_iter().map(|place| strips(&read, place)).collect();
     let (mut off, mut depths) = ([[0.0_f64; 2]; 2], 0);
@@ -108,21 +126,31 @@ fn compare(program: Program) {
             beyond(found.width, |strip| strip.width),
             2.0 * 1.75 * program.cell_mm * MM,
         ];
-        let of_discs = strips.iter().map(|strip| of_discs(&read.moves[place.number], strip.inner));
+        let of_discs = strips
+            .iter()
+            .map(|strip| of_discs(&read.moves[place.number], strip.inner));
         let depth = [
             beyond(found.depth, |strip| strip.depth),
             2.0 * HEIGHT + of_discs.fold(0.0, f64::max),
         ];
         // A strip narrower than a cell may be missed.
         let cell = program.cell_mm * MM;
-        let is_seen = strips.iter().all(|strip| strip.width == 0.0 || strip.width > cell);
+        let is_seen = strips
+            .iter()
+            .all(|strip| strip.width == 0.0 || strip.width > cell);
         // A ball is next to the slopes of other passes: there the height depends on the place within a cell.
         let is_level = strips.iter().all(|strip| strip.is_at_top) || !read.moves[place.number].has_ball();
-        let compared = [width, depth].into_iter().take(if is_seen && is_level { 2 } else { 1 });
+        let compared = [width, depth]
+            .into_iter()
+            .take(if is_seen && is_level { 2 } else { 1 });
         depths += usize::from(is_seen && is_level);
         for (kind, [by, tolerance]) in compared.enumerate() {
             off[kind] = [off[kind][0].max(by), off[kind][1].max(tolerance)];
-            assert!(by < tolerance, "{kind} {}: {found:?} {strips:?} {by} {tolerance}", place.index);
+            assert!(
+                by < tolerance,
+                "{kind} {}: {found:?} {strips:?} {by} {tolerance}",
+                place.index
+            );
         }
     }
     let [[width, of_width], [depth, of_depth]] = off.map(|off| off.map(|off| off / MM));
@@ -187,12 +215,16 @@ struct Place {
 /// Random ends of moves whose last step is longer than the two cells in which the height map looks ahead.
 fn places(read: &Read, heights: &[PassEngagement]) -> Vec<Place> {
     let path = &read.track.path;
-    let cuts = (0..read.moves.len()).filter(|&number| !read.moves[number].is_rapid && read.moves[number].has_length());
+    let cuts = (0..read.moves.len())
+        .filter(|&number| !read.moves[number].is_rapid && read.moves[number].has_length());
     let ends: Vec<Place> = path
         .ends
         .iter()
         .zip(cuts)
-        .map(|(end, number)| Place { index: end.point, number })
+        .map(|(end, number)| Place {
+            index: end.point,
+            number,
+        })
         .filter(|Place { index, .. }| {
             let step = path.points[*index].at - path.points[index - 1].at;
             let level = step.xy().norm();
@@ -341,7 +373,8 @@ impl Ahead<'_> {
             if rho == 0.0 {
                 continue;
             }
-            let edge = |line: usize| (body.radius * (2.0 * line as f64 / LINES as f64 - 1.0)).clamp(-rho, rho);
+            let edge =
+                |line: usize| (body.radius * (2.0 * line as f64 / LINES as f64 - 1.0)).clamp(-rho, rho);
             let (right, left) = (edge(begin), edge(end));
             let arc = rho * ((right / rho).acos() - (left / rho).acos());
             if arc > longest.0 {
@@ -349,9 +382,13 @@ impl Ahead<'_> {
                     .iter()
                     .flatten()
                     .map(|[top, begins, _, inner]| (top - begins.max(self.corners[0].z), *inner, *top));
-                let (depth, inner, top) = depths.fold((0.0, rho, 0.0), |most, line| {
-                    if line.0 > most.0 { line } else { most }
-                });
+                let (depth, inner, top) =
+                    depths.fold(
+                        (0.0, rho, 0.0),
+                        |most, line| {
+                            if line.0 > most.0 { line } else { most }
+                        },
+                    );
                 let strip = Strip {
                     width: left - right,
                     depth,

@@ -255,7 +255,10 @@ mod tests {
 
     #[test]
     fn a_tool_that_turns_about_its_tip_reaches_a_sector() {
-        let (up, over) = (Vector3::z_axis(), Unit::new_normalize(Vector3::new(1.0, 0.0, -1.0)));
+        let (up, over) = (
+            Vector3::z_axis(),
+            Unit::new_normalize(Vector3::new(1.0, 0.0, -1.0)),
+        );
         let next = to([0.0; 3], Course::Line);
         let moving = MovingTool::new(BALL, Point3::origin(), [up, over], &next);
         for (point, reached) in [
@@ -271,10 +274,7 @@ mod tests {
 
     #[test]
     fn a_flat_end_mill_on_an_arc_leaves_its_middle() {
-        let body = Body {
-            corner: 0.0,
-            ..BALL
-        };
+        let body = Body { corner: 0.0, ..BALL };
         let arc = Arc {
             centre: Point3::origin(),
             axis: Vector3::z_axis(),
@@ -284,7 +284,12 @@ mod tests {
         let moving = MovingTool::new(body, Point3::new(0.01, 0.0, 0.0), [Vector3::z_axis(); 2], &next);
         for turn in 0..16 {
             let (sin, cos) = (f64::from(turn) * 0.4).sin_cos();
-            for (radius, reached) in [(0.00799, false), (0.00801, true), (0.01199, true), (0.01201, false)] {
+            for (radius, reached) in [
+                (0.00799, false),
+                (0.00801, true),
+                (0.01199, true),
+                (0.01201, false),
+            ] {
                 let point = Point3::new(radius * cos, radius * sin, 1e-4);
                 assert_eq!(moving.reaches(&point, [0.0, 1.0]), reached, "{radius} {turn}");
             }

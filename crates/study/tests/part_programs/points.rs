@@ -68,9 +68,9 @@ pub fn first_removals(moves: &[MovingTool], points: &[Point3<f64>]) -> Vec<Optio
     let Some(first) = points.first() else {
         return Vec::new();
     };
-    let [low, high] = points
-        .iter()
-        .fold([*first; 2], |[low, high], point| [low.inf(point), high.sup(point)]);
+    let [low, high] = points.iter().fold([*first; 2], |[low, high], point| {
+        [low.inf(point), high.sup(point)]
+    });
     let counts = [SLABS, BINS[0], BINS[1]];
     let bin = |at: f64, k: usize| {
         let part = (at - low[k]) / (high[k] - low[k]).max(f64::MIN_POSITIVE);

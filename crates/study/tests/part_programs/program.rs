@@ -153,8 +153,12 @@ impl Program {
     /// The tool of an operation.
     fn body(&self, operation: Option<&Operation>) -> EndMillBody {
         let [diameter, corner, _] = self.tool_mm.map(|mm| mm * MM);
-        let diameter = operation.and_then(|operation| operation.diameter).unwrap_or(diameter);
-        let corner = operation.and_then(|operation| operation.corner_radius).unwrap_or(corner);
+        let diameter = operation
+            .and_then(|operation| operation.diameter)
+            .unwrap_or(diameter);
+        let corner = operation
+            .and_then(|operation| operation.corner_radius)
+            .unwrap_or(corner);
         EndMillBody::new(diameter, corner.min(diameter / 2.0)).unwrap()
     }
 
@@ -170,7 +174,11 @@ impl Program {
         steps.into_iter().for_each(|step| builder.take(step));
         let path = builder.finish().unwrap();
         let mut bodies = vec![(0, self.body(None))];
-        bodies.extend(path.operations.iter().map(|(first, of)| (*first, self.body(Some(of)))));
+        bodies.extend(
+            path.operations
+                .iter()
+                .map(|(first, of)| (*first, self.body(Some(of)))),
+        );
         let tools = bodies.iter().map(|(first, body)| PathTool {
             first: *first,
             cutting: ToolSolid::end_mill(body, self.tool_mm[2] * MM).unwrap(),

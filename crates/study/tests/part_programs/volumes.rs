@@ -63,7 +63,13 @@ fn cell_error(grid: &DexelGrid) -> f64 {
         .map(|cell| length([cell % columns, cell / columns]))
         .collect();
     let differences = (0..columns * rows).map(|cell| {
-        let to = |has: bool, next: usize| if has { (lengths[cell] - lengths[next]).abs() } else { 0.0 };
+        let to = |has: bool, next: usize| {
+            if has {
+                (lengths[cell] - lengths[next]).abs()
+            } else {
+                0.0
+            }
+        };
         to((cell + 1) % columns > 0, cell + 1) + to(cell + columns < lengths.len(), cell + columns)
     });
     0.5 * differences.sum::<f64>() * grid.cell_area()
@@ -90,7 +96,10 @@ fn points_agree(read: &Read, cut: &CutPart, k: usize, resolution: f64) -> Vec<Op
         if is_material(&cut.part, k, point) == removed.is_some() {
             let off = least_distance(&read.moves, point, 2.0 * resolution);
             let file = read.program.file;
-            assert!(off.abs() < resolution, "{file}: {point:?} along {k} is {off} m off the tool");
+            assert!(
+                off.abs() < resolution,
+                "{file}: {point:?} along {k} is {off} m off the tool"
+            );
         }
     }
     found
@@ -99,7 +108,9 @@ fn points_agree(read: &Read, cut: &CutPart, k: usize, resolution: f64) -> Vec<Op
 /// Lines of the program at which groups of cuts with about the same number of moves end.
 fn group_ends(read: &Read) -> Vec<u32> {
     let lines: Vec<u32> = read.moves.iter().map(|of| of.line).collect();
-    (1..=GROUPS).map(|group| lines[group * lines.len() / GROUPS - 1]).collect()
+    (1..=GROUPS)
+        .map(|group| lines[group * lines.len() / GROUPS - 1])
+        .collect()
 }
 
 /// The volumes of groups of moves, mm^3: by dexels, by points on them, and the standard error.
@@ -127,10 +138,17 @@ fn groups(read: &Read, cut: &CutPart, found: &[Option<u32>]) -> Vec<[f64; 3]> {
 
 /// Compares all.
 fn compare(program: Program, resolution: f64) {
-    let Some(read) = program.read(2.0 * MM) else { return };
+    let Some(read) = program.read(2.0 * MM) else {
+        return;
+    };
     let cut = read.cut(DexelDirections::All);
     let stock = cut.stock_volume / MM3;
-    let dexels: Vec<f64> = cut.part.grids().iter().map(|grid| stock - grid.volume() / MM3).collect();
+    let dexels: Vec<f64> = cut
+        .part
+        .grids()
+        .iter()
+        .map(|grid| stock - grid.volume() / MM3)
+        .collect();
     let [points, standard_error] = in_space(&read, stock);
     let volumes = Volumes {
         dexels: [dexels[0], dexels[1], dexels[2]],
@@ -140,7 +158,10 @@ fn compare(program: Program, resolution: f64) {
     };
     println!("{}: {volumes} of a stock of {stock:.0} mm^3", program.file);
     let off = (volumes.dexels[2] - points).abs();
-    assert!(off < 3.0 * volumes.standard_error + volumes.cell_error, "{volumes}");
+    assert!(
+        off < 3.0 * volumes.standard_error + volumes.cell_error,
+        "{volumes}"
+    );
     let sum: f64 = cut.removals.iter().map(|removal| removal.volume / MM3).sum();
     // Lengths are rounded by 6e-8 of the longest dexel, at every cut.
     assert!((sum - dexels[2]).abs() < 1e-6 * stock, "{sum} {volumes}");
@@ -154,7 +175,10 @@ fn compare(program: Program, resolution: f64) {
     let removed: f64 = groups.iter().map(|[_, points, _]| points).sum();
     let share = removed / stock;
     let standard_error = stock * (share * (1.0 - share) / POINTS as f64).sqrt();
-    assert!((removed - dexels[2]).abs() < 4.0 * standard_error, "{removed} {volumes}");
+    assert!(
+        (removed - dexels[2]).abs() < 4.0 * standard_error,
+        "{removed} {volumes}"
+    );
 }
 
 /// Resolution of ends in a box of this length, m: a unit in the last place of single precision.
@@ -186,4 +210,3 @@ fn a_support_that_is_cut_with_a_tilted_tool_is_that_of_its_points() {
 fn an_impeller_in_five_axes_is_that_of_its_points_within_the_tolerance_of_turning_axes() {
     compare(IMPELLER, 0.02 * IMPELLER.cell_mm * MM + of_ends(0.08));
 }
-
