@@ -182,34 +182,35 @@ pub fn checks() -> Vec<Check> {
         let from_pass = (y - over) - 2.0 * ((y - over) / 2.0).round();
         height - (-3.0 + up + 5.0 - (25.0 - from_pass * from_pass).sqrt())
     });
+    // Errors in mm, tolerances in um.
     let row = |what: &str, worst: f64, tolerance: f64| {
         let bound = ErrorBound {
-            worst,
+            worst: 1e3 * worst,
             tolerance,
-            unit: "mm",
+            unit: "um",
         };
-        Check::printed(what, REFERENCE, bound, 4)
+        Check::printed(what, REFERENCE, bound, 2)
     };
     vec![
         row(
             "slot of a displaced flat end mill, floor and walls: displacement along the normal",
             in_slot,
-            1e-4,
+            0.1,
         ),
         row(
             "groove of a displaced ball nose: displacement along the normal",
             in_groove,
-            2e-3,
+            2.0,
         ),
         row(
             "hole of a displaced tool: displacement along the normal",
             in_hole,
-            2e-3,
+            2.0,
         ),
         row(
             "scallops of displaced passes of a ball nose, r - sqrt(r^2 - y^2)",
             worst(scallops),
-            1e-4,
+            0.1,
         ),
     ]
 }
