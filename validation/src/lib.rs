@@ -53,6 +53,8 @@ mod jacobian_differences;
 mod joint_backlash_closed_forms;
 #[path = "../leaning-tool-force/case.rs"]
 mod leaning_tool_force;
+#[path = "../machined-part-closed-forms/case.rs"]
+mod machined_part_closed_forms;
 #[path = "../mh12-fractions/case.rs"]
 mod mh12_fractions;
 #[path = "../mh12-readings/case.rs"]
@@ -208,6 +210,10 @@ pub const CASES: &[Case] = &[
     Case {
         folder: "urdf-forward",
         checks: urdf_forward::checks,
+    },
+    Case {
+        folder: "machined-part-closed-forms",
+        checks: machined_part_closed_forms::checks,
     },
 ];
 

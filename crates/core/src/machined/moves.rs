@@ -10,12 +10,13 @@
 //! | `delta`, `omega` | displacement of the tip and rotation of the tool, path axes | m, rad |
 //!
 //! Between two points the deviation changes evenly. A step has the number of the point that it leads to, a rapid that of the first point after it. A rapid begins where the
-//! cut before it ended and ends where the next one begins; between several rapids the tool is displaced as at that point. Where the deviation is not known, the tool is where it is programmed.
+//! cut before it ended and ends where the next one begins; of several rapids, each with its own axis, the first is displaced and rotated as at the
+//! point before, so that a tool leaves its hole as it came, and the others as at that point. A rapid before a change of the tool has the tool before. Where the deviation is not known, the tool is where it is programmed.
 
 use nalgebra::{Point3, Unit, Vector3};
 
 use super::tip::TipDeviation;
-use crate::path::Track;
+use crate::path::{Move, Rapids, Track};
 use crate::removal::{DexelPart, MoveRemoval, RemovalError, RotatingTool, ToolMove, ToolSolid};
 use crate::watch::Watch;
 
@@ -53,59 +54,75 @@ pub struct Stage {
 /// Tip and axis of a tool, path.
 type Pose = (Point3<f64>, Unit<Vector3<f64>>);
 
+/// A tool on its way.
+#[derive(Default)]
+struct Way {
+    stages: Vec<Stage>,
+    /// Number of the tool.
+    tool: usize,
+    /// Where it was before.
+    last: Option<Pose>,
+}
+
+impl Way {
+    /// Adds the move to this pose; the first one only places the tool.
+    fn go(&mut self, to: Pose, index: u32, is_rapid: bool) {
+        if self.stages.last().is_none_or(|stage| stage.tool != self.tool) {
+            self.stages.push(Stage {
+                tool: self.tool,
+                moves: Vec::new(),
+            });
+        }
+        if let (Some(from), Some(stage)) = (self.last, self.stages.last_mut()) {
+            stage.moves.push(ToolMove {
+                ends: [from.0, to.0],
+                axes: [from.1, to.1],
+                index,
+                is_rapid,
+            });
+        }
+        self.last = Some(to);
+    }
+}
+
 impl MachiningPath<'_> {
     /// The moves, as programmed or with these deviations, one for each point.
     pub fn stages(&self, deviations: Option<&[Option<TipDeviation>]>) -> Vec<Stage> {
         let path = &self.track.path;
-        let mut stages: Vec<Stage> = Vec::new();
+        let mut way = Way::default();
         let mut tool = 0;
-        // Where the tool was before.
-        let mut last: Option<Pose> = None;
         let mut rapids = path.rapids.iter();
         for index in 0..path.points.len() {
+            let before = tool;
             while self.tools.get(tool + 1).is_some_and(|next| next.first <= index) {
                 tool += 1;
             }
-            if stages.last().is_none_or(|stage| stage.tool != tool) {
-                stages.push(Stage {
-                    tool,
-                    moves: Vec::new(),
-                });
-            }
-            let Some(Stage { moves, .. }) = stages.last_mut() else {
-                continue;
-            };
             let pose = self.pose(index, deviations);
-            let number = index as u32;
-            if path.begins(index) {
-                let off = pose.0 - path.points[index].at;
-                let rapids = rapids.next().map_or(&[][..], |rapids| &rapids.moves);
-                for (place, rapid) in rapids.iter().enumerate() {
-                    let end = match place + 1 == rapids.len() {
+            if path.begins(index)
+                && let Some(Rapids {
+                    moves,
+                    moves_before_tool_change,
+                    ..
+                }) = rapids.next()
+            {
+                let changed = moves_before_tool_change.unwrap_or(0);
+                for (place, rapid) in moves.iter().enumerate() {
+                    way.tool = if place < changed { before } else { tool };
+                    let end = match place + 1 == moves.len() {
                         true => pose,
-                        false => (rapid.end + off, pose.1),
+                        false if place == 0 => self.rapid_pose(index.saturating_sub(1), rapid, deviations),
+                        false => self.rapid_pose(index, rapid, deviations),
                     };
-                    if let Some(from) = last {
-                        moves.push(ToolMove {
-                            ends: [from.0, end.0],
-                            axes: [from.1, end.1],
-                            index: number,
-                            is_rapid: true,
-                        });
-                    }
-                    last = Some(end);
+                    way.go(end, index as u32, true);
                 }
-            } else if let Some(from) = last {
-                moves.push(ToolMove {
-                    ends: [from.0, pose.0],
-                    axes: [from.1, pose.1],
-                    index: number,
-                    is_rapid: false,
-                });
             }
-            last = Some(pose);
+            way.tool = tool;
+            match path.begins(index) {
+                true => way.last = Some(pose),
+                false => way.go(pose, index as u32, false),
+            }
         }
-        stages
+        way.stages
     }
 
     /// Number of moves.
@@ -142,7 +159,25 @@ impl MachiningPath<'_> {
     /// The tool at a point.
     fn pose(&self, index: usize, deviations: Option<&[Option<TipDeviation>]>) -> Pose {
         let (placing, point) = (&self.track.placing, &self.track.path.points[index]);
-        let (tip, axis) = (point.at, placing.path_spindle(point));
+        self.displaced((point.at, placing.path_spindle(point)), index, deviations)
+    }
+
+    /// The tool at the end of a rapid, displaced as at this point.
+    fn rapid_pose(&self, index: usize, rapid: &Move, deviations: Option<&[Option<TipDeviation>]>) -> Pose {
+        let (placing, point) = (&self.track.placing, &self.track.path.points[index]);
+        let axis = rapid.axis.filter(|_| !placing.keeps_axis);
+        let pose = (rapid.end, axis.unwrap_or_else(|| placing.path_spindle(point)));
+        self.displaced(pose, index, deviations)
+    }
+
+    /// A pose, displaced as at this point.
+    fn displaced(
+        &self,
+        (tip, axis): Pose,
+        index: usize,
+        deviations: Option<&[Option<TipDeviation>]>,
+    ) -> Pose {
+        let placing = &self.track.placing;
         let Some(deviation) = deviations.and_then(|all| all[index].as_ref()) else {
             return (tip, axis);
         };

@@ -46,6 +46,13 @@ pub struct Operation {
     pub line: u32,
 }
 
+impl Operation {
+    /// Whether the operation after this one has another tool: number, diameter or corner.
+    pub(super) fn has_other_tool(&self, next: &Operation) -> bool {
+        self.tool != next.tool || self.diameter != next.diameter || self.corner_radius != next.corner_radius
+    }
+}
+
 /// How deep the cutter is in the material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DepthOfCut {

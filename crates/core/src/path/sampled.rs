@@ -50,6 +50,8 @@ pub struct Rapids {
     pub moves: Vec<Move>,
     /// Their length from the first known position, m.
     pub length: f64,
+    /// How many of the moves are before the first change of the tool among them; `None` where it is not changed.
+    pub moves_before_tool_change: Option<usize>,
 }
 
 impl SampledPath {
@@ -139,6 +141,11 @@ impl PathBuilder {
     pub fn take(&mut self, step: Step) {
         let next = match step {
             Step::Operation(operation) => {
+                let last = self.path.operations.last().map(|(_, last)| last);
+                if last.is_none_or(|last| last.has_other_tool(&operation)) {
+                    let count = self.since.moves.len();
+                    self.since.moves_before_tool_change.get_or_insert(count);
+                }
                 self.path.operations.push((self.path.points.len(), operation));
                 return;
             }
@@ -254,6 +261,8 @@ mod tests {
             .map(|rapid| [rapid.end.x, rapid.end.z])
             .collect();
         assert_eq!(ends, [[0.01, 0.01], [0.02, 0.01], [0.02, 0.0]]);
+        let before_change = path.rapids.iter().map(|rapids| rapids.moves_before_tool_change);
+        assert_eq!(before_change.collect::<Vec<_>>(), [Some(0), Some(3)]);
         let coolant = PlacedCommand {
             points: 11,
             rapids: 3,
@@ -270,6 +279,33 @@ mod tests {
         }
         let [low, high] = path.corners();
         assert!((high - low - Vector3::new(0.03, 0.0, 0.0)).norm() < 1e-15);
+    }
+
+    #[test]
+    fn rapids_are_divided_at_the_first_operation_with_another_tool() {
+        let with = |places: &[(usize, u32)]| {
+            let mut steps = steps();
+            for (place, tool) in places {
+                let operation = Operation {
+                    tool: Some(*tool),
+                    spindle: Some(100.0),
+                    ..Operation::default()
+                };
+                steps.insert(*place, Step::Operation(operation));
+            }
+            let sampling = Sampling {
+                chord_error: 1e-5,
+                step: 1e-3,
+            };
+            let mut builder = PathBuilder::new(sampling, 1000);
+            steps.into_iter().for_each(|step| builder.take(step));
+            builder.finish().unwrap().rapids[1].moves_before_tool_change
+        };
+        // Operation 1 of `steps` has no tool number, its second one is tool 2 after the third rapid.
+        assert_eq!(with(&[(4, 3)]), Some(1));
+        assert_eq!(with(&[(5, 3), (4, 5)]), Some(1));
+        // The tool is changed before the cut; the same tool again after one rapid is no change.
+        assert_eq!(with(&[(2, 2), (5, 2)]), None);
     }
 
     #[test]

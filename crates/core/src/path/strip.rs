@@ -272,7 +272,8 @@ fn longest_arc(stock: &Stock, strips: &[Option<Strip>], [radius, width]: [f64; 2
             if rho - y.abs() < width { rho.copysign(y) } else { y }
         };
         let (right, left) = (edge(begin), edge(end));
-        let arc = (right / rho).acos() - (left / rho).acos();
+        // A length: the tip of a ball may be engaged all round, next to a deep strip at its side.
+        let arc = rho * ((right / rho).acos() - (left / rho).acos());
         let right_beyond = if right <= -rho { -radius } else { right };
         let left_beyond = if left >= rho { radius } else { left };
         let Ok(strip) = Engagement::strip([right_beyond, left_beyond], 2.0 * radius) else {
@@ -384,6 +385,15 @@ mod tests {
         assert!(right == -5e-3 && (left + 3e-3).abs() < 1e-12, "{right} {left}");
         assert!((front.depth - 0.002).abs() < 1e-12 && (front.width - 2e-3).abs() < 1e-12);
         assert!(!front.is_slot);
+        // Of a ball: a millimetre at its tip over a quarter of a turn, and two at its side, where the circle is five times as large, over 53 deg.
+        let mut strips = vec![None; 10];
+        (strips[0], strips[1]) = (strip(-0.003), strip(-0.002));
+        strips[4] = strip(-0.003).map(|tip| Strip {
+            outer_radius: 1e-3,
+            ..tip
+        });
+        let front = longest_arc(&stock, &strips, [5e-3, 1e-3]).unwrap();
+        assert!(front.strip.edges()[0] == -5e-3 && (front.depth - 0.002).abs() < 1e-12);
         let all = longest_arc(&stock, &[strip(0.0); 10], [5e-3, 1e-3]).unwrap();
         assert!(all.is_slot && all.strip.edges() == [-5e-3, 5e-3]);
         assert!(longest_arc(&stock, &[None; 10], [5e-3, 1e-3]).is_none());

@@ -5,6 +5,7 @@
 
 mod displaced;
 mod nominal_mesh;
+mod rapids;
 
 use armill_core::frame::Isometry;
 use armill_core::load::EndMillBody;
