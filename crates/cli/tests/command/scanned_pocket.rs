@@ -93,16 +93,15 @@ fn a_known_error_of_the_pocket_is_found_again_and_its_scan_enters_a_journal() {
     let left = number(&given["difference"]["rms_um"]);
     assert!((left - wave).abs() < 0.05 * wave, "{left} um of {wave}");
     assert!(number(&given["points"]) > 0.95 * squares.len() as f64, "{given}");
-    // The softest joint explains most of it alone, and the others little without it.
+    // Without any of the joints the others explain less than all together, which leave the wave.
+    let measured = number(&given["measured"]["rms_um"]);
+    let all = 1.0 - (left / measured).powi(2);
     let contributions = given["contributions"].as_array().unwrap();
-    let most = (contributions.iter())
-        .max_by(|one, other| number(&one["rms_um"]).total_cmp(&number(&other["rms_um"])))
-        .unwrap();
-    assert_eq!(most["name"], "J1", "{contributions:?}");
-    assert!(
-        number(&most["explained_alone"]) > number(&most["explained_without"]),
-        "{most}"
-    );
+    for joint in contributions.iter().filter(|one| number(&one["rms_um"]) > 5.0) {
+        let without = number(&joint["explained_without"]);
+        assert!(without < all - 0.005, "{joint}, all {all}");
+    }
+    assert!(contributions.len() >= 7, "{contributions:?}");
 
     let rows = std::fs::read_to_string(cell.at("second/pocket.scan-points.csv")).unwrap();
     cell.file(
