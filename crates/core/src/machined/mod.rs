@@ -23,7 +23,7 @@ pub mod worst;
 pub use directions::surface_directions;
 pub use faces::{CutBy, MadePart};
 pub use moves::{MachiningPath, PathTool, Stage};
-pub use surface::{PartComparison, SearchReach, SurfaceComparison, SurfaceDeviation};
+pub use surface::{PartComparison, PointDeviation, SearchReach, SurfaceComparison, SurfaceDeviation};
 pub use tip::{FollowedPath, TipDeviation};
 pub use volumes::{MaterialDifference, material_difference};
 pub use worst::worst_places;

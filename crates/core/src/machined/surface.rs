@@ -54,6 +54,15 @@ pub struct SurfaceDeviation {
     pub nominal_by: EndOrigin,
 }
 
+/// The part at a point of the nominal surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PointDeviation {
+    /// Distance of the part from the point along the normal, m; positive where material is left.
+    pub deviation: f64,
+    /// What made the surface of the part: the number of a move, or the stock.
+    pub made_by: EndOrigin,
+}
+
 /// The surface of a part, compared with the nominal one.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SurfaceComparison {
@@ -140,8 +149,8 @@ impl<'a> PartComparison<'a> {
         self.faces[1].normal(point)
     }
 
-    /// The deviation at a point of the nominal surface, m; `None` where the surface is not made, its dexel meets it too flatly, or no surface of the part is within reach.
-    pub fn deviation_at(&self, point: &SurfacePoint) -> Option<f64> {
+    /// The deviation at a point of the nominal surface; `None` where the surface is not made, its dexel meets it too flatly, or no surface of the part is within reach.
+    pub fn deviation_at(&self, point: &SurfacePoint) -> Option<PointDeviation> {
         if !self.faces[1].is_made(point.origin) {
             return None;
         }
@@ -156,7 +165,11 @@ impl<'a> PartComparison<'a> {
         let grid = &self.part.dexels.grids()[number];
         let cell = grid.cell_at(&point.position)?;
         let spans: Vec<MaterialSpan> = grid.material(cell).collect();
-        Some(self.deviation(&spans, point, &normal)?.deviation)
+        let found = self.deviation(&spans, point, &normal)?;
+        Some(PointDeviation {
+            deviation: found.deviation,
+            made_by: found.made_by,
+        })
     }
 
     fn row(&self, number: usize, row: usize) -> SurfaceComparison {

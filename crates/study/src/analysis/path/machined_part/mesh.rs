@@ -1,6 +1,6 @@
 //! The nominal surface of a part as triangles, with the deviation at each vertex: for pictures, files and the live page.
 
-use armill_core::machined::PartComparison;
+use armill_core::machined::{PartComparison, PointDeviation};
 use armill_core::nalgebra::{Point3, Vector3};
 use armill_core::removal::{DexelPart, EndOrigin, RemovalError, SurfacePoint};
 use rayon::prelude::*;
@@ -18,6 +18,8 @@ pub struct PartMesh {
     pub deviations: Vec<f64>,
     /// Standard uncertainty of each, m; not a number where it is not known.
     pub uncertainties: Vec<f64>,
+    /// The point of the path whose move made the surface of the part at each vertex; none of the stock, and where no deviation is known.
+    pub made_by: Vec<Option<u32>>,
 }
 
 /// Triangles at most: fluid in viewers.
@@ -49,26 +51,34 @@ where
         let normal = |point: &SurfacePoint| comparison.nominal_normal(point);
         let mesh = self.nominal.surface_mesh(stride, normal)?;
         let at = |index: usize| is_known.get(index).is_none_or(|known| *known);
-        let deviation = |point: &SurfacePoint| {
+        let found = |point: &SurfacePoint| {
             let index = point.origin.move_index();
             let known = index.is_none_or(|index| at(index) && at(index.saturating_sub(1)));
-            let deviation = known.then(|| comparison.deviation_at(point)).flatten();
-            deviation.unwrap_or(f64::NAN)
+            known.then(|| comparison.deviation_at(point)).flatten()
         };
-        let of_points: Vec<f64> = mesh.points.par_iter().map(deviation).collect();
-        let of_variance = |(point, deviation): (&SurfacePoint, &f64)| {
-            let normal = (!deviation.is_nan()).then(|| normal(point)).flatten();
-            let found = normal.and_then(|normal| (self.variance)(point.origin, &normal));
-            found.map_or(f64::NAN, f64::sqrt)
+        let of_points: Vec<Option<PointDeviation>> = mesh.points.par_iter().map(found).collect();
+        let deviation = |found: &Option<PointDeviation>| found.map_or(f64::NAN, |found| found.deviation);
+        let of_u = |(point, found): (&SurfacePoint, &Option<PointDeviation>)| {
+            let (made_by, normal) = (found.as_ref().map(|found| found.made_by), normal(point));
+            let variance = made_by.zip(normal);
+            let variance = variance.and_then(|(made_by, normal)| (self.variance)(made_by, &normal));
+            variance.map_or(f64::NAN, f64::sqrt)
         };
-        let of_u: Vec<f64> = mesh.points.iter().zip(&of_points).map(of_variance).collect();
+        let of_u: Vec<f64> = mesh.points.iter().zip(&of_points).map(of_u).collect();
+        let made_by = |vertex: usize| {
+            let points = mesh.points_of(vertex).iter();
+            let moves = points.filter_map(|point| of_points[*point as usize]?.made_by.move_index());
+            moves.map(|index| index as u32).next()
+        };
+        let made_by = (0..mesh.vertices.len()).map(made_by).collect();
         let values = |of_points: &[f64]| {
             let values = mesh.vertex_values(of_points).into_iter();
             values.map(|value| value.unwrap_or(f64::NAN)).collect()
         };
         Ok(PartMesh {
-            deviations: values(&of_points),
+            deviations: values(&of_points.iter().map(deviation).collect::<Vec<f64>>()),
             uncertainties: values(&of_u),
+            made_by,
             vertices: mesh.vertices,
             normals: mesh.normals,
             triangles: mesh.triangles,

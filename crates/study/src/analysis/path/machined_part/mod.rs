@@ -1,12 +1,13 @@
 //! The part that a path leaves of its stock: cut with the tool where it will be, and compared with the nominal part.
 //!
-//! [`table`]: its keys; `tools`: what cuts; `stock`: what it is cut from; [`setting`]: all of it in SI; [`resolve`](mod@resolve): from the keys; [`run`]: the part and its surface; `cut`: of a path as it was followed;
+//! [`table`]: its keys; `tools`: what cuts; `stock`: what it is cut from; [`setting`]: all of it in SI; [`resolve`](mod@resolve): from the keys; [`run`]: the part and its surface; `cut`: of a path as it was followed; [`in_process`]: the stock after the first points of a path;
 //! [`features`]: form, size and position of faces; [`mesh`]: its surface as triangles; [`answer`], [`report`], [`pictures`], [`files`]: the result in numbers, words, colours and files; [`scan`], [`scan_answer`]: the measured part.
 
 pub mod answer;
 mod cut;
 pub mod features;
 pub mod files;
+pub mod in_process;
 pub mod mesh;
 pub mod pictures;
 pub mod report;
@@ -19,6 +20,7 @@ mod stock;
 pub mod table;
 mod tools;
 
+pub use in_process::InProcessPart;
 pub use run::MachinedPart;
 pub use setting::{MachinedSetting, NominalPart};
 pub use table::MachinedPartTable;
