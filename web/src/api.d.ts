@@ -2712,6 +2712,7 @@ export interface components {
              * Format: uint
              * @description Number of points.
              */
+            has_part: boolean;
             points: number;
             /** @description Its columns. */
             columns: components["schemas"]["PathColumnInView"][];

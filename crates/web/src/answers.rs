@@ -23,9 +23,9 @@ use std::sync::{Arc, OnceLock};
 
 use armill_core::watch::Watch;
 use armill_study::live::{
-    ChangedValue, LayerRequest, LobesQuestion, PartSurfaceQuestion, PoseRequest, PoseTarget, PostureQuestion, StudyText,
-    ViewQuestion, answer_json, body_mesh, measured_csv, mesh_bytes, picture_svg, pictures, reachable, scene,
-    spin_map, spin_search, table_csv, values, view,
+    ChangedValue, LayerRequest, LobesQuestion, PartSurfaceQuestion, PoseRequest, PoseTarget, PostureQuestion,
+    StudyText, ViewQuestion, answer_json, body_mesh, measured_csv, mesh_bytes, picture_svg, pictures,
+    reachable, scene, spin_map, spin_search, table_csv, values, view,
 };
 use armill_study::materials::MaterialRow;
 use armill_study::robot_answers::library_rows;

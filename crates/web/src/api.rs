@@ -18,8 +18,8 @@ use axum::response::Response;
 use serde_json::Value;
 
 use crate::answers::{
-    AnalysisRequest, BodyMeshRequest, LobesRequest, MeshRequest, PartSurfaceRequest, PathColumnsRequest, PictureRequest,
-    PosturesRequest, TableRequest, ViewRequest,
+    AnalysisRequest, BodyMeshRequest, LobesRequest, MeshRequest, PartSurfaceRequest, PathColumnsRequest,
+    PictureRequest, PosturesRequest, TableRequest, ViewRequest,
 };
 use crate::files::{Files, TicketAnswer, TicketRequest, UploadedFile};
 use crate::job::JobAnswer;

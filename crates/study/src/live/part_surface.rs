@@ -77,8 +77,15 @@ impl Columns {
             about: Vec::new(),
             bytes: Vec::new(),
         };
-        columns.add("triangles", 3, shape.triangles.iter().flatten().map(|v| v.to_le_bytes()));
-        let xyz = shape.vertices.iter().flat_map(|at| <[f64; 3]>::from(at.coords.map(to_mm)));
+        columns.add(
+            "triangles",
+            3,
+            shape.triangles.iter().flatten().map(|v| v.to_le_bytes()),
+        );
+        let xyz = shape
+            .vertices
+            .iter()
+            .flat_map(|at| <[f64; 3]>::from(at.coords.map(to_mm)));
         columns.add("xyz_mm", 3, xyz.map(|mm| (mm as f32).to_le_bytes()));
         columns.add("normal", 1, shape.normals.iter().map(packed));
         let point = |index: Option<u32>| index.and_then(|index| i32::try_from(index).ok()).unwrap_or(-1);
@@ -145,7 +152,10 @@ pub(super) fn finished_surface(
         triangles: &mesh.triangles,
     };
     // A circle is closed with its first point.
-    let made_by = mesh.made_by.iter().map(|index| index.map(|index| index % points.max(1) as u32));
+    let made_by = mesh
+        .made_by
+        .iter()
+        .map(|index| index.map(|index| index % points.max(1) as u32));
     let mut columns = Columns::of(&shape, made_by);
     columns.add_um("deviation_um", &mesh.deviations);
     columns.add_um("u_um", &mesh.uncertainties);

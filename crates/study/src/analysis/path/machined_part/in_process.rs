@@ -118,7 +118,8 @@ impl InProcessPart {
         let count = self.track.path.points.len();
         let points = points.min(count);
         let before = self.kept.iter().rfind(|kept| kept.points <= points);
-        if let Some(before) = before.filter(|kept| points < self.reached.points || kept.points > self.reached.points)
+        if let Some(before) =
+            before.filter(|kept| points < self.reached.points || kept.points > self.reached.points)
         {
             self.reached = before.clone();
         }
@@ -157,7 +158,10 @@ impl InProcessPart {
 
     /// Keeps the part that is reached, if there is memory for it.
     fn keep(&mut self) {
-        let is_last = self.kept.last().is_none_or(|kept| kept.points < self.reached.points);
+        let is_last = self
+            .kept
+            .last()
+            .is_none_or(|kept| kept.points < self.reached.points);
         let bytes: usize = self.kept.iter().map(|kept| kept.part.bytes()).sum();
         if is_last && bytes + self.reached.part.bytes() <= MOST_KEPT_BYTES {
             self.kept.push(self.reached.clone());
