@@ -74,9 +74,11 @@ export class PartState {
     return this.finished?.about.part ?? null;
   }
 
+  /** Without the part nothing is requested. */
   show(visible: boolean): void {
     this.visible = visible;
     if (visible) this.request();
+    else this.surfaces.cancel();
     this.live.notify("part");
   }
 
@@ -115,14 +117,14 @@ export class PartState {
 
   private request(): void {
     const { text, analysis, path, at } = this.live;
-    if (!this.there || !path) return;
+    if (!this.there || !path || !this.visible) return;
     const point = typeof at?.point === "number" ? at.point : path.count - 1;
     const frame = this.in_process ? point + 1 : path.count;
     if (frame === path.count && this.finished && !this.stale) {
       this.surfaces.cancel();
       this.surface = this.finished;
       this.live.notify("part");
-    } else if (this.visible || frame === path.count) this.surfaces.submit({ text, analysis, frame, frames: path.count });
+    } else this.surfaces.submit({ text, analysis, frame, frames: path.count });
   }
 
   private take(surface: PartSurface, job: Job): void {

@@ -1,5 +1,5 @@
 // The machined part: its surface in the colours of its deviation, drawn displaced along the normals by a multiple of it; in process it is
-// plain. The multiple is one number of the picture: nothing is sent to the graphics card when it changes.
+// plain, lighter where it is cut. The multiple is one number of the picture: nothing is sent to the graphics card when it changes.
 
 import * as THREE from "three";
 import { TriangleBoxes, nearest, type Hit } from "../machined-part/boxes";
@@ -7,9 +7,11 @@ import { colourTable, scaleOf } from "../machined-part/colours";
 import type { PartState } from "../machined-part/state";
 import type { PartSurface, Quantity } from "../machined-part/surface";
 import { matrixOf } from "./bodies";
-import { shade } from "./colour";
+import { shade, type Rgb } from "./colour";
 import type { Labels } from "./labels";
 
+/** Colours are so much darker than in the legend, so that the lights of the stage do not take them beyond white. */
+const UNDER_LIGHT = 0.72;
 /** Opacity of a surface of an earlier state of the study. */
 const STALE = 0.35;
 
@@ -97,13 +99,13 @@ export class MachinedView {
     const colours = new Float32Array(3 * vertices);
     const offsets = new Float32Array(vertices);
     const scale = scaleOf(surface);
-    const plain = shade("--part-plain").toArray() as [number, number, number];
+    const [plain, cut] = ["--part-plain", "--part-cut"].map((name) => shade(name).toArray() as Rgb);
     const table = scale && colourTable(scale);
     for (let v = 0; v < vertices; v++) {
       const value = values ? values[v]! : NaN;
       const known = table !== null && !Number.isNaN(value);
-      const colour = known ? table.of(value) : plain;
-      colours.set(colour, 3 * v);
+      const unknown = surface.finished || surface.points[v]! < 0 ? plain! : cut!;
+      colours.set(known ? table.of(value) : unknown, 3 * v);
       if (known) offsets[v] = value / 1000;
     }
     this.mesh.geometry.setAttribute("color", new THREE.BufferAttribute(colours, 3));
@@ -121,7 +123,7 @@ export class MachinedView {
 
 /** As that of the bodies, with vertices displaced by `magnified` times their offset. */
 function material(magnified: { value: number }): THREE.MeshStandardMaterial {
-  const made = new THREE.MeshStandardMaterial({ roughness: 0.7, metalness: 0, vertexColors: true, side: THREE.DoubleSide });
+  const made = new THREE.MeshStandardMaterial({ color: new THREE.Color().setScalar(UNDER_LIGHT), roughness: 0.75, metalness: 0, vertexColors: true, side: THREE.DoubleSide });
   made.onBeforeCompile = (shader) => {
     shader.uniforms["magnified"] = magnified;
     shader.vertexShader = shader.vertexShader

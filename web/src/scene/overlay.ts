@@ -148,7 +148,8 @@ function partScale(box: HTMLElement, part: PartState): boolean {
   box.setAttribute("aria-label", `${LAYER.title}, ${quantity.toLowerCase()}: colours from ${um(low)} to ${um(high)} micrometres`);
   renew(
     box,
-    h("p", { class: "legend-name" }, h("b", {}, `${LAYER.title}, ${LAYER.unit}`), h("small", {}, ` ${LAYER.about}`)),
+    h("p", { class: "legend-name" }, h("b", {}, `${LAYER.title}, ${LAYER.unit}`)),
+    h("p", { class: "legend-name" }, h("small", {}, LAYER.about)),
     scaleBar({ layer: LAYER }, scale, Infinity),
     h("p", { class: "marks" }, h("span", {}, h("i", { class: "mark plain" }), "not compared or not known")),
   );
