@@ -5,9 +5,9 @@ import type { PartHeader } from "../types";
 
 /** The quantities that colours show, in the order of the choice. */
 export const QUANTITIES = [
-  { key: "deviation_um", text: "Predicted" },
-  { key: "measured_um", text: "Measured (scan)" },
-  { key: "measured_less_predicted_um", text: "Measured minus predicted" },
+  { key: "deviation_um", text: "Predicted", short: "Deviation", title: "Deviation of the surface" },
+  { key: "measured_um", text: "Measured (scan)", short: "Measured", title: "Measured deviation of the surface" },
+  { key: "measured_less_predicted_um", text: "Measured minus predicted", short: "Difference", title: "Measured minus predicted" },
 ] as const;
 export type Quantity = (typeof QUANTITIES)[number]["key"];
 

@@ -4,8 +4,10 @@
 import * as THREE from "three";
 import { TriangleBoxes, nearest, type Hit } from "../machined-part/boxes";
 import { colourTable, scaleOf } from "../machined-part/colours";
+import { filled } from "../machined-part/fill";
 import type { PartState } from "../machined-part/state";
 import type { PartSurface, Quantity } from "../machined-part/surface";
+import { measured } from "../measured";
 import { matrixOf } from "./bodies";
 import { shade, type Rgb } from "./colour";
 import type { Labels } from "./labels";
@@ -94,8 +96,11 @@ export class MachinedView {
 
   /** Colours and offsets of a quantity. */
   private paint(surface: PartSurface, quantity: Quantity): void {
+    const begun = performance.now();
     const { vertices } = surface.about;
-    const values = surface.column(quantity);
+    const column = surface.column(quantity);
+    const predicted = surface.column("deviation_um");
+    const values = column && predicted && column !== predicted ? filled(column, surface.triangles, predicted) : column;
     const colours = new Float32Array(3 * vertices);
     const offsets = new Float32Array(vertices);
     const scale = scaleOf(surface);
@@ -111,6 +116,7 @@ export class MachinedView {
     this.mesh.geometry.setAttribute("color", new THREE.BufferAttribute(colours, 3));
     this.mesh.geometry.setAttribute("offset", new THREE.BufferAttribute(offsets, 1));
     this.drawn = { surface, quantity, boxes: new TriangleBoxes(surface, offsets) };
+    measured("machined", begun);
   }
 
   private clear(): void {

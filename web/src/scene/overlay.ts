@@ -143,15 +143,15 @@ function legend(box: HTMLElement, live: Live): void {
 function partScale(box: HTMLElement, part: PartState): boolean {
   const scale = part.surface && scaleOf(part.surface);
   if (!scale) return false;
-  const quantity = QUANTITIES.find(({ key }) => key === part.quantity)!.text;
+  const { title } = QUANTITIES.find(({ key }) => key === part.quantity)!;
   const [low, high] = ends(scale);
-  box.setAttribute("aria-label", `${LAYER.title}, ${quantity.toLowerCase()}: colours from ${um(low)} to ${um(high)} micrometres`);
+  box.setAttribute("aria-label", `${title}: colours from ${um(low)} to ${um(high)} micrometres`);
   renew(
     box,
-    h("p", { class: "legend-name" }, h("b", {}, `${LAYER.title}, ${LAYER.unit}`)),
+    h("p", { class: "legend-name" }, h("b", {}, `${title}, ${LAYER.unit}`)),
     h("p", { class: "legend-name" }, h("small", {}, LAYER.about)),
     scaleBar({ layer: LAYER }, scale, Infinity),
-    h("p", { class: "marks" }, h("span", {}, h("i", { class: "mark plain" }), "not compared or not known")),
+    h("p", { class: "marks" }, h("span", {}, h("i", { class: "mark plain" }), part.quantity === "deviation_um" ? "not compared or not known" : "not measured")),
   );
   return true;
 }
@@ -237,9 +237,10 @@ function valuesOfPart({ path }: Live, { surface, quantity }: PartState, hit: Hit
   if (deviation) {
     const value = valueAt(surface, deviation, hit);
     rows.push(["Deviation", Number.isNaN(value) ? "not known" : `${LAYER.text(value)} ${plusMinus(valueAt(surface, surface.column("u_um")!, hit))}`]);
-    for (const { key, text } of QUANTITIES.slice(1)) {
+    for (const { key, short } of QUANTITIES.slice(1)) {
       const values = surface.column(key);
-      if (values && key === quantity) rows.push([text, `${LAYER.text(valueAt(surface, values, hit))} µm`]);
+      const value = values && key === quantity ? valueAt(surface, values, hit) : null;
+      if (value !== null) rows.push([short, Number.isNaN(value) ? "between points" : `${LAYER.text(value)} µm`]);
     }
   }
   const line = path?.get("line")?.[point];

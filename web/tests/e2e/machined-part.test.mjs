@@ -2,11 +2,13 @@
 // the path, both themes, a phone.
 
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { after, before, test } from "node:test";
 import { client, difference, launch, open, serious, serve, settled, um } from "./setup.mjs";
 
 const PART = "machined_part = { cell_mm = 1, stock = { box_mm = { from = [-100, -70, -20], to = [150, 70, 0] } } }\n\n[place]";
+/** Depth of the pocket, mm. */
+const FLOOR_MM = -6;
 let server, text, answer, count, lines, browser;
 before(async () => {
   server = await serve((given) => given.replace("[place]", PART), "r2000ic-pocket");
@@ -42,6 +44,13 @@ async function opened(options) {
   await page.click(".views button:nth-child(5)");
   await page.waitForTimeout(200);
   return page;
+}
+
+/** A place inside of the pocket in the picture: between its corners, which are the worst places. */
+async function middle(page) {
+  // A label that another one would cover is not seen.
+  const places = await page.locator(".label.place").evaluateAll((all) => all.filter((label) => label.style.visibility === "visible").map((label) => label.getBoundingClientRect().toJSON()));
+  return ["x", "y"].map((k) => places.reduce((sum, box) => sum + box[k] / places.length, 0));
 }
 
 test("the panel has the numbers, places and features of the answer; a place is looked at", async () => {
@@ -111,10 +120,7 @@ test("the slider displaces the surface without a request; a switch hides it, and
 test("under the pointer are the deviation with its uncertainty and the line that made the surface; a click sends the robot there", async () => {
   const page = await opened();
   const stage = await page.locator(".stage").boundingBox();
-  // A label that another one would cover is not seen.
-  const places = await page.locator(".label.place").evaluateAll((all) => all.filter((label) => label.style.visibility === "visible").map((label) => label.getBoundingClientRect().toJSON()));
-  // Inside of the pocket: between its corners.
-  const [x, y] = ["x", "y"].map((k) => places.reduce((sum, box) => sum + box[k] / places.length, 0));
+  const [x, y] = await middle(page);
   await page.mouse.move(x, y);
   const tip = page.locator(".tip");
   const words = plain(await tip.innerText());
@@ -197,6 +203,33 @@ test("a change of the study cuts the part again; what cannot be cut is said in a
   assert.ok(Number.isNaN(await points(page)));
   assert.deepEqual(page.complaints, []);
   await page.context().close();
+});
+
+test("with a scan, colours and surface show what was measured, and what differs from the prediction", async () => {
+  // Points of the floor of the pocket, 60 um above it.
+  const own = await serve((given) => given.replace("[place]", PART.replace("stock =", 'scan = { file = "scan.xyz", align = "none" }, stock =')), "r2000ic-pocket");
+  const ends = answer.worst_places.map(({ xyz_mm }) => xyz_mm);
+  const [low, high] = [0, 1].map((k) => [Math.min(...ends.map((at) => at[k])) + 6, Math.max(...ends.map((at) => at[k])) - 6]);
+  const grid = ([from, to]) => Array.from({ length: 60 }, (_, i) => from + ((to - from) * i) / 59);
+  writeFileSync(`${own.folder}/scan.xyz`, grid(low).flatMap((x) => grid(high).map((y) => `${x.toFixed(3)} ${y.toFixed(3)} ${(FLOOR_MM + 0.06).toFixed(3)}`)).join("\n"));
+  const page = await open(browser, own.url);
+  await shown(page);
+  await page.click(".views button:nth-child(5)");
+  const choice = page.locator("#machined-quantity");
+  assert.deepEqual(await choice.locator("option").allInnerTexts(), ["Predicted", "Measured (scan)", "Measured minus predicted"]);
+  const predicted = await picture(page);
+  await choice.selectOption("measured_um");
+  assert.match(await page.locator(".part-legend").getAttribute("aria-label"), /^Measured deviation of the surface: colours from/);
+  const measured = await picture(page);
+  assert.ok((await difference(page, predicted, measured)) > 0.002);
+  const [x, y] = await middle(page);
+  await page.mouse.move(x, y);
+  assert.match(plain(await page.locator(".tip").innerText()), /Measured\s+(\+60\.0 µm|between points)/);
+  await choice.selectOption("measured_less_predicted_um");
+  assert.match(await page.locator(".part-legend").getAttribute("aria-label"), /^Measured minus predicted: /);
+  assert.deepEqual(page.complaints, []);
+  await page.context().close();
+  await own.stop();
 });
 
 test("both themes; only an analysis with a part has its panel", async () => {

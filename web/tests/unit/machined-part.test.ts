@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { TriangleBoxes, nearest, valueAt, type Vec } from "../../src/machined-part/boxes";
 import { colourTable, scaleOf } from "../../src/machined-part/colours";
+import { filled } from "../../src/machined-part/fill";
 import { PartSurface } from "../../src/machined-part/surface";
 
 /** A surface as the server sends it. */
@@ -157,5 +158,26 @@ describe("boxes of triangles", () => {
     expect(valueAt(surface, [8, 0, NaN, 0, 0], hit)).toBe(8);
     expect(valueAt(surface, [NaN, 0, 4, 0, 0], hit)).toBeNaN();
     expect(nearest(surface, hit)).toBe(0);
+  });
+});
+
+describe("between measured points", () => {
+  it("is the mean of the neighbours, and nothing far from them", () => {
+    // A strip of triangles: vertex v has the neighbours v - 2, v - 1, v + 1, v + 2.
+    const triangles = new Uint32Array(Array.from({ length: 30 }, (_, t) => [t, t + 1, t + 2]).flat());
+    const values = new Float32Array(32).fill(NaN);
+    [values[0], values[2]] = [10, 20];
+    const compared = new Float32Array(32);
+    const found = filled(values, triangles, compared);
+    // Edges inside of the strip are in two triangles and count twice: vertex 1 has 0 and 2, once and twice.
+    expect([found[0], found[2]]).toEqual([10, 20]);
+    expect(found[1]).toBeGreaterThan(10);
+    expect(found[1]).toBeLessThan(20);
+    expect([found[3], found[4], found[10]]).toEqual([20, 20, 20]);
+    expect(found[11]).toBeNaN();
+    expect(values[1]).toBeNaN();
+    // Where nothing is compared, nothing is drawn, and nothing is reached through it.
+    compared.fill(NaN, 3, 5);
+    expect([...filled(values, triangles, compared)].slice(3, 8)).toEqual([NaN, NaN, NaN, NaN, NaN]);
   });
 });
