@@ -711,6 +711,55 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/part-surface": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** The surface of the machined part of a path: a header and numbers of 4 bytes, little-endian */
+        post: {
+            parameters: {
+                query?: never;
+                header?: never;
+                path?: never;
+                cookie?: never;
+            };
+            requestBody: {
+                content: {
+                    "application/json": components["schemas"]["PartSurfaceRequest"];
+                };
+            };
+            responses: {
+                /** @description success */
+                200: {
+                    headers: {
+                        [name: string]: unknown;
+                    };
+                    content: {
+                        "application/octet-stream": string;
+                    };
+                };
+                /** @description error */
+                default: {
+                    headers: {
+                        [name: string]: unknown;
+                    };
+                    content: {
+                        "application/json": components["schemas"]["ErrorBody"];
+                    };
+                };
+            };
+        };
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/reachable": {
         parameters: {
             query?: never;
@@ -1747,6 +1796,23 @@ export interface components {
             /** @description The keys of the columns. */
             keys: string[];
         };
+        /** @description The surface of the machined part of a path. */
+        PartSurfaceRequest: {
+            /** @description The text of the study. */
+            text: string;
+            /** @description Name of its analysis; the first if left out. */
+            analysis?: string | null;
+            /**
+             * Format: uint
+             * @description Which of the frames, from 0 (the stock) to `frames` (the finished part with its deviations).
+             */
+            frame: number;
+            /**
+             * Format: uint
+             * @description In how many frames the path is divided evenly by its points.
+             */
+            frames: number;
+        };
         /** @description The table of an analysis. */
         TableRequest: {
             /** @description The text of the study. */
@@ -2719,6 +2785,8 @@ export interface components {
             operations: components["schemas"]["OperationInView"][];
             /** @description The worst points of the answer, in its order. */
             worst: number[];
+            /** @description Whether it has a machined part, whose surface can be requested. */
+            has_part: boolean;
         };
         /** @description A column. */
         PathColumnInView: {

@@ -16,7 +16,7 @@ import { choosePosture, worstCase } from "./posture";
 import { PathColumns } from "./timeline/columns";
 import type { Answer, Analysis, At, Change, Extremes, Follow, LayerAnswer, LayerKey, MapAnswer, MapLines, Point, Pose, Scene, Setting, Study, Values, View } from "./types";
 
-export type Topic = "study" | "text" | "answer" | "pose" | "at" | "moving" | "busy" | "error" | "view";
+export type Topic = "study" | "text" | "answer" | "pose" | "at" | "moving" | "busy" | "error" | "view" | "part";
 
 interface Job {
   analysis: string | null;

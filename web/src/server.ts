@@ -95,6 +95,8 @@ export const api = {
   },
   /** Columns of a path, one after the other. */
   pathColumns: async (text: string, analysis: string | null, keys: string[], signal?: AbortSignal) => (await raw("POST", "/api/path-columns", { text, analysis, keys }, signal)).arrayBuffer(),
+  /** The surface of the machined part, finished where the frame is the last. */
+  partSurface: async (text: string, analysis: string | null, frame: number, frames: number, signal?: AbortSignal) => (await raw("POST", "/api/part-surface", { text, analysis, frame, frames }, signal)).arrayBuffer(),
   mesh: async (text: string, file: string) => (await raw("POST", "/api/mesh", { text, file })).arrayBuffer(),
   bodyMesh: async (text: string, analysis: string | null, key: string) => (await raw("POST", "/api/body-mesh", { text, analysis, key })).arrayBuffer(),
   pose: (text: string, analysis: string | null, at: At, load_case: number, signal?: AbortSignal) => json<Pose>("POST", "/api/pose", { text, analysis, at, case: load_case }, signal),

@@ -106,6 +106,21 @@ export type PathInView = Schemas["PathInView"];
 export type PathColumn = Schemas["PathColumnInView"];
 export type OperationInView = Schemas["OperationInView"];
 
+/** The machined part of a path in the answer. */
+export type MachinedPart = Schemas["MachinedPartAnswer"];
+/** What is before the columns of the surface of a machined part: see `PartSurfaceHeader` of `crates/study/src/live/part_surface.rs`. */
+export interface PartHeader {
+  /** Points of the path that are cut. */
+  points: number;
+  vertices: number;
+  triangles: number;
+  /** Where the frame of the program is. */
+  program: BodyPose;
+  columns: { key: string; components: number; range_um: number | null }[];
+  /** The answer of the finished part; null of a part in process. */
+  part: MachinedPart | null;
+}
+
 /** What is to be shown in addition to the answer. */
 export type Shown = Pick<Schemas["ViewRequest"], "arm" | "levels_um" | "lines" | "layer">;
 

@@ -7,6 +7,7 @@
 //! | `POST /api/values` | the settings that an analysis resolves to |
 //! | `POST /api/pose` | the arm at one place of an analysis |
 //! | `POST /api/path-columns` | columns of the points of a path, as numbers of 4 bytes |
+//! | `POST /api/part-surface` | the surface of a machined part, finished or in process, as numbers of 4 bytes |
 //! | `POST /api/scene` | the geometry of an analysis for drawing |
 //! | `POST /api/reachable` | the nearest placement that the robot reaches |
 //! | `POST /api/spin-map` | a path over its length and the spin of the tool |
@@ -22,9 +23,9 @@ use std::sync::{Arc, OnceLock};
 
 use armill_core::watch::Watch;
 use armill_study::live::{
-    ChangedValue, LayerRequest, LobesQuestion, PoseRequest, PoseTarget, PostureQuestion, StudyText,
-    ViewQuestion, answer_json, body_mesh, measured_csv, mesh_bytes, picture_svg, pictures, reachable, scene,
-    spin_map, spin_search, table_csv, values, view,
+    ChangedValue, LayerRequest, LobesQuestion, PartSurfaceQuestion, PoseRequest, PoseTarget, PostureQuestion,
+    StudyText, ViewQuestion, answer_json, body_mesh, measured_csv, mesh_bytes, picture_svg, pictures,
+    reachable, scene, spin_map, spin_search, table_csv, values, view,
 };
 use armill_study::materials::MaterialRow;
 use armill_study::robot_answers::library_rows;
@@ -86,6 +87,20 @@ pub(crate) struct PathColumnsRequest {
     pub analysis: Option<String>,
     /// The keys of the columns.
     pub keys: Vec<String>,
+}
+
+/// The surface of the machined part of a path.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PartSurfaceRequest {
+    /// The text of the study.
+    pub text: String,
+    /// Name of its analysis; the first if left out.
+    pub analysis: Option<String>,
+    /// Which of the frames, from 0 (the stock) to `frames` (the finished part with its deviations).
+    pub frame: usize,
+    /// In how many frames the path is divided evenly by its points.
+    pub frames: usize,
 }
 
 /// A shape of the robot.
@@ -306,6 +321,25 @@ pub(crate) async fn path_columns(
     answered(state, (of.text, headers, kind), move |text, watch| {
         kept.paths
             .columns(text, (of.analysis.as_deref(), &of.keys), watch)
+    })
+    .await
+}
+
+pub(crate) async fn part_surface(
+    Shared(state): Shared<Arc<State>>,
+    headers: HeaderMap,
+    JsonBody(of): JsonBody<PartSurfaceRequest>,
+) -> Answered {
+    let headers = for_itself(&headers, "part-surface");
+    let kept = Arc::clone(&state);
+    let kind = "application/octet-stream";
+    answered(state, (of.text, headers, kind), move |text, watch| {
+        let question = PartSurfaceQuestion {
+            analysis: of.analysis.as_deref(),
+            frame: of.frame,
+            frames: of.frames,
+        };
+        kept.parts.surface(text, &question, &kept.paths, watch)
     })
     .await
 }

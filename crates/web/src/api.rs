@@ -18,8 +18,8 @@ use axum::response::Response;
 use serde_json::Value;
 
 use crate::answers::{
-    AnalysisRequest, BodyMeshRequest, LobesRequest, MeshRequest, PathColumnsRequest, PictureRequest,
-    PosturesRequest, TableRequest, ViewRequest,
+    AnalysisRequest, BodyMeshRequest, LobesRequest, MeshRequest, PartSurfaceRequest, PathColumnsRequest,
+    PictureRequest, PosturesRequest, TableRequest, ViewRequest,
 };
 use crate::files::{Files, TicketAnswer, TicketRequest, UploadedFile};
 use crate::job::JobAnswer;
@@ -98,6 +98,14 @@ fn operations() -> Vec<Operation> {
             answers::path_columns,
         )
         .takes::<PathColumnsRequest>()
+        .sends("application/octet-stream"),
+        Operation::new(
+            POST,
+            "/part-surface",
+            "The surface of the machined part of a path: a header and numbers of 4 bytes, little-endian",
+            answers::part_surface,
+        )
+        .takes::<PartSurfaceRequest>()
         .sends("application/octet-stream"),
         Operation::new(
             POST,

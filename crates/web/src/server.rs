@@ -15,7 +15,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use armill_study::StudyError;
-use armill_study::live::PathCache;
+use armill_study::live::{PartCache, PathCache};
 use axum::Router;
 use axum::routing::get;
 use hyper::Request;
@@ -110,6 +110,7 @@ impl Server {
             opening: Opening::default(),
             tickets: Tickets::default(),
             paths: PathCache::default(),
+            parts: PartCache::default(),
         });
         let (stop, stopped) = watch::channel(false);
         let app = router(&state, Guard::new(port, token));

@@ -1,6 +1,6 @@
 //! What all handlers share.
 
-use armill_study::live::PathCache;
+use armill_study::live::{PartCache, PathCache};
 
 use crate::cell::Cell;
 use crate::opening::Opening;
@@ -16,4 +16,5 @@ pub(crate) struct State {
     pub opening: Opening,
     pub tickets: Tickets,
     pub paths: PathCache,
+    pub parts: PartCache,
 }

@@ -72,6 +72,11 @@ export class Bodies {
     return this.cell?.arm.some((body) => body.role === role) ?? false;
   }
 
+  /** The part of the cell; hidden where the machined part is in its place. */
+  withPart(shown: boolean): void {
+    for (const { body, solid, edges } of this.still) if (body.role === "part") solid.visible = edges.visible = shown;
+  }
+
   /** Faint, where objects behind the arm matter more. */
   ghost(on: boolean): void {
     for (const { body, solid, edges, red } of [...this.arm, ...this.still]) {

@@ -5,6 +5,11 @@ import { fixed, mm, percent, plusMinus, trimmed, um } from "../format";
 import { headline, lostHoles } from "../headline";
 import type { Live } from "../live";
 import type { BodyRole, LayerKey, MapAnswer } from "../types";
+import { lastFrom } from "../timeline/bands";
+import { nearest, valueAt, type Hit } from "../machined-part/boxes";
+import { LAYER, scaleOf } from "../machined-part/colours";
+import type { PartState } from "../machined-part/state";
+import { QUANTITIES } from "../machined-part/surface";
 import { along, css, ends, type Scale } from "./colour";
 import { handleBar } from "./handle-bar";
 import { colourOf, FIRST, LAYERS, levelText, namedColour, shownLayer, textOf, type ShownLayer } from "./layers";
@@ -14,13 +19,14 @@ import type { View } from "./stage";
 import { ELLIPSOID, type SceneView, type Show, type Under } from "./view";
 
 const VIEWS: [View, string, string][] = [["overview", "Overview", "1"], ["front", "Front", "2"], ["side", "Side", "3"], ["top", "Top", "4"], ["plate", "Plate", "5"]];
-const SWITCHES: [keyof Show | keyof Live["wanted"], string][] = [["arm", "Arm"], ["shape", "CAD meshes"], ["bodies", "Bodies of the cell"], ["link_bodies", "Bodies of the links"], ["nearest", "Nearest bodies"], ["forces", "Force arrow"], ["deviation", "Deviation arrow"], ["parts", "Components: in plane, normal"], ["ellipsoid", "Compliance ellipsoid"], ["lines", "Lines of equal deviation"], ["pinned", "Pinned arm"], ["certainty", "Robustly within (dashed)"], ["rectangle", "Largest rectangle within"], ["fix_scale", "Fix the colour scale"]];
+const SWITCHES: [keyof Show | keyof Live["wanted"], string][] = [["arm", "Arm"], ["machined", "Machined part"], ["path", "Tool path"], ["shape", "CAD meshes"], ["bodies", "Bodies of the cell"], ["link_bodies", "Bodies of the links"], ["nearest", "Nearest bodies"], ["forces", "Force arrow"], ["deviation", "Deviation arrow"], ["parts", "Components: in plane, normal"], ["ellipsoid", "Compliance ellipsoid"], ["lines", "Lines of equal deviation"], ["pinned", "Pinned arm"], ["certainty", "Robustly within (dashed)"], ["rectangle", "Largest rectangle within"], ["fix_scale", "Fix the colour scale"]];
 
-export function overlay(view: SceneView, live: Live): HTMLElement {
+export function overlay(view: SceneView, live: Live, part: PartState): HTMLElement {
   const legendBox = h("div", { class: "legend", role: "img" });
   const layer = h("select", { id: "layer", "aria-label": "Colours show" }, Object.entries(LAYERS).map(([key, { title }]) => h("option", { value: key }, title)));
   layer.addEventListener("change", () => live.chooseLayer(layer.value as LayerKey));
-  const colours = h("div", { class: "colours card" }, layer, legendBox);
+  const partLegend = h("div", { class: "legend part-legend", role: "img", hidden: true });
+  const colours = h("div", { class: "colours card" }, partLegend, layer, legendBox);
   const tip = h("div", { class: "tip card", hidden: true });
   const magnified = h("output", {}, times(view.show.magnified));
   const slider = h("input", { id: "magnified", type: "range", min: 2, max: 5, step: 0.05, value: Math.log10(view.show.magnified), "aria-label": "Deviation drawn larger by" });
@@ -52,6 +58,7 @@ export function overlay(view: SceneView, live: Live): HTMLElement {
         if (key === "ellipsoid") soft.hidden = !box.checked;
         if (key === "parts") parts.hidden = !box.checked;
         flags[key] = box.checked;
+        if (key === "path") view.path_by_hand = true;
         if (by_server) live.refresh();
         else redraw();
       });
@@ -62,7 +69,12 @@ export function overlay(view: SceneView, live: Live): HTMLElement {
       const cell = () => live.scene?.cell;
       if (key === "bodies" || key === "nearest") live.listen(["answer"], () => (label.hidden = !cell()));
       if (key === "link_bodies") live.listen(["answer"], () => (label.hidden = !cell()?.arm.some(({ role }) => role === "link")));
-      label.hidden = key === "pinned";
+      if (key === "machined" || key === "path")
+        live.listen(["part", "view"], () => {
+          label.hidden = !part.there;
+          box.checked = view.show[key];
+        });
+      label.hidden = key === "pinned" || key === "machined" || key === "path";
       return label;
     }),
   );
@@ -83,13 +95,19 @@ export function overlay(view: SceneView, live: Live): HTMLElement {
     if (hit) view.look(hit[0]);
   });
   view.onScale = () => {
-    legend(legendBox, colours, live);
+    const of_part = part.visible && part.surface?.finished === true && partScale(partLegend, part);
+    partLegend.hidden = !of_part;
+    const of_path = !part.there || view.show.path;
+    legend(legendBox, live);
+    if (!of_path) legendBox.hidden = true;
+    layer.hidden = legendBox.hidden;
+    colours.hidden = legendBox.hidden && partLegend.hidden;
     if (layer.value !== live.layer) layer.value = live.layer;
     magnified.textContent = times(view.show.magnified);
     force.textContent = forceScale(view.show.mm_per_n);
     slider.value = String(Math.log10(view.show.magnified));
   };
-  view.onHover = (under, x, y) => hover(tip, live, under, x, y, view.stage.host);
+  view.onHover = (under, x, y) => hover(tip, live, part, under, x, y, view.stage.host);
   const cards = [views, handleBar(view, live), shown, scales, colours];
   const keepOut = new ResizeObserver(() => {
     const host = view.stage.host.getBoundingClientRect();
@@ -107,11 +125,11 @@ const forceScale = (mm_per_n: number): string => `force, ${trimmed(mm_per_n, 3)}
 const times = (n: number): string => `× ${trimmed(n, 0)}`;
 
 /** The colour bar, with ticks at the lines' levels and the tolerance marked; names with their colours. */
-function legend(box: HTMLElement, card: HTMLElement, live: Live): void {
+function legend(box: HTMLElement, live: Live): void {
   const { answer, setting } = live;
   // Where nothing is reached, nothing has a colour.
-  card.hidden = answer === null || setting === null || !headline(answer, live.map).reached;
-  if (card.hidden || !setting) return;
+  box.hidden = answer === null || setting === null || !headline(answer, live.map).reached;
+  if (box.hidden || !setting) return;
   const shown = shownLayer(live);
   const cases = setting.cases_n.length;
   const about = shown.key === FIRST && !shown.layer.diverging ? (cases > 1 ? `largest of ${cases} load cases` : "") : (shown.layer.about ?? "");
@@ -119,6 +137,23 @@ function legend(box: HTMLElement, card: HTMLElement, live: Live): void {
   box.setAttribute("aria-label", legendText(shown, setting.tolerance_um));
   const bar = shown.layer.named ? namedBar(shown, live.section) : shown.scale ? scaleBar(shown, shown.scale, setting.tolerance_um) : h("p", { class: "legend-name" }, "not known for these points");
   renew(box, shown.layer.unit || about ? name : null, bar, marks(live));
+}
+
+/** The colours of the machined part; whether there are any. */
+function partScale(box: HTMLElement, part: PartState): boolean {
+  const scale = part.surface && scaleOf(part.surface);
+  if (!scale) return false;
+  const { title } = QUANTITIES.find(({ key }) => key === part.quantity)!;
+  const [low, high] = ends(scale);
+  box.setAttribute("aria-label", `${title}: colours from ${um(low)} to ${um(high)} micrometres`);
+  renew(
+    box,
+    h("p", { class: "legend-name" }, h("b", {}, `${title}, ${LAYER.unit}`)),
+    h("p", { class: "legend-name" }, h("small", {}, LAYER.about)),
+    scaleBar({ layer: LAYER }, scale, Infinity),
+    h("p", { class: "marks" }, h("span", {}, h("i", { class: "mark plain" }), part.quantity === "deviation_um" ? "not compared or not known" : "not measured")),
+  );
+  return true;
 }
 
 function legendText({ layer, scale, names }: ShownLayer, tolerance_um: number): string {
@@ -133,7 +168,7 @@ function namedBar({ names, values }: ShownLayer, index: number): HTMLElement {
   return h("p", { class: "marks named" }, names.map((name, i) => (there.has(i) ? h("span", {}, h("i", { class: "mark", style: `background:${css(namedColour(i))}` }), name) : null)));
 }
 
-function scaleBar({ layer }: ShownLayer, scale: Scale, tolerance: number): SVGElement {
+function scaleBar({ layer }: Pick<ShownLayer, "layer">, scale: Scale, tolerance: number): SVGElement {
   const W = 280;
   const [low, high] = ends(scale);
   const at = (value: number) => 14 + (W - 28) * along(scale, value);
@@ -147,8 +182,8 @@ function scaleBar({ layer }: ShownLayer, scale: Scale, tolerance: number): SVGEl
   return s(
     "svg",
     { width: W, height, viewBox: `0 0 ${W} ${height}`, "aria-hidden": "true" },
-    s("defs", {}, s("linearGradient", { id: "bar" }, stops)),
-    s("rect", { x: 14, y: top, width: W - 28, height: 12, rx: 2, fill: "url(#bar)" }),
+    s("defs", {}, s("linearGradient", { id: `bar-${layer.diverging ? "diverging" : "rising"}` }, stops)),
+    s("rect", { x: 14, y: top, width: W - 28, height: 12, rx: 2, fill: `url(#bar-${layer.diverging ? "diverging" : "rising"})` }),
     scale.filter((_, i) => (i - middle) % every === 0).map((level) => [
       s("line", { x1: at(level), x2: at(level), y1: top + 12, y2: top + 16, class: "tick" }),
       s("text", { x: at(level), y: top + 28, "text-anchor": "middle" }, levelText(layer, level)),
@@ -181,10 +216,11 @@ const collisions = (map: MapAnswer): number => map.counts.in_collision;
 /** What a body is, in words. */
 const ROLES: Record<BodyRole, string> = { link: "Link of the robot", holder: "Tool: must not touch the part", cutter: "Cutter: may touch the part", obstacle: "Obstacle", part: "Part" };
 
-function hover(tip: HTMLElement, live: Live, under: Under, x: number, y: number, host: HTMLElement): void {
+function hover(tip: HTMLElement, live: Live, part: PartState, under: Under, x: number, y: number, host: HTMLElement): void {
   tip.hidden = under === null;
   if (under === null) return;
   if (under.kind === "body") fill(tip, h("b", {}, under.body.name), h("p", {}, ROLES[under.body.role]));
+  else if (under.kind === "part") fill(tip, ...valuesOfPart(live, part, under.hit));
   else fill(tip, ...valuesAt(live, under));
   const box = host.getBoundingClientRect();
   const left = x - box.left + (x - box.left > box.width - 230 ? -225 : 16);
@@ -192,8 +228,31 @@ function hover(tip: HTMLElement, live: Live, under: Under, x: number, y: number,
   tip.style.transform = `translate(${left}px, ${Math.max(4, top)}px)`;
 }
 
+/** The deviation of a place of the machined part, and the line that made it. */
+function valuesOfPart({ path }: Live, { surface, quantity }: PartState, hit: Hit): HTMLElement[] {
+  if (!surface) return [];
+  const point = surface.points[nearest(surface, hit)]!;
+  const rows: [string, string][] = [];
+  const deviation = surface.column("deviation_um");
+  if (deviation) {
+    const value = valueAt(surface, deviation, hit);
+    rows.push(["Deviation", Number.isNaN(value) ? "not known" : `${LAYER.text(value)} ${plusMinus(valueAt(surface, surface.column("u_um")!, hit))}`]);
+    for (const { key, short } of QUANTITIES.slice(1)) {
+      const values = surface.column(key);
+      const value = values && key === quantity ? valueAt(surface, values, hit) : null;
+      if (value !== null) rows.push([short, Number.isNaN(value) ? "between points" : `${LAYER.text(value)} µm`]);
+    }
+  }
+  const line = path?.get("line")?.[point];
+  rows.push(["Made by", point < 0 ? "the stock: not cut" : line === undefined || Number.isNaN(line) ? `point ${point + 1}` : `line ${line}`]);
+  const operations = path?.about.operations ?? [];
+  const operation = point < 0 ? undefined : operations[lastFrom(operations, point)];
+  if (operation?.name) rows.push(["Operation", operation.name]);
+  return [h("b", {}, "Machined part"), h("dl", {}, rows.map(([name, value]) => [h("dt", {}, name), h("dd", {}, value)])), ...(point < 0 ? [] : [h("p", {}, "Click: the robot goes there")])];
+}
+
 /** The values of a point. */
-function valuesAt(live: Live, under: Exclude<NonNullable<Under>, { kind: "body" }>): HTMLElement[] {
+function valuesAt(live: Live, under: Exclude<NonNullable<Under>, { kind: "body" | "part" }>): HTMLElement[] {
   const rows: [string, string][] = [];
   if (under.kind === "map") {
     const grid = live.map!.grid;

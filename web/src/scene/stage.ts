@@ -173,6 +173,11 @@ export class Stage {
     this.aim(box.getCenter(new THREE.Vector3()), box.getBoundingSphere(new THREE.Sphere()).radius, direction);
   }
 
+  /** A place from this direction, with so much around it. */
+  close(target: THREE.Vector3, radius: number, direction: THREE.Vector3): void {
+    this.aim(target, radius, direction);
+  }
+
   private aim(target: THREE.Vector3, radius: number, direction: THREE.Vector3): void {
     const fov = (this.camera.fov * Math.PI) / 180;
     const narrow = Math.min(1, this.camera.aspect);

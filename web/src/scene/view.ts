@@ -14,11 +14,14 @@ import { Bodies, matrixOf } from "./bodies";
 import { BodyMeshes } from "./body-meshes";
 import { shade } from "./colour";
 import { isCovered } from "./covered";
+import type { Hit } from "../machined-part/boxes";
+import type { PartState } from "../machined-part/state";
 import { Handles } from "./handles";
 import { Crosses } from "./crosses";
 import { Ellipsoid } from "./ellipsoid";
 import { GhostArm } from "./ghost";
 import { shownLayer } from "./layers";
+import { MachinedView } from "./machined";
 import { Marker } from "./marker";
 import { NearestPair } from "./nearest";
 import { Part } from "./part";
@@ -30,6 +33,10 @@ import { VolumeView } from "./volume";
 
 export interface Show {
   arm: boolean;
+  /** The machined part, in the colours of its deviation. */
+  machined: boolean;
+  /** The tool path with its deviations. */
+  path: boolean;
   /** The arm of the pinned state. */
   pinned: boolean;
   /** The robot's own shape, where its file names one. */
@@ -55,7 +62,7 @@ export interface Show {
 }
 
 /** The object under the pointer. */
-export type Under = { kind: "body"; body: Body } | { kind: "map"; index: number; y_mm: number; z_mm: number } | { kind: "point"; index: number } | null;
+export type Under = { kind: "body"; body: Body } | { kind: "part"; hit: Hit } | { kind: "map"; index: number; y_mm: number; z_mm: number } | { kind: "point"; index: number } | null;
 
 /** mm in the picture for 1 N, of a small force. */
 const MM_PER_N = 25;
@@ -73,7 +80,7 @@ const TIP_PX = 12;
 
 export class SceneView {
   readonly stage: Stage;
-  readonly show: Show = { arm: true, pinned: true, shape: true, bodies: true, link_bodies: true, nearest: true, forces: true, deviation: true, parts: false, ellipsoid: false, certainty: true, rectangle: false, magnified: 1000, magnified_by_hand: false, mm_per_n: MM_PER_N };
+  readonly show: Show = { arm: true, machined: true, path: true, pinned: true, shape: true, bodies: true, link_bodies: true, nearest: true, forces: true, deviation: true, parts: false, ellipsoid: false, certainty: true, rectangle: false, magnified: 1000, magnified_by_hand: false, mm_per_n: MM_PER_N };
   onHover: (under: Under, x: number, y: number) => void = () => {};
   onScale: () => void = () => {};
   private readonly arm = new Arm();
@@ -90,6 +97,9 @@ export class SceneView {
   private readonly marker = new Marker();
   private readonly volume = new VolumeView();
   private readonly part = new Part();
+  private readonly machined: MachinedView;
+  /** Whether the user has chosen if the tool path is shown; else it is hidden once the part is shown, which it covers. */
+  path_by_hand = false;
   readonly handles: Handles;
   private readonly crosses: Crosses;
   private readonly plates: PlateView[] = [];
@@ -99,17 +109,19 @@ export class SceneView {
   /** Until the arm has come too, the view is not final. */
   private new_subject = false;
 
-  constructor(private readonly host: HTMLElement, private readonly live: Live) {
+  constructor(private readonly host: HTMLElement, private readonly live: Live, private readonly machined_part: PartState) {
     this.stage = new Stage(host);
+    this.machined = new MachinedView(this.stage.labels);
     this.crosses = new Crosses(this.stage.labels);
     this.shapes = new Shapes((file) => api.mesh(live.text, file), () => this.drawPose());
     this.bodies = new Bodies(new BodyMeshes((key) => api.bodyMesh(live.text, live.analysis, key), () => this.redraw()));
     this.nearest = new NearestPair(this.stage.labels);
     this.stage.covered = (group, at) => group !== "arm" && group !== "nearest" && this.show.arm && !this.ghost && this.live.pose !== null && isCovered(this.arm.limbs, this.stage.camera.position, at, this.shapes.group.visible ? STOUT : 1);
-    this.stage.scene.add(this.arm.group, this.shapes.group, this.pinned_arm.group, this.force.group, this.deviation.group, this.in_plane.group, this.normal.group, this.ellipsoid.group, this.path.group, this.marker.group, this.volume.group, this.part.group, this.crosses.group, this.bodies.group, this.nearest.group);
+    this.stage.scene.add(this.arm.group, this.shapes.group, this.pinned_arm.group, this.force.group, this.deviation.group, this.in_plane.group, this.normal.group, this.ellipsoid.group, this.path.group, this.marker.group, this.volume.group, this.part.group, this.machined.group, this.crosses.group, this.bodies.group, this.nearest.group);
     live.listen(["answer", "view"], () => this.drawAnswer());
     live.listen(["pose", "view"], () => this.drawPose());
     live.listen(["at", "pose"], () => this.drawMarker());
+    live.listen(["part", "view"], () => this.drawMachined());
     this.stage.before = () => {
       if (this.path.update(this.stage.camera, this.stage.size)) host.dataset.vectors = String(this.path.vectors);
     };
@@ -123,12 +135,17 @@ export class SceneView {
   }
 
   look(view: View): void {
-    this.ghost = view === "plate";
-    this.arm.ghost(this.ghost);
-    this.shapes.ghost(this.ghost);
-    this.bodies.ghost(this.ghost);
-    this.stage.axes(!this.ghost);
+    this.faint(view === "plate");
     this.stage.look(view, this.subject());
+  }
+
+  /** Whether the arm is faint, so that the part is seen through it. */
+  private faint(on: boolean): void {
+    this.ghost = on;
+    this.arm.ghost(on);
+    this.shapes.ghost(on);
+    this.bodies.ghost(on);
+    this.stage.axes(!on);
   }
 
   /** All of it, from the present direction. */
@@ -190,6 +207,37 @@ export class SceneView {
     const scene = this.live.scene;
     if (!scene) return [];
     return scene.sections.length > 0 ? scene.sections.map((s) => s.plate) : [scene.plate];
+  }
+
+  /** The machined part in place of the plate, of the part of the cell and of the tool path on it. */
+  private drawMachined(): void {
+    const { machined_part: part, show, live } = this;
+    if (part.visible !== show.machined) part.show(show.machined);
+    this.machined.draw(part, live.answer?.paths[0]?.setting.tolerance_um ?? Infinity);
+    const shown = this.machined.group.visible;
+    if (shown && !this.path_by_hand) show.path = false;
+    this.path.group.visible = show.path || !part.there;
+    this.part.group.visible = !shown;
+    this.bodies.withPart(!shown);
+    this.host.dataset.part = shown ? String(part.surface!.about.points) : "";
+    this.onScale();
+    this.stage.draw();
+  }
+
+  /** Looks at a place of the machined part (base), against its normal, so that its surroundings are seen; the arm is faint. */
+  lookAtPart(at: THREE.Vector3, normal: THREE.Vector3): void {
+    this.faint(true);
+    const size = this.machined.size;
+    // Steep walls are seen from above: the direction is between the normal and that of the tool.
+    const up = this.live.scene?.plate.normal_axis;
+    const direction = normal.clone().addScaledVector(up ? new THREE.Vector3(...up) : new THREE.Vector3(0, 0, 1), 1.2).normalize();
+    this.stage.close(at, 0.16 * size, direction);
+  }
+
+  /** Where a point of the machined part is, and a direction there, base. */
+  ofPart(xyz_mm: Vec3, normal: Vec3): [THREE.Vector3, THREE.Vector3] {
+    const base = this.machined.group.matrix;
+    return [new THREE.Vector3(...xyz_mm).applyMatrix4(base), new THREE.Vector3(...normal).transformDirection(base)];
   }
 
   // ---- The pose: arm, arrows, ellipsoid ----
@@ -386,6 +434,10 @@ export class SceneView {
 
   private placeOf(under: NonNullable<Under>): At | null {
     if (under.kind === "body") return null;
+    if (under.kind === "part") {
+      const point = this.machined.pointOf(under.hit);
+      return point < 0 ? null : { point };
+    }
     if (under.kind === "point") return { point: under.index };
     return this.live.onPlate(under.y_mm, under.z_mm);
   }
@@ -398,10 +450,10 @@ export class SceneView {
       const index = hit ? this.volume.nearest(hit.point) : null;
       return index === null ? null : { kind: "point", index };
     }
-    if (this.path.beads) {
+    if (this.path.beads && this.path.group.visible) {
       const hit = this.caster.intersectObject(this.path.beads)[0];
       if (hit?.instanceId !== undefined) return { kind: "point", index: hit.instanceId };
-    } else if (!this.path.empty) {
+    } else if (!this.path.empty && this.path.group.visible) {
       const index = this.path.under(this.stage.camera, event.clientX - box.left, event.clientY - box.top, box.width, box.height);
       if (index !== null) return { kind: "point", index };
     }
@@ -413,6 +465,8 @@ export class SceneView {
       const grid = this.live.map!.grid;
       return { kind: "map", index, y_mm: grid.y_mm[index % grid.y_mm.length]!, z_mm: grid.z_mm[Math.floor(index / grid.y_mm.length)]! };
     }
+    const hit = this.machined.under(this.caster.ray);
+    if (hit) return { kind: "part", hit };
     const body = this.bodies.under(this.caster);
     return body && { kind: "body", body };
   }

@@ -50,8 +50,7 @@ export class PathColumns {
 export function columnsOf(bytes: ArrayBuffer, columns: Pick<PathColumn, "key" | "components">[], points: number): [string, Float32Array][] {
   const expected = 4 * points * columns.reduce((sum, { components }) => sum + components, 0);
   if (bytes.byteLength !== expected) throw new Error(`${bytes.byteLength} bytes in place of ${expected}`);
-  const little = new Uint8Array(new Uint16Array([1]).buffer)[0] === 1;
-  if (!little) swap(bytes);
+  toNative(bytes, 0, expected / 4);
   let at = 0;
   return columns.map(({ key, components }) => {
     const values = new Float32Array(bytes, at, points * components);
@@ -60,8 +59,10 @@ export function columnsOf(bytes: ArrayBuffer, columns: Pick<PathColumn, "key" | 
   });
 }
 
-/** Numbers of the server are little-endian. */
-function swap(bytes: ArrayBuffer): void {
-  const view = new DataView(bytes);
-  for (let at = 0; at < bytes.byteLength; at += 4) view.setUint32(at, view.getUint32(at, true), false);
+/** Numbers of the server are little-endian: `count` of them from this byte on, in the order of this machine. */
+export function toNative(bytes: ArrayBuffer, from: number, count: number): void {
+  const little = new Uint8Array(new Uint16Array([1]).buffer)[0] === 1;
+  if (little) return;
+  const view = new DataView(bytes, from, 4 * count);
+  for (let at = 0; at < 4 * count; at += 4) view.setUint32(at, view.getUint32(at, true), false);
 }

@@ -41,15 +41,22 @@ export class Timeline {
   private over: number | null = null;
   private wanted: number | null = null;
 
-  constructor(private readonly live: Live) {
+  /** `along`: called before the robot is sent to a point of the charts, of a band, or of play. */
+  constructor(
+    private readonly live: Live,
+    private readonly along: (index: number) => void = () => {},
+  ) {
     const go = (index: number) => {
       this.player.stop();
-      live.goTo({ point: index });
+      this.goTo(index);
     };
     this.operations = new BandRow("Operations", go);
     this.tools = new BandRow("Tools", go);
-    this.worst = new WorstList(live, go);
-    this.player = new Player((index) => live.goTo({ point: index }), () => this.index);
+    this.worst = new WorstList(live, (index) => {
+      this.player.stop();
+      live.goTo({ point: index });
+    });
+    this.player = new Player((index) => this.goTo(index), () => this.index);
     this.root = h(
       "details",
       { class: "timeline", id: "timeline", open: localStorage.getItem(OPEN) !== "false", hidden: true },
@@ -70,6 +77,11 @@ export class Timeline {
     this.listen();
     new ResizeObserver(() => this.resize()).observe(this.charts);
     new MutationObserver(() => this.draw()).observe(document.documentElement, { attributes: true, attributeFilter: ["data-theme"] });
+  }
+
+  private goTo(point: number): void {
+    this.along(point);
+    this.live.goTo({ point });
   }
 
   /** The point at which the robot is. */
@@ -231,7 +243,7 @@ export class Timeline {
       const begun = performance.now();
       const point = this.wanted!;
       this.wanted = null;
-      if (point !== this.index || this.live.follow !== "place") this.live.goTo({ point });
+      if (point !== this.index || this.live.follow !== "place") this.goTo(point);
       measured("scrub", begun);
     });
   }

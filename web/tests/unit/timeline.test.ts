@@ -69,7 +69,7 @@ describe("the columns", () => {
   it("are requested once, and only those that the path has", async () => {
     const requested: string[][] = [];
     const column = (key: string) => ({ key, components: 1, unit: null, joint: null, lower: null, upper: null });
-    const path = new PathColumns({ points: 2, columns: [column("a"), column("b")], operations: [], worst: [] }, async (keys) => (requested.push(keys), new ArrayBuffer(8 * keys.length)));
+    const path = new PathColumns({ points: 2, columns: [column("a"), column("b")], operations: [], worst: [], has_part: false }, async (keys) => (requested.push(keys), new ArrayBuffer(8 * keys.length)));
     await Promise.all([path.load(["a", "none"]), path.load(["a", "b"])]);
     expect(requested).toEqual([["a"], ["b"]]);
     expect(path.get("b")).toHaveLength(2);

@@ -27,6 +27,14 @@ pub struct CutBy<'a> {
     pub turn_tolerance: f64,
 }
 
+impl<'a> MadePart<'a> {
+    /// The normal at a point of its surface, out of the material; `None` where the tool has none.
+    pub fn normals(&self) -> impl Fn(&SurfacePoint) -> Option<Unit<Vector3<f64>>> + Sync + 'a {
+        let faces = Faces::of(self);
+        move |point| faces.normal(point)
+    }
+}
+
 /// The faces of a part.
 #[derive(Clone, Debug)]
 pub(super) struct Faces<'a> {

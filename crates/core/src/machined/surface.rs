@@ -54,12 +54,12 @@ pub struct SurfaceDeviation {
     pub nominal_by: EndOrigin,
 }
 
-/// The deviation at one point of the nominal surface.
+/// The part at a point of the nominal surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointDeviation {
-    /// Distance of the part along the normal, m; positive where material is left.
+    /// Distance of the part from the point along the normal, m; positive where material is left.
     pub deviation: f64,
-    /// What made the surface of the part there.
+    /// What made the surface of the part: the number of a move, or the stock.
     pub made_by: EndOrigin,
 }
 

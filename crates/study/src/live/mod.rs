@@ -19,6 +19,8 @@
 //! | `scene` | what can be drawn in space |
 //! | `path_columns` | the points of a path as columns of numbers |
 //! | `path_cache` | the last evaluated path, for its columns and poses |
+//! | `part_surface` | the surface of a machined part as columns of numbers |
+//! | `part_cache` | the machined part of the last path, finished or in process |
 //! | `layer` | the values of another quantity that colours show |
 //! | `scale` | the levels of the colour scale |
 //! | `lines` | the lines of equal deviation of a map |
@@ -50,6 +52,8 @@ mod lines;
 mod lobes;
 mod meshes;
 mod outline;
+mod part_cache;
+mod part_surface;
 mod path_cache;
 mod path_columns;
 mod posture;
@@ -74,6 +78,8 @@ pub use lines::{LevelAnswer, LinesAnswer};
 pub use lobes::{LobesAnswer, LobesQuestion};
 pub use meshes::{DrawnMesh, mesh_bytes};
 pub use outline::{ChangedAnswer, ChangedValue, OutlineAnswer, OutlinedAnalysis, changed, outline};
+pub use part_cache::{PartCache, PartSurfaceQuestion};
+pub use part_surface::{PartSurfaceHeader, SurfaceColumnInView};
 pub use path_cache::PathCache;
 pub use path_columns::{OperationInView, PathColumnInView, PathInView};
 pub use posture::{

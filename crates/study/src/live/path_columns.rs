@@ -48,6 +48,8 @@ pub struct PathInView {
     pub operations: Vec<OperationInView>,
     /// The worst points of the answer, in its order.
     pub worst: Vec<usize>,
+    /// Whether it has a machined part, whose surface can be requested.
+    pub has_part: bool,
 }
 
 /// A column.
@@ -229,6 +231,7 @@ pub(super) fn path_in_view(edited: &EditedAnalysis<'_>, done: &AnalysisResult<'_
     };
     Some(PathInView {
         points: path.track.len(),
+        has_part: path.machined_part.is_some(),
         columns: columns(edited, &done.found, &rows)
             .into_iter()
             .map(|column| column.about)

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use armill_core::watch::Watch;
-use armill_study::live::{StudyText, answer_json, scene, values};
+use armill_study::live::{PartCache, PartSurfaceQuestion, PathCache, StudyText, answer_json, scene, values};
 use armill_study::{output, studies};
 use serde_json::{Value, json};
 
@@ -62,6 +62,50 @@ fn points_of_a_path_come_as_columns_and_the_pose_at_one_is_the_same_with_the_pat
     assert_eq!(given.body.len(), 360 * 4 * 4);
     let refused = columns(json!(["weight_kg"]));
     assert_eq!((refused.status, refused.kind().as_str()), (400, "invalid-input"));
+}
+
+#[test]
+fn the_surface_of_a_machined_part_is_sent_as_bytes_and_refused_in_one_sentence() {
+    let part = "machined_part = { cell_mm = 4, tool = { diameter_mm = 8 }, stock = { box_mm = { from = [-60, -60, -5], to = [60, 60, 2] } } }\n";
+    let text = format!("{STUDY}{part}");
+    let folder = folder(&text);
+    let served = serve(folder.path());
+    let surface = |text: &str, analysis: &str, frame: u32| {
+        let of = json!({ "text": text, "analysis": analysis, "frame": frame, "frames": 4 });
+        served.post("/api/part-surface", of)
+    };
+    let view = json!({ "text": text, "analysis": "rim", "columns": true });
+    let view = served.post("/api/view", view).json();
+    assert_eq!(view["path"]["has_part"], true);
+    let expected = |frame: usize| {
+        let text = StudyText {
+            shown: "study.toml",
+            folder: folder.path(),
+            bytes: text.as_bytes(),
+        };
+        let question = PartSurfaceQuestion {
+            analysis: Some("rim"),
+            frame,
+            frames: 4,
+        };
+        let found = PartCache::default().surface(text, &question, &PathCache::default(), Watch::NONE);
+        found.unwrap()
+    };
+    for frame in [4, 2, 0] {
+        let given = surface(&text, "rim", frame);
+        assert_eq!(given.status, 200, "{}", given.text());
+        assert_eq!(given.header("content-type").unwrap(), "application/octet-stream");
+        assert!(given.body == expected(frame as usize), "frame {frame}");
+    }
+    for (text, analysis, frame, message) in [
+        (&text[..], "rim", 5, "frame 5 is out of range: 0 to 4"),
+        (&text, "plate", 4, "the analysis `plate` has no `machined_part`"),
+        (STUDY, "rim", 4, "the analysis `rim` has no `machined_part`"),
+    ] {
+        let refused = surface(text, analysis, frame);
+        assert_eq!((refused.status, refused.kind().as_str()), (400, "invalid-input"));
+        assert_eq!(refused.json()["error"]["message"], message);
+    }
 }
 
 #[test]

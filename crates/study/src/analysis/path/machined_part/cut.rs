@@ -1,5 +1,9 @@
 //! The part of a path as it was followed.
 
+use std::borrow::Cow;
+
+use armill_core::path::Track;
+
 use crate::analysis::path::PathAnalysis;
 use crate::analysis::path::run::PathResult;
 use crate::analysis::runner::Runner;
@@ -11,11 +15,16 @@ impl Runner<'_> {
     /// # Errors
     /// As [`Runner::machined_part`].
     pub fn cut_part(&self, analysis: &PathAnalysis, found: &mut PathResult) -> Result<(), StudyError> {
-        let applied = found.searched.as_ref().filter(|searched| searched.applied);
-        let turned = applied.map(|searched| searched.posture.turned(&analysis.track));
-        let track = turned.as_ref().unwrap_or(&analysis.track);
+        let track = &track_of(analysis, found);
         let part = self.machined_part(analysis, track, (track, &found.along), found.motion.as_ref())?;
         found.machined_part = part.map(Box::new);
         Ok(())
     }
+}
+
+/// The track of a path as it was followed: with the spins of its search, if these are applied.
+pub(super) fn track_of<'a>(analysis: &'a PathAnalysis, found: &PathResult) -> Cow<'a, Track> {
+    let applied = found.searched.as_ref().filter(|searched| searched.applied);
+    let turned = applied.map(|searched| searched.posture.turned(&analysis.track));
+    turned.map_or(Cow::Borrowed(&analysis.track), Cow::Owned)
 }

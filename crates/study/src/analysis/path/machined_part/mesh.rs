@@ -19,7 +19,7 @@ pub struct PartMesh {
     /// Standard uncertainty of each, m; not a number where it is not known.
     pub uncertainties: Vec<f64>,
     /// The point of the path whose move made the surface of the part at each vertex; none where no move did.
-    pub made_by: Vec<Option<usize>>,
+    pub made_by: Vec<Option<u32>>,
 }
 
 /// Triangles at most: fluid in viewers.
@@ -67,7 +67,7 @@ where
             .collect();
         let made_by = |vertex: usize| {
             let mut points = mesh.points_of(vertex).iter();
-            points.find_map(|point| found.get(*point as usize)?.as_ref()?.made_by.move_index())
+            points.find_map(|point| Some(found.get(*point as usize)?.as_ref()?.made_by.move_index()? as u32))
         };
         let values = |of_points: &[f64]| {
             let values = mesh.vertex_values(of_points).into_iter();

@@ -11,7 +11,8 @@ use armill_core::nalgebra::Vector3;
 use armill_core::path::{Shape, Track};
 use armill_core::removal::{DexelPart, EndOrigin, MoveRemoval, RemovalError, StockSolid};
 use armill_core::robot::Robot;
-use armill_core::source::Deviation;
+use armill_core::source::{Deviation, MotionDisplacement};
+use armill_core::watch::{Cancelled, Watch};
 
 use super::mesh::{ComparedSurface, MOST_TRIANGLES, PartMesh};
 use super::scan::{self, ScanComparison};
@@ -109,32 +110,12 @@ impl Runner<'_> {
         let Some(machined) = &analysis.machined_part else {
             return Ok(None);
         };
-        let setting = &analysis.setting;
-        let displacement = |index: usize| setting.motion_displacement(motion, index);
-        let followed = FollowedPath {
-            arm: self.question(setting).arm,
-            uncertainty: setting.uncertainty,
-            track,
-            along,
-            motion: &displacement,
-        };
-        let mut deviations = followed.deviations(self.watch)?;
-        let (track, nominal) = match analysis.shape() {
-            Some(shape @ Shape::Circle { .. }) => {
-                deviations.extend(deviations.first().copied());
-                (track.closed(shape.length()), nominal.closed(shape.length()))
-            }
-            _ => (track.clone(), nominal.clone()),
-        };
+        let displacement = |index: usize| analysis.setting.motion_displacement(motion, index);
+        let followed = self.followed(analysis, (track, along), &displacement);
+        let deviations = tip_deviations(analysis, &followed, self.watch)?;
+        let (track, nominal) = (cut_track(analysis, track), cut_track(analysis, nominal));
         let cut = self.cut(machined, [&track, &nominal], &deviations);
-        let refused = |error: RemovalError| match error {
-            RemovalError::Cancelled(cancelled) => StudyError::from(cancelled),
-            error => StudyError::value(
-                format!("{}: {error}", analysis.shown()),
-                "check `machined_part`: stock, cell_mm, tool",
-            ),
-        };
-        let cut = cut.map_err(refused)?;
+        let cut = cut.map_err(|error| refused(analysis, error))?;
         let points = along.answers.points.len();
         let shares = |point: &SurfaceDeviation| {
             let index = point.made_by.move_index()? % points;
@@ -164,7 +145,8 @@ impl Runner<'_> {
             deviations,
             track,
         };
-        part.mesh = part.triangles(self.robot, analysis, machined).map_err(refused)?;
+        let mesh = part.triangles(self.robot, analysis, machined);
+        part.mesh = mesh.map_err(|error| refused(analysis, error))?;
         if let Some(scan) = &machined.scan {
             let found = part.measured(scan, machined, |index| followed.deviation_at(index % points));
             let found = found.map_err(|error| {
@@ -174,6 +156,22 @@ impl Runner<'_> {
             part.scan = Some(found?);
         }
         Ok(Some(part))
+    }
+
+    /// The path of an analysis as it is followed; `motion`: the displacement by the motion at a point, if there is one.
+    pub(super) fn followed<'a>(
+        &'a self,
+        analysis: &'a PathAnalysis,
+        (track, along): (&'a Track, &'a AlongPath),
+        motion: &'a (dyn Fn(usize) -> Option<MotionDisplacement> + Sync),
+    ) -> FollowedPath<'a> {
+        FollowedPath {
+            arm: self.question(&analysis.setting).arm,
+            uncertainty: analysis.setting.uncertainty,
+            track,
+            along,
+            motion,
+        }
     }
 
     fn cut(
@@ -215,8 +213,43 @@ impl Runner<'_> {
     }
 }
 
+/// The deviation of the tool at each point of a path as it is cut.
+///
+/// # Errors
+/// Cancelled by the watch.
+pub(super) fn tip_deviations(
+    analysis: &PathAnalysis,
+    followed: &FollowedPath<'_>,
+    watch: Watch<'_>,
+) -> Result<Vec<Option<TipDeviation>>, Cancelled> {
+    let mut deviations = followed.deviations(watch)?;
+    if let Some(Shape::Circle { .. }) = analysis.shape() {
+        deviations.extend(deviations.first().copied());
+    }
+    Ok(deviations)
+}
+
+/// The path that a part is cut along: closed if it is a circle.
+pub(super) fn cut_track(analysis: &PathAnalysis, track: &Track) -> Track {
+    match analysis.shape() {
+        Some(shape @ Shape::Circle { .. }) => track.closed(shape.length()),
+        _ => track.clone(),
+    }
+}
+
+/// Why a part of this analysis cannot be cut.
+pub(crate) fn refused(analysis: &PathAnalysis, error: RemovalError) -> StudyError {
+    match error {
+        RemovalError::Cancelled(cancelled) => StudyError::from(cancelled),
+        error => StudyError::value(
+            format!("{}: {error}", analysis.shown()),
+            "check `machined_part`: stock, cell_mm, tool",
+        ),
+    }
+}
+
 /// How far a turning axis may be off, m.
-fn turn_tolerance(machined: &MachinedSetting) -> f64 {
+pub(super) fn turn_tolerance(machined: &MachinedSetting) -> f64 {
     (TURN * machined.cell).max(LEAST_TURN)
 }
 

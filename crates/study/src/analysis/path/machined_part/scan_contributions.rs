@@ -124,7 +124,7 @@ pub(super) fn contributions(
 /// The point of the path whose move made the surface at a place of the mesh: that of the nearest vertex.
 pub(super) fn move_at(mesh: &PartMesh, place: &MeshPlace) -> Option<usize> {
     let nearest = (0..3).max_by(|one, other| place.weights[*one].total_cmp(&place.weights[*other]))?;
-    mesh.made_by[place.vertices[nearest] as usize]
+    Some(mesh.made_by[place.vertices[nearest] as usize]? as usize)
 }
 
 impl ScanContributions {
