@@ -24,7 +24,7 @@ const OUT: f64 = 1e-6;
 /// Heights are found to this, m.
 const HEIGHT: f64 = 1e-6;
 /// Places at which the strip ahead is compared.
-const PLACES: usize = 150;
+const PLACES: usize = 60;
 
 /// The engagement at each point, by the height map; what is left of it, m^3.
 fn by_height_map(read: &Read) -> (Vec<PassEngagement>, f64) {
