@@ -50,8 +50,7 @@ impl Resolver<'_> {
                 return Ok(None);
             }
         };
-        let diagonal = (corners[1] - corners[0]).norm();
-        let tools = tools::resolve(log, table.tool.as_ref(), analysis, diagonal);
+        let tools = tools::resolve(log, table.tool.as_ref(), analysis, corners);
         let (Some(nominal), Some(tools)) = (nominal, tools) else {
             return Ok(None);
         };

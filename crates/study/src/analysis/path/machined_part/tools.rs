@@ -2,6 +2,8 @@
 
 use armill_core::load::{CuttingError, EndMillBody};
 use armill_core::machined::PathTool;
+use armill_core::nalgebra::{Point3, Unit, Vector3};
+use armill_core::path::Track;
 use armill_core::removal::ToolSolid;
 use armill_core::units::{from_deg, from_mm};
 
@@ -12,19 +14,20 @@ use crate::input::problem_log::ProblemLog;
 const KEY: &str = "machined_part.tool";
 const HINT: &str = "tool = { diameter_mm = 10, corner_radius_mm = 5 }, or a [cut] with its cutter";
 
-/// A tool without flutes of its own height is so much longer than the diagonal of the stock.
-const LONGER: f64 = 1.5;
+/// A tool without flutes of its own height is so much longer than what is in the stock at the points of the path.
+const LONGER: f64 = 1.2;
 
-/// The tools of a path that clear a stock with this diagonal (m); `None` if they have problems.
+/// The tools of a path through a stock between these corners (m); `None` if they have problems.
 pub(super) fn resolve(
     log: &mut ProblemLog<'_>,
     table: Option<&PartToolTable>,
     analysis: &PathAnalysis,
-    diagonal: f64,
+    corners: [Point3<f64>; 2],
 ) -> Option<Vec<PathTool>> {
     let bodies = bodies(log, table, analysis)?;
     let point = point_angle(table, analysis);
-    let height = LONGER * diagonal;
+    let radius = bodies.iter().map(|(_, body)| body.radius()).fold(0.0, f64::max);
+    let height = LONGER * height_in_stock(&analysis.track, corners, radius) + 4.0 * radius;
     let tools = bodies.into_iter().map(|(first, body)| {
         let (cutting, clear) = solids(table, &body, point, height)?;
         Ok(PathTool {
@@ -37,6 +40,39 @@ pub(super) fn resolve(
     tools
         .map_err(|error| log.problem(KEY, error.to_string(), HINT))
         .ok()
+}
+
+/// Largest height above the tip at which a tool of this radius is in the stock, at the points of the path and at the ends of its rapids, m. A longer tool cuts the same part, but where its axis turns it takes
+/// more pieces.
+fn height_in_stock(track: &Track, corners: [Point3<f64>; 2], radius: f64) -> f64 {
+    let (placing, path) = (&track.placing, &track.path);
+    let points = path
+        .points
+        .iter()
+        .map(|point| (point.at, placing.path_spindle(point)));
+    let begins = (0..path.points.len()).filter(|index| path.begins(*index));
+    let rapids = begins.zip(&path.rapids).flat_map(|(index, rapids)| {
+        let axis = placing.path_spindle(&path.points[index]);
+        let moves = rapids.moves.iter();
+        moves.map(move |rapid| {
+            (
+                rapid.end,
+                rapid.axis.filter(|_| !placing.keeps_axis).unwrap_or(axis),
+            )
+        })
+    });
+    let leaves_at = |(tip, axis): (Point3<f64>, Unit<Vector3<f64>>)| {
+        let along = |k: usize| {
+            let wall = match axis[k] > 0.0 {
+                true => corners[1][k] + radius,
+                false => corners[0][k] - radius,
+            };
+            let height = (wall - tip[k]) / axis[k];
+            if axis[k] == 0.0 { f64::INFINITY } else { height }
+        };
+        along(0).min(along(1)).min(along(2))
+    };
+    points.chain(rapids).map(leaves_at).fold(0.0, f64::max)
 }
 
 /// The end mills, or the bodies of drills, each with its first point.
