@@ -3,6 +3,7 @@
 use armill_core::machined::{PartComparison, PointDeviation};
 use armill_core::nalgebra::{Point3, Vector3};
 use armill_core::removal::{DexelPart, EndOrigin, RemovalError, SurfacePoint};
+use armill_core::watch::{Cancelled, Watch};
 use rayon::prelude::*;
 
 /// A surface with its deviation, frame of the path.
@@ -18,7 +19,7 @@ pub struct PartMesh {
     pub deviations: Vec<f64>,
     /// Standard uncertainty of each, m; not a number where it is not known.
     pub uncertainties: Vec<f64>,
-    /// The point of the path whose move made the surface of the part at each vertex; none of the stock, and where no deviation is known.
+    /// The point of the path whose move made the surface at each vertex, of the part where that is known, else of the nominal part; none of the stock and of a mesh.
     pub made_by: Vec<Option<u32>>,
 }
 
@@ -44,19 +45,28 @@ where
     /// The surface with at most so many triangles.
     ///
     /// # Errors
-    /// A part that is too large for a mesh.
-    pub(super) fn triangles(&self, most_triangles: usize) -> Result<PartMesh, RemovalError> {
+    /// A part that is too large for a mesh; cancelled by the watch.
+    pub(super) fn triangles(
+        &self,
+        most_triangles: usize,
+        watch: Watch<'_>,
+    ) -> Result<PartMesh, RemovalError> {
         let stride = self.nominal.mesh_stride(most_triangles)?;
         let (comparison, is_known) = (&self.comparison, self.is_known);
         let normal = |point: &SurfacePoint| comparison.nominal_normal(point);
         let mesh = self.nominal.surface_mesh(stride, normal)?;
         let at = |index: usize| is_known.get(index).is_none_or(|known| *known);
         let found = |point: &SurfacePoint| {
+            if watch.is_cancelled() {
+                return Err(Cancelled);
+            }
             let index = point.origin.move_index();
             let known = index.is_none_or(|index| at(index) && at(index.saturating_sub(1)));
-            known.then(|| comparison.deviation_at(point)).flatten()
+            Ok(known.then(|| comparison.deviation_at(point)).flatten())
         };
-        let of_points: Vec<Option<PointDeviation>> = mesh.points.par_iter().map(found).collect();
+        let of_points: Result<Vec<Option<PointDeviation>>, Cancelled> =
+            mesh.points.par_iter().map(found).collect();
+        let of_points = of_points?;
         let deviation = |found: &Option<PointDeviation>| found.map_or(f64::NAN, |found| found.deviation);
         let of_u = |(point, found): (&SurfacePoint, &Option<PointDeviation>)| {
             let (made_by, normal) = (found.as_ref().map(|found| found.made_by), normal(point));
@@ -66,9 +76,10 @@ where
         };
         let of_u: Vec<f64> = mesh.points.iter().zip(&of_points).map(of_u).collect();
         let made_by = |vertex: usize| {
-            let points = mesh.points_of(vertex).iter();
-            let moves = points.filter_map(|point| of_points[*point as usize]?.made_by.move_index());
-            moves.map(|index| index as u32).next()
+            let points = || mesh.points_of(vertex).iter().map(|point| *point as usize);
+            let of_part = points().find_map(|point| of_points[point]?.made_by.move_index());
+            let of_nominal = || points().find_map(|point| mesh.points[point].origin.move_index());
+            of_part.or_else(of_nominal).map(|index| index as u32)
         };
         let made_by = (0..mesh.vertices.len()).map(made_by).collect();
         let values = |of_points: &[f64]| {
