@@ -4,7 +4,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use std::path::{Path, PathBuf};
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use armill_core::watch::Watch;
 use armill_study::StudyError;
@@ -209,6 +209,28 @@ fn a_cancelled_request_leaves_what_was_kept() {
     }
     assert!(pocket.frame(&parts, 1, 3) == before);
     assert!(pocket.frame(&parts, 2, 3) == pocket.frame(&PartCache::default(), 2, 3));
+}
+
+#[test]
+fn a_finished_part_that_is_cancelled_under_way_is_cut_again() {
+    let pocket = Pocket::new();
+    let (parts, paths) = (PartCache::default(), PathCache::default());
+    // The path is kept: what follows is the part alone.
+    let stock = pocket.frame(&parts, 0, 1);
+    let cancel = AtomicBool::new(false);
+    let watch = Watch {
+        finished: &|_| cancel.store(true, Ordering::Relaxed),
+        cancel: &cancel,
+    };
+    let question = PartSurfaceQuestion {
+        analysis: Some("pocket"),
+        frame: 1,
+        frames: 1,
+    };
+    let refused = parts.surface(pocket.text(), &question, &paths, watch);
+    assert!(matches!(refused, Err(StudyError::Cancelled(_))), "{refused:?}");
+    assert!(pocket.frame(&parts, 0, 1) == stock);
+    assert!(pocket.frame(&parts, 1, 1) == pocket.frame(&PartCache::default(), 1, 1));
 }
 
 #[test]
