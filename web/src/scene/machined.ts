@@ -129,7 +129,7 @@ export class MachinedView {
 
 /** As that of the bodies, with vertices displaced by `magnified` times their offset. */
 function material(magnified: { value: number }): THREE.MeshStandardMaterial {
-  const made = new THREE.MeshStandardMaterial({ color: new THREE.Color().setScalar(UNDER_LIGHT), roughness: 0.75, metalness: 0, vertexColors: true, side: THREE.DoubleSide });
+  const made = new THREE.MeshStandardMaterial({ color: new THREE.Color().setScalar(UNDER_LIGHT), roughness: 0.75, metalness: 0, vertexColors: true, flatShading: true, side: THREE.DoubleSide });
   made.onBeforeCompile = (shader) => {
     shader.uniforms["magnified"] = magnified;
     shader.vertexShader = shader.vertexShader

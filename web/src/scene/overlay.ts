@@ -25,7 +25,7 @@ export function overlay(view: SceneView, live: Live, part: PartState): HTMLEleme
   const legendBox = h("div", { class: "legend", role: "img" });
   const layer = h("select", { id: "layer", "aria-label": "Colours show" }, Object.entries(LAYERS).map(([key, { title }]) => h("option", { value: key }, title)));
   layer.addEventListener("change", () => live.chooseLayer(layer.value as LayerKey));
-  const partLegend = h("div", { class: "legend part-legend", role: "img", hidden: true });
+  const partLegend = h("div", { class: "part-legend", role: "img", hidden: true });
   const colours = h("div", { class: "colours card" }, partLegend, layer, legendBox);
   const tip = h("div", { class: "tip card", hidden: true });
   const magnified = h("output", {}, times(view.show.magnified));
@@ -244,7 +244,7 @@ function valuesOfPart({ path }: Live, { surface, quantity }: PartState, hit: Hit
     }
   }
   const line = path?.get("line")?.[point];
-  rows.push(["Made by", point < 0 ? "the stock: not cut" : line === undefined || Number.isNaN(line) ? `point ${point + 1}` : `line ${line}`]);
+  rows.push(["Made by", point < 0 ? (surface.about.part?.nominal === "part" ? "not known" : "the stock: not cut") : line === undefined || Number.isNaN(line) ? `point ${point + 1}` : `line ${line}`]);
   const operations = path?.about.operations ?? [];
   const operation = point < 0 ? undefined : operations[lastFrom(operations, point)];
   if (operation?.name) rows.push(["Operation", operation.name]);

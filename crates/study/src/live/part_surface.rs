@@ -11,7 +11,7 @@
 //! | `triangles` | three vertices each, counter-clockwise seen from outside; whole numbers |
 //! | `xyz_mm` | vertices, frame of the program |
 //! | `normal` | out of the material: x, y, z in three signed bytes, 127 for 1, and a fourth that is 0 |
-//! | `point` | the point of the path whose move made the surface, from 0; whole number, -1 of the stock or where it is not known |
+//! | `point` | the point of the path whose move made the surface, from 0; whole number, -1 of the stock and where it is not known |
 //! | `deviation_um`, `u_um` | deviation from the nominal surface along the normal and its standard uncertainty; only of the finished part |
 //! | `measured_um`, `measured_less_predicted_um` | deviation of a scan, and what it differs from the prediction after the same alignment |
 //!
@@ -190,9 +190,9 @@ pub(super) fn in_process_surface(
         triangles: &mesh.triangles,
     };
     let made_by = |vertex: usize| {
-        let of_vertex = mesh.points_of(vertex).iter();
-        let moves = of_vertex.filter_map(|point| mesh.points[*point as usize].origin.move_index());
-        moves.map(|index| index as u32).next()
+        let mut of_vertex = mesh.points_of(vertex).iter();
+        let index = of_vertex.find_map(|point| mesh.points[*point as usize].origin.move_index());
+        index.map(|index| index as u32)
     };
     let columns = Columns::of(&shape, (0..mesh.vertices.len()).map(made_by));
     columns.finished(PartSurfaceHeader {

@@ -3,6 +3,7 @@
 use armill_core::machined::{PartComparison, PointDeviation, TipDeviation, is_known};
 use armill_core::nalgebra::{Point3, Vector3};
 use armill_core::removal::{DexelPart, EndOrigin, RemovalError, SurfacePoint};
+use armill_core::watch::{Cancelled, Watch};
 use rayon::prelude::*;
 
 /// A surface with its deviation, frame of the path.
@@ -18,7 +19,7 @@ pub struct PartMesh {
     pub deviations: Vec<f64>,
     /// Standard uncertainty of each, m; not a number where it is not known.
     pub uncertainties: Vec<f64>,
-    /// The point of the path whose move made the surface of the part at each vertex; none where no move did.
+    /// The point of the path whose move made the surface at each vertex, of the part where that is known, else of the nominal part; none of the stock and of a mesh.
     pub made_by: Vec<Option<u32>>,
 }
 
@@ -44,17 +45,26 @@ where
     /// The surface with at most so many triangles.
     ///
     /// # Errors
-    /// A part that is too large for a mesh.
-    pub(super) fn triangles(&self, most_triangles: usize) -> Result<PartMesh, RemovalError> {
+    /// A part that is too large for a mesh; cancelled by the watch.
+    pub(super) fn triangles(
+        &self,
+        most_triangles: usize,
+        watch: Watch<'_>,
+    ) -> Result<PartMesh, RemovalError> {
         let stride = self.nominal.mesh_stride(most_triangles)?;
         let comparison = &self.comparison;
         let normal = |point: &SurfacePoint| comparison.nominal_normal(point);
         let mesh = self.nominal.surface_mesh(stride, normal)?;
         let deviation = |point: &SurfacePoint| {
-            let found = comparison.deviation_at(point)?;
-            is_known(self.deviations, found.made_by).then_some(found)
+            if watch.is_cancelled() {
+                return Err(Cancelled);
+            }
+            let found = comparison.deviation_at(point);
+            Ok(found.filter(|found| is_known(self.deviations, found.made_by)))
         };
-        let found: Vec<Option<PointDeviation>> = mesh.points.par_iter().map(deviation).collect();
+        let found: Result<Vec<Option<PointDeviation>>, Cancelled> =
+            mesh.points.par_iter().map(deviation).collect();
+        let found = found?;
         let of_points: Vec<f64> = (found.iter())
             .map(|found| found.map_or(f64::NAN, |found| found.deviation))
             .collect();
@@ -66,8 +76,10 @@ where
             .map(|of| of_u(of).unwrap_or(f64::NAN))
             .collect();
         let made_by = |vertex: usize| {
-            let mut points = mesh.points_of(vertex).iter();
-            points.find_map(|point| Some(found.get(*point as usize)?.as_ref()?.made_by.move_index()? as u32))
+            let points = || mesh.points_of(vertex).iter().map(|point| *point as usize);
+            let of_part = points().find_map(|point| found[point]?.made_by.move_index());
+            let of_nominal = || points().find_map(|point| mesh.points[point].origin.move_index());
+            of_part.or_else(of_nominal).map(|index| index as u32)
         };
         let values = |of_points: &[f64]| {
             let values = mesh.vertex_values(of_points).into_iter();

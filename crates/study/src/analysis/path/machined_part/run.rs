@@ -145,7 +145,7 @@ impl Runner<'_> {
             deviations,
             track,
         };
-        let mesh = part.triangles(self.robot, analysis, machined);
+        let mesh = part.triangles(self, analysis, machined);
         part.mesh = mesh.map_err(|error| refused(analysis, error))?;
         if let Some(scan) = &machined.scan {
             let found = part.measured(scan, machined, |index| followed.deviation_at(index % points));
@@ -312,7 +312,7 @@ impl MachinedPart {
     /// The nominal surface as triangles.
     fn triangles(
         &self,
-        robot: &Robot,
+        runner: &Runner<'_>,
         analysis: &PathAnalysis,
         machined: &MachinedSetting,
     ) -> Result<PartMesh, RemovalError> {
@@ -320,9 +320,9 @@ impl MachinedPart {
             nominal: &self.nominal,
             comparison: self.comparison(machined),
             deviations: &self.deviations,
-            variance: self.variance(robot, analysis),
+            variance: self.variance(runner.robot, analysis),
         };
-        compared.triangles(MOST_TRIANGLES)
+        compared.triangles(MOST_TRIANGLES, runner.watch)
     }
 
     /// Variance of the deviation along a normal (path) of a surface that a move makes, m^2: of the position of the tip there. `None` where it is not known.
