@@ -4334,6 +4334,18 @@ export interface components {
             worst_places: components["schemas"]["WorstPlaceAnswer"][];
             /** @description The features of the path, on the surface that comes out. */
             features: components["schemas"]["SurfaceFeatureAnswer"][];
+            /** @description Thickness of the walls that the study names. */
+            walls: components["schemas"]["WallThicknessAnswer"][];
+            /**
+             * Format: double
+             * @description Largest theoretical height of the marks of the teeth along the feed, of faces along the tool; none without a cut.
+             */
+            feed_marks_um: number | null;
+            /**
+             * Format: double
+             * @description Largest vibration of the tool across its axis under its teeth, from its mean position: it adds at most twice this to the height of the roughness. None without `[vibration]`.
+             */
+            vibration_um: number | null;
             /** @description The measured part; none if the study names no scan. */
             scan: components["schemas"]["ScanAnswer"] | null;
             /** @description What was assumed. */
@@ -4455,6 +4467,63 @@ export interface components {
                 number,
                 number
             ] | null;
+            /**
+             * Format: double
+             * @description Largest theoretical height of the marks of the teeth along the feed, of faces along the tool; none without a cut.
+             */
+            feed_marks_um: number | null;
+            /**
+             * Format: double
+             * @description Largest vibration of the tool across its axis under the teeth that made it, from its mean position: it adds at most twice this to the height of the roughness. None without `[vibration]`.
+             */
+            vibration_um: number | null;
+            /** @description Why there is no result. */
+            missing: string | null;
+        };
+        /** @description The thickness of a wall. */
+        WallThicknessAnswer: {
+            /** @description Its name. */
+            name: string;
+            /** @description The features of its faces. */
+            between: [
+                string,
+                string
+            ];
+            /**
+             * Format: uint
+             * @description Points of the first face with an opposite one.
+             */
+            points: number;
+            /**
+             * Format: double
+             * @description Nominal thickness, mean.
+             */
+            nominal_mm: number | null;
+            /**
+             * Format: double
+             * @description Least two-point size that comes out.
+             */
+            least_mm: number | null;
+            /**
+             * Format: double
+             * @description Mean.
+             */
+            mean_mm: number | null;
+            /**
+             * Format: double
+             * @description Largest.
+             */
+            largest_mm: number | null;
+            /**
+             * Format: double
+             * @description Mean less the nominal thickness.
+             */
+            change_um: number | null;
+            /**
+             * Format: double
+             * @description Standard uncertainty of the change, at most; none if it is not known.
+             */
+            u_um: number | null;
             /** @description Why there is no result. */
             missing: string | null;
         };
@@ -4507,6 +4576,8 @@ export interface components {
             middle: components["schemas"]["AgreementAnswer"];
             /** @description Below the second. */
             short: components["schemas"]["AgreementAnswer"];
+            /** @description What joints, springs and motion contribute to the prediction, after the same alignment. */
+            contributions: components["schemas"]["ScanContributionAnswer"][];
             /** @description Each feature of the path with points. */
             features: components["schemas"]["ScanFeatureAnswer"][];
             /** @description What was assumed. */
@@ -4577,6 +4648,31 @@ export interface components {
              * @description Correlation.
              */
             correlation: number | null;
+        };
+        /** @description What a contributor explains of the measured deviations. */
+        ScanContributionAnswer: {
+            /** @description The contributor, or `tool as programmed`. */
+            name: string;
+            /**
+             * Format: double
+             * @description Largest deviation by it, with its sign.
+             */
+            largest_um: number;
+            /**
+             * Format: double
+             * @description Root mean square.
+             */
+            rms_um: number;
+            /**
+             * Format: double
+             * @description Share of the mean square of the measured deviations that it explains alone: below 0 if it is worse than nothing.
+             */
+            explained_alone: number | null;
+            /**
+             * Format: double
+             * @description Share that the prediction explains without it.
+             */
+            explained_without: number | null;
         };
         /** @description A feature, measured and predicted. */
         ScanFeatureAnswer: {

@@ -26,14 +26,9 @@ impl Pocket {
     fn new() -> Pocket {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies/r2000ic-pocket");
         let text = std::fs::read_to_string(folder.join("study.toml")).unwrap();
-        let [from, to] = STOCK;
-        let part = format!(
-            "machined_part = {{ cell_mm = 2, stock = {{ box_mm = {{ from = {from:?}, to = {to:?} }} }} }}\n\n[place]"
-        );
-        Pocket {
-            folder,
-            text: text.replace("[place]", &part),
-        }
+        let coarse = text.replace("cell_mm = 0.5", "cell_mm = 2");
+        assert_ne!(coarse, text);
+        Pocket { folder, text: coarse }
     }
 
     fn text(&self) -> StudyText<'_> {
@@ -262,10 +257,11 @@ fn a_view_has_no_part_whatever_was_requested_before() {
 #[test]
 fn frames_out_of_range_and_analyses_without_a_part_are_refused() {
     let pocket = Pocket::new();
-    let without = pocket
-        .text
-        .lines()
-        .filter(|line| !line.starts_with("machined_part"));
+    let without = pocket.text.lines().filter(|line| {
+        !["[analysis.machined_part]", "cell_mm =", "stock ="]
+            .iter()
+            .any(|key| line.starts_with(key))
+    });
     let without: String = without.map(|line| format!("{line}\n")).collect();
     let refused = |text: &str, frame: usize, frames: usize| {
         let text = StudyText {

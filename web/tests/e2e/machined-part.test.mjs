@@ -6,12 +6,13 @@ import { readFileSync, writeFileSync } from "node:fs";
 import { after, before, test } from "node:test";
 import { client, difference, launch, open, serious, serve, settled, um } from "./setup.mjs";
 
-const PART = "machined_part = { cell_mm = 1, stock = { box_mm = { from = [-100, -70, -20], to = [150, 70, 0] } } }\n\n[place]";
+/** The pocket of the examples with coarse cells, and further keys of its part. */
+const coarse = (given, keys = "") => given.replace("cell_mm = 0.5", `cell_mm = 1\n${keys}`);
 /** Depth of the pocket, mm. */
 const FLOOR_MM = -6;
 let server, text, answer, count, lines, browser;
 before(async () => {
-  server = await serve((given) => given.replace("[place]", PART), "r2000ic-pocket");
+  server = await serve((given) => coarse(given), "r2000ic-pocket");
   text = readFileSync(`${server.folder}/study.toml`, "utf8");
   const ask = client(server.url);
   answer = (await ask("POST", "/api/answer", { text, analysis: "pocket" })).paths[0].machined_part;
@@ -207,7 +208,7 @@ test("a change of the study cuts the part again; what cannot be cut is said in a
 
 test("with a scan, colours and surface show what was measured, and what differs from the prediction", async () => {
   // Points of the floor of the pocket, 60 um above it.
-  const own = await serve((given) => given.replace("[place]", PART.replace("stock =", 'scan = { file = "scan.xyz", align = "none" }, stock =')), "r2000ic-pocket");
+  const own = await serve((given) => coarse(given, 'scan = { file = "scan.xyz", align = "none" }'), "r2000ic-pocket");
   const ends = answer.worst_places.map(({ xyz_mm }) => xyz_mm);
   const [low, high] = [0, 1].map((k) => [Math.min(...ends.map((at) => at[k])) + 6, Math.max(...ends.map((at) => at[k])) - 6]);
   const grid = ([from, to]) => Array.from({ length: 60 }, (_, i) => from + ((to - from) * i) / 59);

@@ -68,7 +68,7 @@ impl std::fmt::Debug for KeptPart {
 }
 
 impl PartCache {
-    /// The surface of the part as [`part_surface`](mod@super::part_surface) describes it: after the points of the frame, or finished.
+    /// The surface of the part as `part_surface` describes it: after the points of the frame, or finished.
     ///
     /// # Errors
     /// A frame that is out of range; every problem of the text that concerns the analysis; an analysis without a machined
