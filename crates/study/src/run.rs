@@ -10,16 +10,18 @@ use crate::analysis::{Analysis, AnalysisData, AnalysisResult, Subject};
 use crate::error::StudyError;
 use crate::file::resolve::Study;
 
-/// The number of points of the study.
-///
-/// The points that the progress of `run` ends at: those of a path in a stock count twice, since the stock is cut in a
+/// The number of points of the study that are evaluated: those of a path in a stock count twice, since the stock is cut in a
 /// pass of its own.
-pub fn point_count(study: &Study) -> usize {
-    study
-        .analyses
-        .iter()
-        .map(|analysis| analysis.subject.points_to_evaluate() + machining_steps(analysis))
+pub fn points_to_evaluate(study: &Study) -> usize {
+    let analyses = study.analyses.iter();
+    analyses
+        .map(|analysis| analysis.subject.points_to_evaluate())
         .sum()
+}
+
+/// What the progress of [`run`] ends at: the points, and the moves that cut the parts of paths.
+pub fn point_count(study: &Study) -> usize {
+    points_to_evaluate(study) + study.analyses.iter().map(machining_steps).sum::<usize>()
 }
 
 /// Steps of the removal of the part of a path.

@@ -6,7 +6,7 @@
 
 use armill_formats::document::schema_json;
 use armill_study::file::format::StudyFile;
-use armill_study::run::point_count;
+use armill_study::run::points_to_evaluate;
 use armill_study::{StudyError, studies};
 
 use crate::arguments::CheckArguments;
@@ -32,7 +32,7 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<Outcome, StudyError> {
     };
     let (analyses, points) = (
         counted(study.analyses.len(), ["analysis", "analyses"]),
-        counted(point_count(&study), ["point", "points"]),
+        counted(points_to_evaluate(&study), ["point", "points"]),
     );
     say(&format!("{}: fine; {analyses}, {points}", found.shown));
     Ok(Outcome::Fine)
