@@ -62,7 +62,8 @@ test("a volume: sections with values under the pointer, a click sends the robot 
 });
 
 test("a path of 13 000 points: values under the pointer, a click sends the robot there, the force has its value", async () => {
-  const own = await serve((text) => text, "r2000ic-pocket");
+  // Without its part, which the tool path would cover.
+  const own = await serve((text) => text.replace(/\[analysis\.machined_part\][^]*?(?=\[place\])/, ""), "r2000ic-pocket");
   const page = await open(browser, own.url);
   const text = readFileSync(`${own.folder}/study.toml`, "utf8");
   const { scene } = await client(own.url)("POST", "/api/view", { text, analysis: "pocket" });
