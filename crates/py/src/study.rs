@@ -167,7 +167,7 @@ impl Study {
             .collect())
     }
 
-    /// -> int: points of all analyses and moves that cut parts, as progress counts them.
+    /// -> int: points and moves that progress counts.
     #[getter]
     fn point_count(&self, py: Python<'_>) -> PyResult<usize> {
         let study = self.checked(py).map_err(|error| exception(py, error))?;

@@ -416,7 +416,7 @@ class Study:
         """-> list of str: the names of its analyses."""
     @property
     def point_count(self) -> int:
-        """-> int: number of points of all analyses."""
+        """-> int: points and moves that progress counts."""
     @property
     def text(self) -> str:
         """-> str: the text of the file."""
