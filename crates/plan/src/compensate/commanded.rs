@@ -9,6 +9,7 @@ use armill_formats::table::{Column, ColumnData, Table};
 use armill_programs::Written;
 use armill_study::analysis::clearance::{LeastClearance, in_collision};
 use armill_study::analysis::holes::HolesAnalysis;
+use armill_study::analysis::path::to_measure::column;
 use armill_study::error::StudyError;
 use armill_study::file::resolve::Study;
 use armill_study::input::setting::Setting;
@@ -193,16 +194,6 @@ pub(super) fn caution(name: &str, largest_correction_um: f64) -> Option<String> 
             largest_correction_um / 1000.0
         )
     })
-}
-
-pub(super) fn column(name: &str, unit: Option<&str>, (decimals, data): (u8, ColumnData)) -> Column {
-    Column {
-        name: name.to_owned(),
-        unit: unit.map(str::to_owned),
-        description: String::new(),
-        decimals: Some(decimals),
-        data,
-    }
 }
 
 /// Positions of the tip and directions of the tool.

@@ -150,7 +150,8 @@ fn table(name: &str, path: &NominalPath<'_>, rows: &[Row]) -> Result<Table, Stud
     Ok(Table::new(name, columns)?)
 }
 
-fn column(name: &str, unit: Option<&str>, (decimals, data): (u8, ColumnData)) -> Column {
+/// A column of a table of a path; the page that describes the table says what it means.
+pub fn column(name: &str, unit: Option<&str>, (decimals, data): (u8, ColumnData)) -> Column {
     Column {
         name: name.to_owned(),
         unit: unit.map(str::to_owned),

@@ -19,7 +19,7 @@ use armill_core::units::{to_deg, to_mm, to_um};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::roughness::ToothMarks;
+use super::roughness::{ALONG_TOOL, ToothMarks};
 use super::run::MachinedPart;
 use super::setting::{MachinedSetting, NominalPart};
 use crate::analysis::path::PathAnalysis;
@@ -68,8 +68,7 @@ pub struct SurfaceFeatureAnswer {
     pub missing: Option<String>,
 }
 
-/// A face is along the tool where its normal is this much across it (cosine), and across the tool beyond the second.
-const ALONG_TOOL: f64 = 0.5;
+/// A face is across the tool where its normal is this much along it (cosine).
 const ACROSS_TOOL: f64 = 0.7;
 /// A wall is along the feed where its normal is this much across it (cosine): to 1.8 deg, so that a rounded end has no part in it.
 const STRAIGHT: f64 = 0.9995;

@@ -24,7 +24,7 @@ use crate::analysis::path::run::PathResult;
 use crate::analysis::vibration::SeriesVibration;
 
 /// A face is along the tool where its normal is this much across it (cosine).
-const ALONG_TOOL: f64 = 0.5;
+pub(super) const ALONG_TOOL: f64 = 0.5;
 
 /// Of a set of points; none where it is not known.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
