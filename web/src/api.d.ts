@@ -985,7 +985,7 @@ export interface paths {
                         [name: string]: unknown;
                     };
                     content: {
-                        "text/csv": string;
+                        "text/csv; charset=utf-8": string;
                     };
                 };
                 /** @description error */
@@ -1193,6 +1193,51 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/files": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** Files of the folder */
+        get: {
+            parameters: {
+                query?: never;
+                header?: never;
+                path?: never;
+                cookie?: never;
+            };
+            requestBody?: never;
+            responses: {
+                /** @description success */
+                200: {
+                    headers: {
+                        [name: string]: unknown;
+                    };
+                    content: {
+                        "application/json": components["schemas"]["Files"];
+                    };
+                };
+                /** @description error */
+                default: {
+                    headers: {
+                        [name: string]: unknown;
+                    };
+                    content: {
+                        "application/json": components["schemas"]["ErrorBody"];
+                    };
+                };
+            };
+        };
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/jobs": {
         parameters: {
             query?: never;
@@ -1375,51 +1420,6 @@ export interface paths {
                     };
                     content: {
                         "text/event-stream": string;
-                    };
-                };
-                /** @description error */
-                default: {
-                    headers: {
-                        [name: string]: unknown;
-                    };
-                    content: {
-                        "application/json": components["schemas"]["ErrorBody"];
-                    };
-                };
-            };
-        };
-        put?: never;
-        post?: never;
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/files": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        /** Files of the folder */
-        get: {
-            parameters: {
-                query?: never;
-                header?: never;
-                path?: never;
-                cookie?: never;
-            };
-            requestBody?: never;
-            responses: {
-                /** @description success */
-                200: {
-                    headers: {
-                        [name: string]: unknown;
-                    };
-                    content: {
-                        "application/json": components["schemas"]["Files"];
                     };
                 };
                 /** @description error */
@@ -6290,6 +6290,26 @@ export interface components {
              */
             kienzle_sets: number;
         };
+        /** @description The content of the folder. */
+        Files: {
+            /** @description By name; at most 2000. */
+            files: components["schemas"]["FileRow"][];
+        };
+        /** @description One file. */
+        FileRow: {
+            /** @description Its path in the folder, such as `out/report.html`. */
+            name: string;
+            /**
+             * Format: uint64
+             * @description Its size.
+             */
+            bytes: number;
+            /**
+             * Format: double
+             * @description Time since it was written.
+             */
+            modified_s_ago: number;
+        };
         /** @description Name of a new job. */
         JobBegun: {
             /** @description The last part of its path below `/api/jobs/`. */
@@ -6376,26 +6396,6 @@ export interface components {
             analysis: string | null;
             /** @description The changed values; none of a compensation, which is a program. */
             changes: components["schemas"]["ChangedValue"][];
-        };
-        /** @description The content of the folder. */
-        Files: {
-            /** @description By name; at most 2000. */
-            files: components["schemas"]["FileRow"][];
-        };
-        /** @description One file. */
-        FileRow: {
-            /** @description Its path in the folder, such as `out/report.html`. */
-            name: string;
-            /**
-             * Format: uint64
-             * @description Its size.
-             */
-            bytes: number;
-            /**
-             * Format: double
-             * @description Time since it was written.
-             */
-            modified_s_ago: number;
         };
         /** @description A file that was uploaded. */
         UploadedFile: {

@@ -7,6 +7,8 @@ import "./style/timeline.css";
 import "./style/spin-map.css";
 import "./style/tabs.css";
 import "./style/changes.css";
+import { Local } from "./browser/local";
+import { openingDialog, openStudy } from "./browser/opening";
 import { Kept } from "./changes/kept";
 import { undoKeys } from "./changes/keys";
 import { linkOf, stateOf } from "./changes/link";
@@ -14,9 +16,11 @@ import { Notices } from "./changes/notices";
 import { Pin } from "./changes/pin";
 import { tokenOfOthers } from "./changes/tabs";
 import { offerClass } from "./controls/assume";
-import { api, Refused, robotRows, takeToken, takeTokenOf, tokenNow } from "./server";
+import { answerLocally, api, Refused, robotRows, takeToken, takeTokenOf, tokenNow } from "./server";
 import { fill, h, s } from "./dom";
 import { fixed } from "./format";
+import { download } from "./download";
+import { takeDrops } from "./files/drop";
 import { JobStore } from "./jobs/store";
 import { Live } from "./live";
 import { problemSentence } from "./problem-words";
@@ -37,7 +41,8 @@ takeToken();
 startTheme(() => undefined);
 
 async function start(): Promise<void> {
-  if (tokenNow() === "") takeTokenOf(await tokenOfOthers(), true);
+  const local = document.querySelector("meta[name=armill-program]") ? await startLocally() : null;
+  if (!local && tokenNow() === "") takeTokenOf(await tokenOfOthers(), true);
   const linked = stateOf(location.hash);
   const opening = api.study();
   // The first paint does not wait for WebGL to start.
@@ -106,6 +111,10 @@ async function start(): Promise<void> {
   };
   const share = h("button", { type: "button", class: "icon share", "aria-label": "Copy a link to this state", title: "Copy a link to this state: text and analysis, without the token", onclick: () => void link() }, s("svg", { viewBox: "0 0 16 16", width: 16, height: 16, "aria-hidden": "true" }, s("path", { d: "M6.5 9.5 9.5 6.5M7 5l1.6-1.6a2.8 2.8 0 0 1 4 4L11 9M9 11l-1.6 1.6a2.8 2.8 0 0 1-4-4L5 7", fill: "none", stroke: "currentColor", "stroke-width": 1.5, "stroke-linecap": "round" })));
   undoKeys(live, () => kept.save());
+  const opening_dialog = local && openingDialog(local);
+  // What is saved on this page is kept by the browser alone: a file is for the user to keep.
+  const to_disk = local && h("button", { type: "button", class: "quiet small", title: "Download the study as it is shown", onclick: () => download("study.toml", new Blob([live.text], { type: "application/toml" })) }, "Download");
+  takeDrops({ live, notices, asStudy: async (files) => local !== null && openStudy(local, files) });
   const pace = h("span", { class: "pace", role: "status" });
   const sun = h("button", { type: "button", class: "icon theme", onclick: () => switchTheme(themed) });
   const themed = () => {
@@ -160,11 +169,12 @@ async function start(): Promise<void> {
   const content = h("main", {}, tabs.map((t) => t.root));
   fill(
     app,
-    h("header", { class: "top" }, h("a", { class: "brand", href: "#live", onclick: (e: Event) => (e.preventDefault(), go("live")) }, "armill"), title, assumed, changed, keep, h("span", { class: "steps" }, undo, redo, share, pin.button), others, nav, pace, sun),
+    h("header", { class: "top" }, h("a", { class: "brand", href: "#live", onclick: (e: Event) => (e.preventDefault(), go("live")) }, "armill"), title, assumed, changed, keep, opening_dialog?.button, to_disk, h("span", { class: "steps" }, undo, redo, share, pin.button), others, nav, pace, sun),
     notices.root,
     pin.root,
     h("div", { class: "banner-place" }, banner),
     content,
+    opening_dialog?.root,
   );
   go(location.hash.slice(1).split("&")[0] || "live");
   const study = await opening;
@@ -181,6 +191,14 @@ async function start(): Promise<void> {
   }
   if (study.is_fallback) notices.show("example", `This folder has no study: the page shows the example “${study.title ?? study.file}”. It can be changed, but not saved; \`armill new DIR\` makes a study of your own.`, [], true);
   if (study.problems.length > 0) go("study");
+}
+
+/** Answers requests in the page itself: the page has no server. */
+async function startLocally(): Promise<Local> {
+  const local = await Local.start();
+  answerLocally((method, path, body, signal) => local.answer(method, path, body, signal));
+  Object.assign(globalThis, { armill: { request: local.request.bind(local) } });
+  return local;
 }
 
 const painted = (): Promise<void> => new Promise((done) => {

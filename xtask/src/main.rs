@@ -22,6 +22,7 @@ mod fuzz;
 mod node;
 mod scale;
 mod serve;
+mod site;
 mod test;
 mod tidy;
 mod validate;
@@ -86,6 +87,11 @@ const TASKS: &[RepositoryTask] = &[
         name: "serve",
         about: serve::ABOUT,
         run: serve::run,
+    },
+    RepositoryTask {
+        name: "site",
+        about: site::ABOUT,
+        run: site::run,
     },
     RepositoryTask {
         name: "audit",

@@ -24,6 +24,13 @@ pub fn npm(arguments: &[&str]) -> Command {
     command
 }
 
+/// `node` with these arguments.
+pub fn node(arguments: &[&str]) -> Command {
+    let mut command = with_path("node");
+    command.args(arguments);
+    command
+}
+
 /// Why the page cannot be built here; `None` if it can.
 pub fn missing() -> Option<String> {
     let [major, minor] = OLDEST;

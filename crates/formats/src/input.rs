@@ -51,8 +51,20 @@ impl Identity {
 
     #[cfg(not(unix))]
     pub(crate) fn with(path: &Path, _: &Metadata) -> Option<Identity> {
-        path.canonicalize().ok().map(Self::Path)
+        real_path(path).ok().map(Self::Path)
     }
+}
+
+/// The path without links, from the root; of a file or folder that exists.
+///
+/// # Errors
+/// There is nothing at the path.
+pub fn real_path(path: &Path) -> io::Result<PathBuf> {
+    // WASI cannot resolve links, and the folder of a browser has none.
+    #[cfg(target_os = "wasi")]
+    return path.metadata().map(|_| path.to_owned());
+    #[cfg(not(target_os = "wasi"))]
+    path.canonicalize()
 }
 
 /// A file as it was when it was opened.

@@ -1,205 +1,123 @@
-//! All paths under `/api`: for each the handler that answers it, and its description.
+//! All paths under `/api`: the requests that are answered at once, and those that need a server.
 //!
-//! To add a path: a handler in the file of its subject, and a row in [`operations`].
+//! To add a path of a server: a handler in the file of its subject, and a row in [`of_server`].
 
 use std::sync::{Arc, LazyLock};
 
-use armill_study::answer::StudyAnswer;
-use armill_study::live::{
-    ChangedAnswer, LobesAnswer, OutlineAnswer, PicturesAnswer, PosturesAnswer, ReachableAnswer, SceneAnswer,
-    SpinMapAnswer, SpinSearchAnswer, TablesAnswer, ValuesAnswer, ViewAnswer,
-};
-use armill_study::materials::MaterialRow;
-use armill_study::robot_answers::RobotRow;
+use armill_api::{Description, JSON, JobAnswer, Method, Operation, Task, UploadedFile};
+use armill_core::watch::Watch;
 use axum::Router;
 use axum::body::Bytes;
-use axum::http::StatusCode;
+use axum::extract::State as Shared;
+use axum::http::HeaderMap;
 use axum::response::Response;
+use axum::routing::{MethodFilter, MethodRouter, on};
 use serde_json::Value;
 
-use crate::answers::{
-    AnalysisRequest, BodyMeshRequest, LobesRequest, MeshRequest, PartSurfaceRequest, PathColumnsRequest,
-    PictureRequest, PosturesRequest, TableRequest, ViewRequest,
-};
-use crate::files::{Files, TicketAnswer, TicketRequest, UploadedFile};
-use crate::job::JobAnswer;
-use crate::jobs::{JobBegun, JobList};
-use crate::openapi::{DELETE, GET, Operation, POST, PUT, describe};
-use crate::reply::{JSON, typed};
+use crate::body::WholeBody;
+use crate::error::{Answered, no_such_path, wrong_method};
+use crate::files::{self, TicketAnswer, TicketRequest};
+use crate::jobs::{self, JobBegun, JobList};
+use crate::reply::typed;
 use crate::state::State;
-use crate::study::{ChangeRequest, CheckRequest, StudyOnDisk, StudyUpdate, StudyVersion};
-use crate::task::Task;
-use crate::{answers, error, files, jobs, study};
 
-/// Every path, in the order of the files that answer them.
-fn operations() -> Vec<Operation> {
+/// A path with its handler.
+type Route = (Description, MethodRouter<Arc<State>>);
+
+/// The paths whose answers are files, events, or the work of the server itself.
+fn of_server() -> Vec<Route> {
+    use Method::{Delete, Get, Post, Put};
+    let path = Description::new;
+    let events = "Progress of a job: events `job`";
+    let ticket = "An address that opens one file once";
     vec![
-        Operation::new(GET, "/study", "The study on disk", study::read).answers::<StudyOnDisk>(),
-        Operation::new(PUT, "/study", "Writes the study", study::write)
-            .takes::<StudyUpdate>()
-            .answers::<StudyOnDisk>(),
-        Operation::new(GET, "/study/version", "The state of its file", study::version)
-            .answers::<StudyVersion>(),
-        Operation::new(POST, "/check", "What is in a text", study::check)
-            .takes::<CheckRequest>()
-            .answers::<OutlineAnswer>(),
-        Operation::new(POST, "/change", "A text with values changed", study::change)
-            .takes::<ChangeRequest>()
-            .answers::<ChangedAnswer>(),
-        Operation::new(
-            POST,
-            "/tables",
-            "The values of a text, each with its place",
-            study::of_tables,
-        )
-        .takes::<CheckRequest>()
-        .answers::<TablesAnswer>(),
-        Operation::new(GET, "/schema", "JSON schema of a study", study::schema),
-        Operation::new(
-            POST,
-            "/view",
-            "Answer, values and scene of an analysis after values are changed",
-            answers::of_view,
-        )
-        .takes::<ViewRequest>()
-        .answers::<ViewAnswer>(),
-        Operation::new(POST, "/mesh", "A shape of the robot", answers::mesh)
-            .takes::<MeshRequest>()
-            .sends("model/stl"),
-        Operation::new(
-            POST,
-            "/body-mesh",
-            "The mesh of a body of the cell",
-            answers::mesh_of_body,
-        )
-        .takes::<BodyMeshRequest>()
-        .sends("model/stl"),
-        Operation::new(POST, "/answer", "The answer to an analysis", answers::answer)
-            .takes::<AnalysisRequest>()
-            .answers::<StudyAnswer>(),
-        Operation::new(POST, "/values", "The settings of an analysis", answers::of_values)
-            .takes::<AnalysisRequest>()
-            .answers::<ValuesAnswer>(),
-        Operation::new(POST, "/pose", "The arm at one place", answers::pose)
-            .takes::<PosturesRequest>()
-            .answers::<PosturesAnswer>(),
-        Operation::new(
-            POST,
-            "/lobes",
-            "The stability of the cut at one place",
-            answers::lobes,
-        )
-        .takes::<LobesRequest>()
-        .answers::<LobesAnswer>(),
-        Operation::new(
-            POST,
-            "/path-columns",
-            "Columns of a path as numbers of 4 bytes, little-endian",
-            answers::path_columns,
-        )
-        .takes::<PathColumnsRequest>()
-        .sends("application/octet-stream"),
-        Operation::new(
-            POST,
-            "/part-surface",
-            "The surface of the machined part of a path: a header and numbers of 4 bytes, little-endian",
-            answers::part_surface,
-        )
-        .takes::<PartSurfaceRequest>()
-        .sends("application/octet-stream"),
-        Operation::new(
-            POST,
-            "/reachable",
-            "The nearest placement that the robot reaches",
-            answers::of_reachable,
-        )
-        .takes::<AnalysisRequest>()
-        .answers::<ReachableAnswer>(),
-        Operation::new(
-            POST,
-            "/spin-map",
-            "A path over its length and the spin of the tool",
-            answers::of_spin_map,
-        )
-        .takes::<AnalysisRequest>()
-        .answers::<SpinMapAnswer>(),
-        Operation::new(
-            POST,
-            "/spin-search",
-            "The spins that a search finds along a path",
-            answers::of_spin_search,
-        )
-        .takes::<AnalysisRequest>()
-        .answers::<SpinSearchAnswer>(),
-        Operation::new(
-            POST,
-            "/scene",
-            "The geometry of an analysis for drawing",
-            answers::of_scene,
-        )
-        .takes::<AnalysisRequest>()
-        .answers::<SceneAnswer>(),
-        Operation::new(POST, "/table", "The table of an analysis", answers::table)
-            .takes::<TableRequest>()
-            .sends("text/csv"),
-        Operation::new(
-            POST,
-            "/pictures",
-            "The pictures of an analysis",
-            answers::of_pictures,
-        )
-        .takes::<AnalysisRequest>()
-        .answers::<PicturesAnswer>(),
-        Operation::new(POST, "/picture.png", "A picture in pixels", answers::picture_png)
-            .takes::<PictureRequest>()
-            .sends("image/png"),
-        Operation::new(GET, "/robots", "The robot library", answers::robots).answers::<Vec<RobotRow>>(),
-        Operation::new(GET, "/materials", "The material library", answers::materials)
-            .answers::<Vec<MaterialRow>>(),
-        Operation::new(POST, "/jobs", "Begins a job", jobs::begin)
-            .takes::<Task>()
-            .answers::<JobBegun>()
-            .with(StatusCode::ACCEPTED),
-        Operation::new(GET, "/jobs", "All jobs", jobs::list).answers::<JobList>(),
-        Operation::new(GET, "/jobs/{id}", "One job with its answer", jobs::one).answers::<JobAnswer>(),
-        Operation::new(DELETE, "/jobs/{id}", "Cancels a job", jobs::cancel).answers::<JobAnswer>(),
-        Operation::new(
-            GET,
-            "/jobs/{id}/events",
-            "Progress of a job: events `job`",
-            jobs::events,
-        )
-        .sends("text/event-stream"),
-        Operation::new(GET, "/files", "Files of the folder", files::list).answers::<Files>(),
-        Operation::new(GET, "/files/{*path}", "One file", files::read).sends("application/octet-stream"),
-        Operation::new(PUT, "/files/{*path}", "Uploads a file", files::take)
-            .answers::<UploadedFile>()
-            .with(StatusCode::CREATED),
-        Operation::new(
-            POST,
-            "/tickets",
-            "An address that opens one file once",
-            files::ticket,
-        )
-        .takes::<TicketRequest>()
-        .answers::<TicketAnswer>(),
-        Operation::new(GET, "/openapi.json", "This document", openapi),
+        (
+            path(Post, "/jobs", "Begins a job")
+                .takes::<Task>()
+                .answers::<JobBegun>()
+                .with(202),
+            on(MethodFilter::POST, jobs::begin),
+        ),
+        (
+            path(Get, "/jobs", "All jobs").answers::<JobList>(),
+            on(MethodFilter::GET, jobs::list),
+        ),
+        (
+            path(Get, "/jobs/{id}", "One job with its answer").answers::<JobAnswer>(),
+            on(MethodFilter::GET, jobs::one),
+        ),
+        (
+            path(Delete, "/jobs/{id}", "Cancels a job").answers::<JobAnswer>(),
+            on(MethodFilter::DELETE, jobs::cancel),
+        ),
+        (
+            path(Get, "/jobs/{id}/events", events).sends("text/event-stream"),
+            on(MethodFilter::GET, jobs::events),
+        ),
+        (
+            path(Get, "/files/{*path}", "One file").sends("application/octet-stream"),
+            on(MethodFilter::GET, files::read),
+        ),
+        (
+            path(Put, "/files/{*path}", "Uploads a file")
+                .answers::<UploadedFile>()
+                .with(201),
+            on(MethodFilter::PUT, files::take),
+        ),
+        (
+            path(Post, "/tickets", ticket)
+                .takes::<TicketRequest>()
+                .answers::<TicketAnswer>(),
+            on(MethodFilter::POST, files::ticket),
+        ),
+        (
+            path(Get, "/openapi.json", "This document"),
+            on(MethodFilter::GET, openapi),
+        ),
     ]
 }
 
 /// The handlers of all paths.
 pub(crate) fn router() -> Router<Arc<State>> {
+    let at_once = armill_api::operations().iter().map(at_once);
     let add =
-        |router: Router<Arc<State>>, operation: Operation| router.route(operation.path, operation.handler);
-    let paths = operations().into_iter().fold(Router::new(), add);
+        |router: Router<Arc<State>>, (description, handler): Route| router.route(description.path, handler);
+    let paths = at_once.chain(of_server()).fold(Router::new(), add);
     paths
-        .fallback(error::no_such_path)
-        .method_not_allowed_fallback(error::wrong_method)
+        .fallback(no_such_path)
+        .method_not_allowed_fallback(wrong_method)
+}
+
+/// A request that is answered at once: on a separate thread, and replaced by a newer one of its tab.
+fn at_once(operation: &'static Operation) -> Route {
+    let Description { method, kind, .. } = operation.description;
+    let filter = match method {
+        Method::Get => MethodFilter::GET,
+        Method::Put => MethodFilter::PUT,
+        Method::Post => MethodFilter::POST,
+        Method::Delete => MethodFilter::DELETE,
+    };
+    let handler = move |Shared(state): Shared<Arc<State>>, headers: HeaderMap, body: WholeBody| async move {
+        let context = Arc::clone(&state.context);
+        let work = move |watch: Watch<'_>| Ok(operation.answer(&context, &body.0, watch));
+        let bytes = match operation.replaced_as {
+            Some(word) => state.work.done_in_tab(&headers, word, work).await??,
+            None => state.work.done(work).await??,
+        };
+        Answered::Ok(typed(kind, bytes))
+    };
+    (operation.description, on(filter, handler))
 }
 
 /// The description of all paths for programs, OpenAPI 3.1.
 pub fn document() -> Value {
-    describe(&operations())
+    let at_once = armill_api::operations()
+        .iter()
+        .map(|operation| operation.description);
+    let all: Vec<Description> = at_once
+        .chain(of_server().into_iter().map(|(description, _)| description))
+        .collect();
+    armill_api::describe(&all)
 }
 
 /// The document as it is sent: made once.

@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use armill_api::ApiError;
 use axum::body::{Body, BodyDataStream};
 use axum::extract::{FromRequest, Request};
 use axum::http::HeaderMap;
@@ -9,12 +10,10 @@ use axum::http::header::CONTENT_LENGTH;
 use futures_util::StreamExt;
 use serde::de::DeserializeOwned;
 
-use crate::error::ApiError;
+use crate::error::SentError;
 
 /// Largest size of a request in JSON, bytes.
 pub(crate) const MOST_JSON: u64 = 16 << 20;
-/// Largest size of a study in it, bytes.
-pub(crate) const MOST_TEXT: usize = 4 << 20;
 /// How long the next piece of a body may take.
 const PIECE_TIME: Duration = Duration::from_secs(10);
 /// Time limit for a whole request.
@@ -64,13 +63,13 @@ impl Pieces {
     }
 }
 
-/// A request in JSON.
-pub(crate) struct JsonBody<T>(pub T);
+/// The whole body of a request that is answered at once.
+pub(crate) struct WholeBody(pub Vec<u8>);
 
-impl<T: DeserializeOwned, S: Send + Sync> FromRequest<S> for JsonBody<T> {
-    type Rejection = ApiError;
+impl<S: Send + Sync> FromRequest<S> for WholeBody {
+    type Rejection = SentError;
 
-    async fn from_request(request: Request, _: &S) -> Result<JsonBody<T>, ApiError> {
+    async fn from_request(request: Request, _: &S) -> Result<WholeBody, SentError> {
         let (parts, body) = request.into_parts();
         let mut pieces = Pieces::of(&parts.headers, body, MOST_JSON)?;
         let read = async {
@@ -83,17 +82,18 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequest<S> for JsonBody<T> {
         let bytes = tokio::time::timeout(JSON_TIME, read)
             .await
             .map_err(|_| ApiError::too_slow())??;
-        let requested = serde_json::from_slice(&bytes);
-        requested
-            .map(JsonBody)
-            .map_err(|error| ApiError::invalid(format!("the request body: {error}")))
+        Ok(WholeBody(bytes))
     }
 }
 
-/// Refuses a text that is longer than any study.
-pub(crate) fn check_text(text: &str) -> Result<(), ApiError> {
-    match text.len() > MOST_TEXT {
-        true => Err(ApiError::too_large(MOST_TEXT as u64)),
-        false => Ok(()),
+/// A request in JSON.
+pub(crate) struct JsonBody<T>(pub T);
+
+impl<T: DeserializeOwned, S: Send + Sync> FromRequest<S> for JsonBody<T> {
+    type Rejection = SentError;
+
+    async fn from_request(request: Request, state: &S) -> Result<JsonBody<T>, SentError> {
+        let WholeBody(bytes) = WholeBody::from_request(request, state).await?;
+        Ok(JsonBody(armill_api::parsed(&bytes)?))
     }
 }

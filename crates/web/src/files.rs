@@ -1,21 +1,20 @@
-//! Files of the study's folder: listed, read, uploaded. Never one outside of it.
+//! Files of the study's folder: sent, uploaded. Never one outside of it.
 //!
 //! | path | does |
 //! |---|---|
-//! | `GET /api/files` | what is there, two folders deep at most |
 //! | `GET /api/files/PATH` | one file; what a browser can show is shown without scripts, the rest is to be saved |
 //! | `PUT /api/files/NAME` | uploads a file, under a plain name |
 //! | `POST /api/tickets` | an address that opens one file once, without the token |
 //! | `GET /open/TICKET/NAME` | that file |
 //!
-//! Which paths are in the folder: see `folder`.
+//! Which paths are in the folder: see `folder` of `armill-api`.
 
 use std::sync::Arc;
 use std::time::Instant;
 
+use armill_api::{ApiError, MOST_FILE_BYTES, check_name, file_path, uploaded};
 use armill_formats::file::new_part;
 use armill_study::StudyError;
-use armill_study::live::{FileKind, kind_of};
 use axum::body::Body;
 use axum::extract::{Path as InPath, Query, Request, State as Shared};
 use axum::http::StatusCode;
@@ -27,16 +26,11 @@ use serde::{Deserialize, Serialize};
 use tokio::io::{AsyncReadExt, AsyncWriteExt};
 
 use crate::body::{JsonBody, Pieces};
-use crate::error::{Answered, ApiError};
-use crate::folder::{FileRow, inside, is_plain, listed};
+use crate::error::{Answered, SentError};
 use crate::guard::TICKETS;
 use crate::reply::{json, media_type};
 use crate::state::State;
 
-/// Largest size of an uploaded file, bytes.
-const MOST_BYTES: u64 = 256 << 20;
-/// Letters of a name.
-const LONGEST_NAME: usize = 100;
 /// Bytes read at a time.
 const PIECE: usize = 256 << 10;
 /// Endings that a browser shows.
@@ -44,26 +38,6 @@ const SHOWN: [&str; 5] = ["svg", "png", "csv", "json", "html"];
 /// Policy of a file that is shown: in a frame of the page, with its own styles and pictures, and no scripts.
 const SHOWN_POLICY: &str =
     "sandbox; default-src 'none'; img-src 'self' data:; style-src 'unsafe-inline'; frame-ancestors 'self'";
-
-/// The content of the folder.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
-pub(crate) struct Files {
-    /// By name; at most 2000.
-    pub files: Vec<FileRow>,
-}
-
-/// A file that was uploaded.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
-pub(crate) struct UploadedFile {
-    /// Its name in the folder.
-    pub name: String,
-    /// Its size.
-    pub bytes: u64,
-    /// Its detected kind.
-    pub kind: FileKind,
-    /// Example of the lines of a study that use such a file.
-    pub hint: String,
-}
 
 /// Options of an upload.
 #[derive(Clone, Debug, Default, Deserialize)]
@@ -95,9 +69,9 @@ pub(crate) async fn ticket(
     Shared(state): Shared<Arc<State>>,
     JsonBody(requested): JsonBody<TicketRequest>,
 ) -> Answered {
-    let (shared, path) = (Arc::clone(&state), requested.path);
+    let (context, path) = (Arc::clone(&state.context), requested.path);
     let work = move |_: armill_core::watch::Watch<'_>| {
-        let found = inside(&shared.cell.root, &path);
+        let found = file_path(&context.cell, &path);
         Ok((path, found))
     };
     let (path, found) = state.work.done(work).await?;
@@ -128,23 +102,17 @@ pub(crate) async fn open(
     }
 }
 
-pub(crate) async fn list(Shared(state): Shared<Arc<State>>) -> Answered {
-    let shared = Arc::clone(&state);
-    let files = state.work.done(move |_| Ok(listed(&shared.cell.root))).await?;
-    Ok(json(StatusCode::OK, &Files { files })?)
-}
-
 pub(crate) async fn read(Shared(state): Shared<Arc<State>>, InPath(path): InPath<String>) -> Answered {
     send(&state, path).await
 }
 
 /// The file at this path of the folder.
 async fn send(state: &Arc<State>, path: String) -> Answered {
-    let shared = Arc::clone(state);
+    let context = Arc::clone(&state.context);
     let requested = path.clone();
     let real = state
         .work
-        .done(move |_| Ok(inside(&shared.cell.root, &requested)))
+        .done(move |_| Ok(file_path(&context.cell, &requested)))
         .await??;
     let none = |_| ApiError::not_found("there is no such file");
     let file = tokio::fs::File::open(&real).await.map_err(none)?;
@@ -198,21 +166,10 @@ pub(crate) async fn take(
     InPath(name): InPath<String>,
     Query(taking): Query<Taking>,
     request: Request,
-) -> Result<Response, ApiError> {
-    let letters = |c: char| c.is_alphanumeric() || matches!(c, '-' | '_' | '.' | ' ');
-    if !is_plain(&name)
-        || !name.chars().all(letters)
-        || name.chars().count() > LONGEST_NAME
-        || name.trim() != name
-    {
-        let message =
-            "a file name has letters, digits, `-`, `_`, points and blanks, 100 at most, and no folder";
-        return Err(ApiError::forbidden(message));
-    }
-    let path = state.cell.root.join(&name);
-    if state.cell.is_study(&name) {
-        return Err(ApiError::forbidden("the study is written by /api/study"));
-    }
+) -> Result<Response, SentError> {
+    let cell = &state.context.cell;
+    check_name(cell, &name)?;
+    let path = cell.root.join(&name);
     let replaces = taking.replace.as_deref() == Some("1");
     let taken = || ApiError::conflict(format!("the file `{name}` exists already"));
     // Also a link that leads nowhere is there.
@@ -220,10 +177,10 @@ pub(crate) async fn take(
         .symlink_metadata()
         .is_ok_and(|meta| !replaces || !meta.is_file())
     {
-        return Err(taken());
+        return Err(taken().into());
     }
     let (parts, body) = request.into_parts();
-    let mut pieces = Pieces::of(&parts.headers, body, MOST_BYTES)?;
+    let mut pieces = Pieces::of(&parts.headers, body, MOST_FILE_BYTES)?;
     let failed = |error: std::io::Error| {
         ApiError::from(StudyError::value(
             format!("cannot write {name}: {error}"),
@@ -231,7 +188,7 @@ pub(crate) async fn take(
         ))
     };
     // Hidden until it is whole, and removed if this ends early; after a kill the next start removes it.
-    let part = new_part(&state.cell.root).map_err(failed)?;
+    let part = new_part(&cell.root).map_err(failed)?;
     let mut file = tokio::fs::File::from_std(part.as_file().try_clone().map_err(failed)?);
     let mut bytes = 0;
     while let Some(piece) = pieces.next().await? {
@@ -247,20 +204,14 @@ pub(crate) async fn take(
     });
     match placed.await {
         Ok(Ok(_)) => {}
-        Ok(Err(error)) if error.error.kind() == std::io::ErrorKind::AlreadyExists => return Err(taken()),
-        Ok(Err(error)) => return Err(failed(error.error)),
+        Ok(Err(error)) if error.error.kind() == std::io::ErrorKind::AlreadyExists => {
+            return Err(taken().into());
+        }
+        Ok(Err(error)) => return Err(failed(error.error).into()),
         Err(_) => {
-            return Err(ApiError::internal(
-                "internal error of armill while a file was uploaded",
-            ));
+            return Err(ApiError::internal("internal error of armill while a file was uploaded").into());
         }
     }
-    let (kind, hint) = kind_of(&path, &name);
-    let taken = UploadedFile {
-        name,
-        bytes,
-        kind,
-        hint,
-    };
+    let taken = uploaded(&path, name, bytes);
     Ok(json(StatusCode::CREATED, &taken)?)
 }

@@ -13,6 +13,7 @@
 use std::sync::Arc;
 use std::time::Instant;
 
+use armill_api::ApiError;
 use armill_study::StudyError;
 use axum::extract::{Request, State};
 use axum::http::header::{
@@ -25,7 +26,7 @@ use axum::response::{IntoResponse, Response};
 use subtle::ConstantTimeEq;
 
 use crate::connections::Client;
-use crate::error::ApiError;
+use crate::error::SentError;
 
 /// Bytes of a token: 128 bits.
 const TOKEN_BYTES: usize = 16;
@@ -143,9 +144,12 @@ pub(crate) async fn check(State(guard): State<Arc<Guard>>, request: Request, nex
         client.keep_place();
     }
     let mut response = if !is_for_us {
-        ApiError::forbidden("this server answers only its own page on this machine").into_response()
+        SentError(ApiError::forbidden(
+            "this server answers only its own page on this machine",
+        ))
+        .into_response()
     } else if is_api && !has_token {
-        ApiError::unauthorised().into_response()
+        SentError(ApiError::unauthorised()).into_response()
     } else {
         next.run(request).await
     };

@@ -13,7 +13,7 @@ use std::convert::Infallible;
 use std::sync::Arc;
 use std::time::Duration;
 
-use armill_study::live::outline;
+use armill_api::{ApiError, JobAnswer, JobState, Task};
 use axum::extract::{Path as InPath, State as Shared};
 use axum::http::StatusCode;
 use axum::response::sse::{Event, KeepAlive};
@@ -23,13 +23,11 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use tokio::sync::Semaphore;
 
-use crate::body::{JsonBody, check_text};
-use crate::error::{Answered, ApiError};
-use crate::job::{JobAnswer, JobState};
+use crate::body::JsonBody;
+use crate::error::Answered;
 use crate::queue::{MOST_STREAMS, MOST_STREAMS_OF_JOB};
 use crate::reply::json;
 use crate::state::State;
-use crate::task::Task;
 
 /// Ten times a second.
 const EVENT_TIME: Duration = Duration::from_millis(100);
@@ -49,16 +47,13 @@ pub(crate) struct JobBegun {
 }
 
 pub(crate) async fn begin(Shared(state): Shared<Arc<State>>, JsonBody(task): JsonBody<Task>) -> Answered {
-    check_text(task.text())?;
-    let (shared, text) = (Arc::clone(&state), task.text().to_owned());
+    let (context, text) = (Arc::clone(&state.context), task.text().to_owned());
     // A study with problems becomes a job that fails, and reports them.
-    let given = state
+    let title = state
         .work
-        .done(move |_| Ok(outline(shared.cell.text(&text))))
-        .await?;
-    let id = state
-        .jobs
-        .begin(task, given.title.unwrap_or_default(), &state.cell.shown)?;
+        .done(move |_| Ok(armill_api::title(&context, &text)))
+        .await??;
+    let id = state.jobs.begin(task, title, &state.context.cell.shown)?;
     Ok(json(StatusCode::ACCEPTED, &JobBegun { id })?)
 }
 

@@ -13,8 +13,6 @@ use std::time::Duration;
 
 use tempfile::TempDir;
 
-use crate::cell::private_folder;
-
 /// How long the browser may take to open the file.
 pub(crate) const PAGE_TIME: Duration = Duration::from_secs(60);
 /// What the names of the folders with the files begin with, and the name of the file in each.
@@ -31,7 +29,7 @@ impl Opening {
     /// # Errors
     /// No folder or file can be made.
     pub(crate) fn write(&self, url: &str) -> io::Result<PathBuf> {
-        let folder = private_folder(FOLDER_PREFIX)?;
+        let folder = armill_api::private_folder(FOLDER_PREFIX)?;
         if let Some(parent) = folder.path().parent() {
             remove_abandoned_pages(parent, folder.path());
         }

@@ -10,7 +10,7 @@ use axum::http::Uri;
 use axum::response::{IntoResponse, Response};
 
 use crate::connections::Client;
-use crate::error::ApiError;
+use crate::error::no_such_path;
 use crate::reply::{media_type, typed};
 use crate::state::State;
 
@@ -45,7 +45,7 @@ pub(crate) async fn file(
     match BUILT.iter().find(|(name, _)| *name == path) {
         Some((_, bytes)) => typed(media_type(path), *bytes),
         None if path == "index.html" => typed(media_type(path), NOT_BUILT),
-        None => ApiError::not_found("there is nothing at this path").into_response(),
+        None => no_such_path().await.into_response(),
     }
 }
 

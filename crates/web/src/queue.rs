@@ -1,5 +1,6 @@
 //! All jobs since the start: one computes, the others wait.
 
+use std::ops::Deref;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -7,12 +8,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
+use armill_api::{ApiError, Job, JobState, Task, execute};
 use tokio::sync::Semaphore;
-
-use crate::error::ApiError;
-use crate::execute::execute;
-use crate::job::{Job, JobState};
-use crate::task::Task;
 
 /// Jobs that are remembered.
 const MOST_JOBS: usize = 50;
@@ -24,12 +21,27 @@ const MOST_ANSWERS: usize = 10;
 pub(crate) const MOST_STREAMS_OF_JOB: usize = 16;
 pub(crate) const MOST_STREAMS: usize = 64;
 
+/// A job of the server.
+pub(crate) struct QueuedJob {
+    job: Job,
+    /// Room for event streams.
+    pub streams: Arc<Semaphore>,
+}
+
+impl Deref for QueuedJob {
+    type Target = Job;
+
+    fn deref(&self) -> &Job {
+        &self.job
+    }
+}
+
 /// A job to run, and the name of its study in messages.
-type Next = (Arc<Job>, String);
+type Next = (Arc<QueuedJob>, String);
 
 /// All jobs since the start.
 pub(crate) struct Queue {
-    all: Mutex<Vec<Arc<Job>>>,
+    all: Mutex<Vec<Arc<QueuedJob>>>,
     /// Room for event streams.
     pub streams: Arc<Semaphore>,
     /// To the thread that computes; it ends with the last of these.
@@ -53,14 +65,17 @@ impl Queue {
     }
 
     /// Looks at all jobs.
-    pub(crate) fn with<T>(&self, look: impl FnOnce(&mut Vec<Arc<Job>>) -> T) -> T {
+    pub(crate) fn with<T>(&self, look: impl FnOnce(&mut Vec<Arc<QueuedJob>>) -> T) -> T {
         look(&mut self.all.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
     /// Begins a job, or puts it behind those that wait.
     pub(crate) fn begin(&self, task: Task, title: String, shown: &str) -> Result<String, ApiError> {
         let number = 1 + self.count.fetch_add(1, Ordering::Relaxed);
-        let job = Arc::new(Job::new(number.to_string(), task, title, MOST_STREAMS_OF_JOB));
+        let job = Arc::new(QueuedJob {
+            job: Job::new(number.to_string(), task, title),
+            streams: Arc::new(Semaphore::new(MOST_STREAMS_OF_JOB)),
+        });
         self.with(|all| {
             let waiting = all.iter().filter(|job| job.state() == JobState::Waiting).count();
             if waiting >= MOST_WAITING {
@@ -92,7 +107,7 @@ impl Queue {
     }
 
     /// The job of this name.
-    pub(crate) fn find(&self, id: &str) -> Result<Arc<Job>, ApiError> {
+    pub(crate) fn find(&self, id: &str) -> Result<Arc<QueuedJob>, ApiError> {
         let found = self.with(|all| all.iter().find(|job| job.id == id).cloned());
         found.ok_or_else(|| ApiError::not_found("there is no such job"))
     }

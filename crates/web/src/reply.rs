@@ -1,13 +1,11 @@
 //! How an answer is written: its bytes and their type.
 
+use armill_api::JSON;
 use axum::body::Body;
 use axum::http::StatusCode;
 use axum::http::header::CONTENT_TYPE;
 use axum::response::{IntoResponse, Response};
 use serde::Serialize;
-
-/// The type of JSON.
-pub(crate) const JSON: &str = "application/json";
 
 /// An answer in JSON.
 ///

@@ -14,8 +14,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
+use armill_api::{Cell, Context};
 use armill_study::StudyError;
-use armill_study::live::{PartCache, PathCache};
 use axum::Router;
 use axum::routing::get;
 use hyper::Request;
@@ -30,7 +30,6 @@ use tokio::runtime::Runtime;
 use tokio::sync::watch;
 use tokio::task::JoinHandle;
 
-use crate::cell::Cell;
 use crate::connections::Connections;
 use crate::guard::{Guard, Token};
 use crate::opening::{Opening, PAGE_TIME};
@@ -105,12 +104,10 @@ impl Server {
         let url = format!("http://127.0.0.1:{port}/?token={}", token.shown());
         let state = Arc::new(State {
             jobs: Queue::start(cell.root.clone()),
-            cell,
+            context: Arc::new(Context::new(cell)),
             work: Work::new(),
             opening: Opening::default(),
             tickets: Tickets::default(),
-            paths: PathCache::default(),
-            parts: PartCache::default(),
         });
         let (stop, stopped) = watch::channel(false);
         let app = router(&state, Guard::new(port, token));

@@ -1,8 +1,9 @@
 //! What all handlers share.
 
-use armill_study::live::{PartCache, PathCache};
+use std::sync::Arc;
 
-use crate::cell::Cell;
+use armill_api::Context;
+
 use crate::opening::Opening;
 use crate::queue::Queue;
 use crate::tickets::Tickets;
@@ -10,11 +11,9 @@ use crate::work::Work;
 
 /// The study, and the work on it.
 pub(crate) struct State {
-    pub cell: Cell,
+    pub context: Arc<Context>,
     pub jobs: Queue,
     pub work: Work,
     pub opening: Opening,
     pub tickets: Tickets,
-    pub paths: PathCache,
-    pub parts: PartCache,
 }

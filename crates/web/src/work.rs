@@ -8,13 +8,12 @@ use std::collections::HashMap;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use armill_api::ApiError;
 use armill_core::watch::Watch;
 use armill_formats::input::Inputs;
 use armill_study::StudyError;
 use axum::http::HeaderMap;
 use tokio::sync::{OwnedSemaphorePermit, Semaphore, watch};
-
-use crate::error::ApiError;
 
 /// Requests evaluated at a time, of all tabs together.
 const AT_ONCE: usize = 4;
@@ -95,20 +94,21 @@ impl Work {
         ended.map_err(|_| ended_early())
     }
 
-    /// [`Work::done`] as the only work of its tab, where the request names one.
+    /// [`Work::done`] as the only work of this kind of its tab, where the request names one.
     ///
     /// # Errors
     /// Those of `done`; replaced by a newer request.
     pub(crate) async fn done_in_tab<T: Send + 'static>(
         &self,
         headers: &HeaderMap,
+        kind: &'static str,
         work: impl FnOnce(Watch<'_>) -> Result<T, StudyError> + Send + 'static,
     ) -> Result<T, ApiError> {
         let name = headers.get("x-tab").and_then(|name| name.to_str().ok());
         let Some(name) = name.filter(|name| name.len() <= MOST_NAME) else {
             return self.done(work).await;
         };
-        let tab = self.tab(name);
+        let tab = self.tab(format!("{kind}:{name}"));
         let place = turn(&tab).await?;
         self.done(move |watch| {
             let _place = place;
@@ -118,9 +118,9 @@ impl Work {
     }
 
     /// The tab of this name; inactive tabs are removed where there are too many.
-    fn tab(&self, name: &str) -> Arc<Tab> {
+    fn tab(&self, name: String) -> Arc<Tab> {
         let mut tabs = self.tabs.lock().unwrap_or_else(PoisonError::into_inner);
-        if tabs.len() >= MOST_TABS && !tabs.contains_key(name) {
+        if tabs.len() >= MOST_TABS && !tabs.contains_key(&name) {
             tabs.retain(|_, tab| Arc::strong_count(tab) > 1);
         }
         let new = || {
@@ -129,7 +129,7 @@ impl Work {
                 requested: watch::channel(0).0,
             })
         };
-        Arc::clone(tabs.entry(name.to_owned()).or_insert_with(new))
+        Arc::clone(tabs.entry(name).or_insert_with(new))
     }
 }
 
@@ -176,20 +176,25 @@ mod tests {
         let (tab_a, tab_b) = (tab("a"), tab("b"));
         let (begin, begun) = channel();
         let (finish, finished) = channel();
-        let mut first = pin!(work.done_in_tab(&tab_a, move |_| {
+        let mut first = pin!(work.done_in_tab(&tab_a, "view", move |_| {
             begin.send(()).unwrap();
             finished.recv().unwrap();
             Ok(1)
         }));
-        let mut second = pin!(work.done_in_tab(&tab_a, |_| Ok(2)));
-        let mut third = pin!(work.done_in_tab(&tab_a, |_| Ok(3)));
+        let mut second = pin!(work.done_in_tab(&tab_a, "view", |_| Ok(2)));
+        let mut third = pin!(work.done_in_tab(&tab_a, "view", |_| Ok(3)));
         let context = &mut Context::from_waker(Waker::noop());
 
         // The first is under way, and the second waits for it.
         assert!(first.as_mut().poll(context).is_pending());
         begun.recv().unwrap();
         assert!(second.as_mut().poll(context).is_pending());
-        assert_eq!(runtime.block_on(work.done_in_tab(&tab_b, |_| Ok(4))).unwrap(), 4);
+        assert_eq!(
+            runtime
+                .block_on(work.done_in_tab(&tab_b, "view", |_| Ok(4)))
+                .unwrap(),
+            4
+        );
         assert!(third.as_mut().poll(context).is_pending());
         let replaced = runtime.block_on(second).unwrap_err();
         assert_eq!(format!("{replaced:?}"), format!("{:?}", ApiError::superseded()));

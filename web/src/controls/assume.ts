@@ -15,11 +15,14 @@ export function chooseRobot(live: Live, name: string, row: RobotRow | undefined)
   live.changeTogether({ robot: name, ...compliance }, true);
 }
 
-/** A button that assumes the compliances of the class of this robot; null if the problem is another one. */
+/** Buttons that assume the compliances of the class of this robot, or of any class where it is the user's own; null if the problem is another one. */
 export function offerClass(message: string, live: Live, rows: RobotRow[]): HTMLElement | null {
   const name = robotWithout(message);
-  const found = rows.find((row) => row.name === name)?.compliance_class;
-  if (name === null || !found) return null;
-  const assume = () => live.changeTogether({ robot: name, "compliance.class": found }, true);
-  return h("span", { class: "offer" }, h("button", { type: "button", class: "quiet small", "data-key": "assume", onclick: assume }, `Assume class ${found}`), " Every result is then marked: compliances assumed, not measured.");
+  if (name === null) return null;
+  const row = rows.find((one) => one.name === name);
+  const classes = new Set(row ? [row.compliance_class] : rows.map((one) => one.compliance_class));
+  const known = [...classes].filter((one) => one !== null);
+  if (known.length === 0) return null;
+  const offer = (one: string) => h("button", { type: "button", class: "quiet small", "data-key": row ? "assume" : `assume ${one}`, onclick: () => live.changeTogether({ robot: name, "compliance.class": one }, true) }, `Assume class ${one}`);
+  return h("span", { class: "offer" }, known.map(offer), " Every result is then marked: compliances assumed, not measured.");
 }

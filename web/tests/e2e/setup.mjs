@@ -4,9 +4,10 @@
 
 import { spawn } from "node:child_process";
 import { createRequire } from "node:module";
-import { cpSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { cpSync, existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { createServer } from "node:http";
 import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { extname, join, resolve } from "node:path";
 import { createInterface } from "node:readline";
 import { chromium } from "playwright-core";
 
@@ -147,4 +148,22 @@ export async function serious(page, part = "body") {
     const { violations } = await window.axe.run(part, { resultTypes: ["violations"] });
     return violations.filter(({ impact }) => ["serious", "critical"].includes(impact)).map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html.slice(0, 120)).join(" | ")}`);
   }, part);
+}
+
+const TYPES = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".gz": "application/gzip" };
+
+/** Serves the page without a server, as any web server does: files alone. Env ARMILL_SITE: its folder. */
+export async function site(headers = {}) {
+  const folder = process.env.ARMILL_SITE;
+  if (!folder) throw new Error("ARMILL_SITE names no page without a server: `cargo xtask site` makes it");
+  const requested = [];
+  const server = createServer((request, response) => {
+    const { pathname } = new URL(request.url, "http://site");
+    requested.push(`${request.method} ${pathname}`);
+    const file = join(folder, pathname.endsWith("/") ? `${pathname}index.html` : pathname);
+    if (!existsSync(file)) return response.writeHead(404).end();
+    return response.writeHead(200, { "Content-Type": TYPES[extname(file)] ?? "application/octet-stream", ...headers }).end(readFileSync(file));
+  });
+  await new Promise((done) => server.listen(0, "127.0.0.1", done));
+  return { url: `http://127.0.0.1:${server.address().port}/`, folder: resolve(folder), requested, stop: () => (server.closeAllConnections(), server.close()) };
 }

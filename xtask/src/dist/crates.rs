@@ -15,6 +15,7 @@ const CRATES: &[&str] = &[
     "armill-study",
     "armill-measure",
     "armill-plan",
+    "armill-api",
     "armill-web",
     "armill",
 ];

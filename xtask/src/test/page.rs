@@ -1,9 +1,10 @@
-//! The page of `armill serve`: its types, its parts without a browser, and all of it in a real one.
+//! The page of `armill serve`, and the same page without a server: its types, its parts without a browser, and all of it in a real one.
 //!
 //! | step | fails where |
 //! |---|---|
 //! | packages | npm cannot install what `package-lock.json` names |
 //! | types and bundle | a type is wrong, or nothing can be built |
+//! | without a server | the program of the browser does not compile |
 //! | parts | a test without a browser fails |
 //! | in Chromium | the page does not show what the server answers, or looks otherwise |
 //!
@@ -13,6 +14,7 @@
 use super::step::Step;
 use super::{install, python};
 use crate::node;
+use crate::site::live_page;
 use std::path::Path;
 use std::process::Command;
 
@@ -20,6 +22,9 @@ use std::process::Command;
 const CHROMIUM: &str = "/usr/bin/chromium";
 /// The command that unit and integration tests have built.
 const ARMILL: &str = "../target/debug/armill";
+
+/// The page without a server, as `live_page` makes it.
+const SITE: &str = "../target/site/live";
 
 /// Installs what is missing; gives the steps that make the page, from where the next build of armill takes it.
 pub fn build() -> Vec<Step> {
@@ -30,16 +35,22 @@ pub fn build() -> Vec<Step> {
         python::ensure();
         node::install();
     }
-    vec![
+    let mut steps = vec![
         Step::new("the page: packages", npm(&["ci", "--no-audit", "--no-fund"])),
         Step::new("the page: types and bundle", npm(&["run", "build"])),
-    ]
+    ];
+    match live_page() {
+        Ok(made) => steps.extend(made.into_iter().map(|(name, command)| Step::new(name, command))),
+        // Its test in Chromium fails.
+        Err(problem) => eprintln!("{problem}"),
+    }
+    steps
 }
 
 /// The steps that test it.
 pub fn tests() -> Vec<Step> {
     let mut in_chromium = npm(&["run", "e2e"]);
-    in_chromium.env("ARMILL_BIN", ARMILL);
+    in_chromium.env("ARMILL_BIN", ARMILL).env("ARMILL_SITE", SITE);
     vec![
         Step::new("the page: parts", npm(&["test"])),
         Step::new("the page: in Chromium", in_chromium),

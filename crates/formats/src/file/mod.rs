@@ -4,6 +4,7 @@
 //! |---|---|
 //! | why a file was not written | `error`: [`FileError`] |
 //! | how a file is whole or not there, also after a power cut | `part`: [`write_atomically`], [`PartFile`] |
+//! | temporary files where the system has none | `wasi` |
 //! | which files armill made, and whether they were changed since | `ledger`: `.armill-files` |
 //! | which run writes into a folder | `lock`: `.armill-lock` |
 //! | what a command may replace and remove | `writer`: [`Writer`], [`ResultFolder`] |
@@ -19,6 +20,8 @@ mod error;
 mod ledger;
 mod lock;
 mod part;
+#[cfg(target_os = "wasi")]
+mod wasi;
 mod writer;
 
 pub use error::FileError;

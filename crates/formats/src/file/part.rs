@@ -4,9 +4,12 @@ use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+#[cfg(not(target_os = "wasi"))]
 use tempfile::NamedTempFile;
 
 use super::error::{FileError, file_in_the_way, folder_of};
+#[cfg(target_os = "wasi")]
+use super::wasi::NamedTempFile;
 
 /// Writes a file whole, in place of what may have been there, which keeps its permissions. Whether it may be replaced
 /// is the question of [`super::Writer`].
@@ -83,6 +86,7 @@ pub fn sync_folder(folder: &Path) {
 ///
 /// # Errors
 /// It cannot be made.
+#[cfg(not(target_os = "wasi"))]
 pub fn new_part(folder: &Path) -> io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(PART_PREFIX).suffix(PART_SUFFIX);
@@ -93,6 +97,15 @@ pub fn new_part(folder: &Path) -> io::Result<NamedTempFile> {
     // Shows other runs that it is being written; some file systems have no locks.
     let _ = part.as_file().try_lock();
     Ok(part)
+}
+
+/// A temporary file in `folder`.
+///
+/// # Errors
+/// It cannot be made.
+#[cfg(target_os = "wasi")]
+pub fn new_part(folder: &Path) -> io::Result<NamedTempFile> {
+    NamedTempFile::new(folder, PART_PREFIX, PART_SUFFIX)
 }
 
 /// Removes the temporary files in `folder` that no process writes any more, as a killed run leaves them.
@@ -190,6 +203,8 @@ fn write_temporary(
     }
     let mut part = new_part(&folder_of(path))?;
     write(part.as_file_mut())?;
+    // WASI has no permissions.
+    #[cfg(not(target_os = "wasi"))]
     if let Some(old) = old {
         part.as_file().set_permissions(old.permissions())?;
     }

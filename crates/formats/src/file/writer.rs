@@ -9,7 +9,7 @@ use super::error::{FileError, folder_of};
 use super::ledger::{FileRecord, Ledger, sum_of};
 use super::lock::Lock;
 use super::part::{PartFile, create_folder, remove_abandoned, sync_folder, write_atomically};
-use crate::input::{Identity, Inputs};
+use crate::input::{Identity, Inputs, real_path};
 
 /// How long a file waits for another command that writes into the same folder.
 const PATIENCE: Duration = Duration::from_secs(30);
@@ -138,7 +138,7 @@ impl Writer {
     /// As of [`Writer::folder`]; a link that leads out of `root`, or nowhere.
     pub fn folder_in(&self, root: &Path, name: &str) -> Result<ResultFolder, FileError> {
         let path = root.join(name);
-        let real = |path: &Path| Path::new(".").join(path).canonicalize().ok();
+        let real = |path: &Path| real_path(&Path::new(".").join(path)).ok();
         // A link that leads nowhere is a link too.
         let is_inside = || {
             real(&path)

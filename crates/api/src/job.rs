@@ -1,7 +1,7 @@
 //! One piece of long work: its progress and its result.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
 use armill_core::watch::Watch;
@@ -9,7 +9,6 @@ use armill_plan::Measure;
 use armill_study::{ErrorKind, StudyError};
 use schemars::JsonSchema;
 use serde::Serialize;
-use tokio::sync::Semaphore;
 
 use crate::error::{ApiError, ErrorDetail};
 use crate::task::Task;
@@ -17,7 +16,7 @@ use crate::task::Task;
 /// The state of a job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
-pub(crate) enum JobState {
+pub enum JobState {
     /// Another one is computing.
     Waiting,
     /// It is computing.
@@ -32,14 +31,14 @@ pub(crate) enum JobState {
 
 impl JobState {
     /// Whether it is final.
-    pub(crate) fn is_last(self) -> bool {
+    pub fn is_last(self) -> bool {
         !matches!(self, JobState::Waiting | JobState::Running)
     }
 }
 
 /// A job.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
-pub(crate) struct JobAnswer {
+pub struct JobAnswer {
     /// Its name.
     pub id: String,
     /// `run`, `posture`, `place`, `advise`, `compensate` or `identify`.
@@ -86,18 +85,19 @@ pub(crate) struct Done<F> {
 }
 
 /// A job.
-pub(crate) struct Job {
+pub struct Job {
+    /// Its name.
     pub id: String,
     task: Task,
     title: String,
     requested: Instant,
     requested_at_ms: u64,
-    pub cancel: AtomicBool,
-    /// Room for event streams.
-    pub streams: Arc<Semaphore>,
+    cancel: AtomicBool,
     finished: AtomicUsize,
     all: AtomicUsize,
     inner: Mutex<Inner>,
+    /// Called after each change of its progress.
+    progressed: fn(&Job),
 }
 
 /// What changes of a job.
@@ -113,8 +113,8 @@ struct Inner {
 }
 
 impl Job {
-    /// One that waits, with room for `most_streams` event streams.
-    pub(crate) fn new(id: String, task: Task, title: String, most_streams: usize) -> Job {
+    /// One that waits, for a study with this title.
+    pub fn new(id: String, task: Task, title: String) -> Job {
         Job {
             id,
             task,
@@ -124,7 +124,6 @@ impl Job {
                 .duration_since(UNIX_EPOCH)
                 .map_or(0, |since| u64::try_from(since.as_millis()).unwrap_or(0)),
             cancel: AtomicBool::new(false),
-            streams: Arc::new(Semaphore::new(most_streams)),
             finished: AtomicUsize::new(0),
             all: AtomicUsize::new(0),
             inner: Mutex::new(Inner {
@@ -137,7 +136,15 @@ impl Job {
                 measures: Vec::new(),
                 files: Vec::new(),
             }),
+            progressed: |_| (),
         }
+    }
+
+    /// With a function that is called after each change of its progress.
+    #[must_use]
+    pub fn reporting_to(mut self, progressed: fn(&Job)) -> Job {
+        self.progressed = progressed;
+        self
     }
 
     /// Its task.
@@ -150,12 +157,12 @@ impl Job {
     }
 
     /// Its state.
-    pub(crate) fn state(&self) -> JobState {
+    pub fn state(&self) -> JobState {
         self.change(|inner| inner.state)
     }
 
     /// Stops it: at once where it waits, at the next block of points where it computes.
-    pub(crate) fn stop(&self) {
+    pub fn stop(&self) {
         self.cancel.store(true, Ordering::Relaxed);
         self.change(|inner| {
             if inner.state == JobState::Waiting {
@@ -165,12 +172,12 @@ impl Job {
     }
 
     /// Drops the answer, which its files still contain.
-    pub(crate) fn forget_answer(&self) {
+    pub fn forget_answer(&self) {
         self.change(|inner| inner.answer = None);
     }
 
     /// The job as an answer.
-    pub(crate) fn reported(&self, with_answer: bool) -> JobAnswer {
+    pub fn reported(&self, with_answer: bool) -> JobAnswer {
         let text = with_answer.then(|| self.task.text().to_owned());
         self.change(|inner| {
             let end = inner.ended.unwrap_or_else(Instant::now);
@@ -241,6 +248,7 @@ impl Job {
         work(Watch {
             finished: &|points| {
                 self.finished.fetch_add(points, Ordering::Relaxed);
+                (self.progressed)(self);
             },
             cancel: &self.cancel,
         })
@@ -249,5 +257,6 @@ impl Job {
     /// Reports the best so far, or the current step.
     pub(crate) fn report(&self, what: &str) {
         self.change(|inner| inner.best = Some(what.to_owned()));
+        (self.progressed)(self);
     }
 }

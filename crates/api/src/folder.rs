@@ -5,6 +5,7 @@
 use std::path::{Component, Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
+use armill_formats::input::real_path;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -15,7 +16,7 @@ const MOST_FILES: usize = 2000;
 
 /// One file.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
-pub(crate) struct FileRow {
+pub struct FileRow {
     /// Its path in the folder, such as `out/report.html`.
     pub name: String,
     /// Its size.
@@ -78,7 +79,7 @@ pub(crate) fn inside(root: &Path, path: &str) -> Result<PathBuf, ApiError> {
         return Err(none());
     }
     // Links are followed first: what counts is where they lead.
-    let real = root.join(path).canonicalize().map_err(|_| none())?;
+    let real = real_path(&root.join(path)).map_err(|_| none())?;
     let below = real.strip_prefix(root).map_err(|_| none())?;
     let plain = below.components().all(|part| match part {
         Component::Normal(name) => name.to_str().is_some_and(is_plain),

@@ -40,7 +40,7 @@ const USUAL_UNKNOWNS: &str = "drives+bending+base";
 type Outcome = Done<PathBuf>;
 
 /// Executes a job, unless it was cancelled while it waited; results go into folders of `root`.
-pub(crate) fn execute(job: &Job, shown: &str, root: &Path) {
+pub fn execute(job: &Job, shown: &str, root: &Path) {
     if !job.begin() {
         return;
     }

@@ -10,23 +10,23 @@
 //! | `POST /api/tables` | the values of a text, each with its place |
 //! | `GET /api/schema` | which tables and values a study may have, as `armill check --schema` prints it |
 
-use std::sync::{Arc, LazyLock};
+use std::sync::LazyLock;
 
+use armill_core::watch::Watch;
 use armill_formats::document::{Problem, schema_json};
 use armill_study::file::format::StudyFile;
-use armill_study::live::{ChangedValue, OutlineAnswer, OutlinedAnalysis, changed, outline, tables};
-use axum::body::Bytes;
-use axum::extract::State as Shared;
-use axum::http::StatusCode;
-use axum::response::Response;
+use armill_study::live::{
+    self, ChangedAnswer, ChangedValue, OutlineAnswer, OutlinedAnalysis, TablesAnswer, outline,
+};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::body::{JsonBody, check_text};
 use crate::cell::{self, Cell};
-use crate::error::Answered;
-use crate::reply::{JSON, json, typed};
-use crate::state::State;
+use crate::context::Context;
+use crate::error::ApiError;
+
+/// Largest size of a study, bytes.
+pub const MOST_TEXT_BYTES: usize = 4 << 20;
 
 /// The study as it is on disk.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -98,36 +98,21 @@ pub(crate) struct ChangeRequest {
     pub changes: Vec<ChangedValue>,
 }
 
-pub(crate) async fn read(Shared(state): Shared<Arc<State>>) -> Answered {
-    let shared = Arc::clone(&state);
-    let study = state.work.done(move |_| Ok(on_disk(&shared.cell))).await?;
-    Ok(json(StatusCode::OK, &study)?)
+pub(crate) fn read(context: &Context) -> Result<StudyOnDisk, ApiError> {
+    Ok(on_disk(&context.cell))
 }
 
-pub(crate) async fn write(
-    Shared(state): Shared<Arc<State>>,
-    JsonBody(written): JsonBody<StudyUpdate>,
-) -> Answered {
+pub(crate) fn write(context: &Context, written: StudyUpdate, _: Watch<'_>) -> Result<StudyOnDisk, ApiError> {
     check_text(&written.text)?;
-    let shared = Arc::clone(&state);
-    let work = move |_: armill_core::watch::Watch<'_>| {
-        Ok(shared
-            .cell
-            .write(&written.text, &written.version)
-            .map(|()| on_disk(&shared.cell)))
-    };
-    Ok(json(StatusCode::OK, &state.work.done(work).await??)?)
+    context.cell.write(&written.text, &written.version)?;
+    Ok(on_disk(&context.cell))
 }
 
-pub(crate) async fn version(Shared(state): Shared<Arc<State>>) -> Answered {
-    let shared = Arc::clone(&state);
-    let work = move |_: armill_core::watch::Watch<'_>| {
-        Ok(StudyVersion {
-            version: shared.cell.state(),
-            exists: shared.cell.exists(),
-        })
-    };
-    Ok(json(StatusCode::OK, &state.work.done(work).await?)?)
+pub(crate) fn version(context: &Context) -> Result<StudyVersion, ApiError> {
+    Ok(StudyVersion {
+        version: context.cell.state(),
+        exists: context.cell.exists(),
+    })
 }
 
 /// The study as it is now; a file that can no longer be read is reported as a problem.
@@ -145,7 +130,7 @@ fn on_disk(cell: &Cell) -> StudyOnDisk {
             problems: vec![Problem::of_file(&cell.shown, error.to_string(), "")],
             ..OutlineAnswer::default()
         },
-        None => outline(armill_study::live::StudyText {
+        None => outline(live::StudyText {
             bytes: &bytes,
             ..cell.text(&text)
         }),
@@ -167,45 +152,60 @@ fn on_disk(cell: &Cell) -> StudyOnDisk {
     }
 }
 
-pub(crate) async fn check(
-    Shared(state): Shared<Arc<State>>,
-    JsonBody(checked): JsonBody<CheckRequest>,
-) -> Answered {
+pub(crate) fn check(
+    context: &Context,
+    checked: CheckRequest,
+    _: Watch<'_>,
+) -> Result<OutlineAnswer, ApiError> {
     check_text(&checked.text)?;
-    let shared = Arc::clone(&state);
-    let work = move |_: armill_core::watch::Watch<'_>| Ok(outline(shared.cell.text(&checked.text)));
-    Ok(json(StatusCode::OK, &state.work.done(work).await?)?)
+    Ok(outline(context.cell.text(&checked.text)))
 }
 
-pub(crate) async fn change(
-    Shared(state): Shared<Arc<State>>,
-    JsonBody(requested): JsonBody<ChangeRequest>,
-) -> Answered {
+/// The title of the study with this text; empty where it has none.
+///
+/// # Errors
+/// A text longer than any study.
+pub fn title(context: &Context, text: &str) -> Result<String, ApiError> {
+    check_text(text)?;
+    Ok(outline(context.cell.text(text)).title.unwrap_or_default())
+}
+
+pub(crate) fn change(
+    context: &Context,
+    requested: ChangeRequest,
+    _: Watch<'_>,
+) -> Result<ChangedAnswer, ApiError> {
     check_text(&requested.text)?;
-    let shared = Arc::clone(&state);
-    let work = move |_: armill_core::watch::Watch<'_>| {
-        changed(
-            shared.cell.text(&requested.text),
-            requested.analysis.as_deref(),
-            &requested.changes,
-        )
-    };
-    Ok(json(StatusCode::OK, &state.work.done(work).await?)?)
+    Ok(live::changed(
+        context.cell.text(&requested.text),
+        requested.analysis.as_deref(),
+        &requested.changes,
+    )?)
 }
 
-pub(crate) async fn of_tables(
-    Shared(state): Shared<Arc<State>>,
-    JsonBody(checked): JsonBody<CheckRequest>,
-) -> Answered {
+pub(crate) fn tables(
+    context: &Context,
+    checked: CheckRequest,
+    _: Watch<'_>,
+) -> Result<TablesAnswer, ApiError> {
     check_text(&checked.text)?;
-    let shared = Arc::clone(&state);
-    let work = move |_: armill_core::watch::Watch<'_>| Ok(tables(shared.cell.text(&checked.text)));
-    Ok(json(StatusCode::OK, &state.work.done(work).await?)?)
+    Ok(live::tables(context.cell.text(&checked.text)))
 }
 
 /// Made once: it is that of the program.
-static SCHEMA: LazyLock<Bytes> = LazyLock::new(|| schema_json::<StudyFile>().into());
+static SCHEMA: LazyLock<String> = LazyLock::new(schema_json::<StudyFile>);
 
-pub(crate) async fn schema() -> Response {
-    typed(JSON, SCHEMA.clone())
+pub(crate) fn schema() -> Result<Vec<u8>, ApiError> {
+    Ok(SCHEMA.as_bytes().to_vec())
+}
+
+/// Refuses a text that is longer than any study.
+///
+/// # Errors
+/// More than [`MOST_TEXT_BYTES`].
+pub fn check_text(text: &str) -> Result<(), ApiError> {
+    match text.len() > MOST_TEXT_BYTES {
+        true => Err(ApiError::too_large(MOST_TEXT_BYTES as u64)),
+        false => Ok(()),
+    }
 }

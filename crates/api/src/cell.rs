@@ -25,7 +25,7 @@ const FIRST_PORT: u16 = 61000;
 const PORTS: u16 = 4500;
 
 /// The study and its folder.
-pub(crate) struct Cell {
+pub struct Cell {
     /// The name of the file in messages.
     pub shown: String,
     /// Folder of uploads and results, and of the files that the study names: a real path.
@@ -49,7 +49,7 @@ impl Cell {
     ///
     /// # Errors
     /// No study there; a folder for results that cannot be made.
-    pub(crate) fn find(given: Option<&Path>) -> Result<Cell, StudyError> {
+    pub fn find(given: Option<&Path>) -> Result<Cell, StudyError> {
         let here = Path::new("study.toml").is_file();
         let fallback = given.is_none() && !here;
         let given = given.unwrap_or_else(|| Path::new(if here { "." } else { EXAMPLE }));
@@ -90,6 +90,21 @@ impl Cell {
         })
     }
 
+    /// The study of a folder that takes files; its text is in `study.toml`.
+    pub fn of_folder(root: PathBuf) -> Cell {
+        let file = root.join("study.toml");
+        Cell {
+            shown: "study.toml".to_owned(),
+            root,
+            file: Some(file),
+            example: Vec::new(),
+            writable: true,
+            fallback: false,
+            writing: Mutex::default(),
+            _made: None,
+        }
+    }
+
     /// The bytes as they are now.
     ///
     /// # Errors
@@ -112,7 +127,7 @@ impl Cell {
     }
 
     /// The port that a server of this study prefers: always the same, so that a browser finds again what it has kept.
-    pub(crate) fn preferred_port(&self) -> u16 {
+    pub fn preferred_port(&self) -> u16 {
         // FNV-1a: the same in every version.
         let hash = self.identity().bytes().fold(0x811c_9dc5_u32, |hash, byte| {
             (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193)
@@ -180,7 +195,7 @@ impl Cell {
 ///
 /// # Errors
 /// It cannot be made.
-pub(crate) fn private_folder(prefix: &str) -> std::io::Result<TempDir> {
+pub fn private_folder(prefix: &str) -> std::io::Result<TempDir> {
     let mut builder = tempfile::Builder::new();
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o700));

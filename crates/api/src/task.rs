@@ -17,7 +17,7 @@ use serde::Deserialize;
 /// The task of a job.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "lowercase", deny_unknown_fields)]
-pub(crate) enum Task {
+pub enum Task {
     /// Every analysis of the study.
     Run {
         /// The text of the study.
@@ -69,7 +69,7 @@ pub(crate) enum Task {
 /// Options of a run.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct RunOptions {
+pub struct RunOptions {
     /// Only this analysis.
     pub analysis: Option<String>,
     /// Tables only: no pictures, no report.
@@ -80,7 +80,7 @@ pub(crate) struct RunOptions {
 /// Options of a placement.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct PlaceOptions {
+pub struct PlaceOptions {
     /// As `[place]` of a study, whose values are used for what is left out.
     #[serde(default)]
     pub place: PlaceTable,
@@ -91,7 +91,7 @@ pub(crate) struct PlaceOptions {
 /// Options of a compensation.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct CompensateOptions {
+pub struct CompensateOptions {
     /// Only this path, or set of holes.
     pub analysis: Option<String>,
     /// The nominal path is commanded, not the compensated one.
@@ -109,7 +109,7 @@ pub(crate) struct CompensateOptions {
 /// Options of an identification.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct IdentifyOptions {
+pub struct IdentifyOptions {
     /// The table of tests, a file of the folder.
     pub tests: String,
     /// Groups of unknowns with `+` between; `drives+bending+base` if left out.
@@ -126,7 +126,7 @@ pub(crate) struct IdentifyOptions {
 /// Model of the two points.
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
-pub(crate) enum PointsName {
+pub enum PointsName {
     /// Both, as given.
     #[default]
     Known,
@@ -138,7 +138,7 @@ pub(crate) enum PointsName {
 
 impl Task {
     /// Its name.
-    pub(crate) fn kind(&self) -> &'static str {
+    pub fn kind(&self) -> &'static str {
         match self {
             Task::Run { .. } => "run",
             Task::Posture { .. } => "posture",
@@ -150,7 +150,7 @@ impl Task {
     }
 
     /// The analysis that it was requested for, if it was for one.
-    pub(crate) fn analysis(&self) -> Option<&str> {
+    pub fn analysis(&self) -> Option<&str> {
         match self {
             Task::Run { options, .. } => options.analysis.as_deref(),
             Task::Place { options, .. } | Task::Advise { options, .. } => options.place.analysis.as_deref(),
@@ -160,7 +160,7 @@ impl Task {
     }
 
     /// The text of its study.
-    pub(crate) fn text(&self) -> &str {
+    pub fn text(&self) -> &str {
         match self {
             Task::Run { text, .. }
             | Task::Posture { text, .. }

@@ -2,91 +2,108 @@
 //!
 //! The page's own types come from it, so that none is typed by hand.
 
-use std::sync::Arc;
-
-use axum::handler::Handler;
-use axum::http::StatusCode;
-use axum::routing::{MethodFilter, MethodRouter, on};
 use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, SchemaGenerator};
 use serde_json::{Map, Value, json};
 
 use crate::error::ErrorBody;
-use crate::reply::JSON;
-use crate::state::State;
 
+/// The type of JSON.
+pub const JSON: &str = "application/json";
 /// Where schemas are in the document.
 const SCHEMAS: &str = "/components/schemas";
 
-/// A method, as OpenAPI and as axum name it.
-type Method = (&'static str, MethodFilter);
-pub(crate) const GET: Method = ("get", MethodFilter::GET);
-pub(crate) const PUT: Method = ("put", MethodFilter::PUT);
-pub(crate) const POST: Method = ("post", MethodFilter::POST);
-pub(crate) const DELETE: Method = ("delete", MethodFilter::DELETE);
+/// A method of a request.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// Reads.
+    Get,
+    /// Writes.
+    Put,
+    /// Evaluates what is sent.
+    Post,
+    /// Ends.
+    Delete,
+}
+
+impl Method {
+    /// As HTTP names it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Method::Get => "GET",
+            Method::Put => "PUT",
+            Method::Post => "POST",
+            Method::Delete => "DELETE",
+        }
+    }
+}
 
 /// Makes the schema of a type.
 type MakeSchema = fn(&mut SchemaGenerator) -> Value;
 
-/// One path with one method.
-pub(crate) struct Operation {
-    /// Below `/api`, as axum writes it.
+/// One path with one method, as it is described.
+#[derive(Clone, Copy, Debug)]
+pub struct Description {
+    /// Below `/api`; a name in braces stands for any part of a path, with a star for several.
     pub path: &'static str,
-    pub handler: MethodRouter<Arc<State>>,
-    method: &'static str,
+    /// Its method.
+    pub method: Method,
     /// What it does.
-    about: &'static str,
+    pub about: &'static str,
+    /// Status of success.
+    pub status: u16,
+    /// Type of the answer, such as `application/json`.
+    pub kind: &'static str,
     requested: Option<MakeSchema>,
-    /// Status of success, its type and its schema.
-    answered: (StatusCode, &'static str, MakeSchema),
+    answered: MakeSchema,
 }
 
-impl Operation {
+impl Description {
     /// One that takes nothing and answers with an object.
-    pub(crate) fn new<H: Handler<T, Arc<State>>, T: 'static>(
-        (method, filter): Method,
-        path: &'static str,
-        about: &'static str,
-        handler: H,
-    ) -> Operation {
-        Operation {
+    pub fn new(method: Method, path: &'static str, about: &'static str) -> Description {
+        Description {
             path,
-            handler: on(filter, handler),
             method,
             about,
+            status: 200,
+            kind: JSON,
             requested: None,
-            answered: (StatusCode::OK, JSON, |_| json!({ "type": "object" })),
+            answered: |_| json!({ "type": "object" }),
         }
     }
 
     /// With a request of this type, in JSON.
-    pub(crate) fn takes<T: JsonSchema>(mut self) -> Operation {
+    #[must_use]
+    pub fn takes<T: JsonSchema>(mut self) -> Description {
         self.requested = Some(|schemas| schemas.subschema_for::<T>().to_value());
         self
     }
 
     /// With an answer of this type, in JSON.
-    pub(crate) fn answers<T: JsonSchema>(mut self) -> Operation {
-        self.answered.2 = |schemas| schemas.subschema_for::<T>().to_value();
+    #[must_use]
+    pub fn answers<T: JsonSchema>(mut self) -> Description {
+        self.answered = |schemas| schemas.subschema_for::<T>().to_value();
         self
     }
 
     /// With an answer that is no JSON.
-    pub(crate) fn sends(mut self, kind: &'static str) -> Operation {
-        self.answered.1 = kind;
-        self.answered.2 = |_| json!({ "type": "string", "format": "binary" });
+    #[must_use]
+    pub fn sends(mut self, kind: &'static str) -> Description {
+        self.kind = kind;
+        self.answered = |_| json!({ "type": "string", "format": "binary" });
         self
     }
 
     /// With another status of success than 200.
-    pub(crate) fn with(mut self, status: StatusCode) -> Operation {
-        self.answered.0 = status;
+    #[must_use]
+    pub fn with(mut self, status: u16) -> Description {
+        self.status = status;
         self
     }
 }
 
 /// The whole document.
-pub(crate) fn describe(operations: &[Operation]) -> Value {
+pub fn describe<'a>(paths_in_order: impl IntoIterator<Item = &'a Description>) -> Value {
     let settings = || {
         SchemaSettings::draft2020_12().with(|settings| {
             settings.definitions_path = SCHEMAS.into();
@@ -98,12 +115,11 @@ pub(crate) fn describe(operations: &[Operation]) -> Value {
     let mut answered = settings().for_serialize().into_generator();
     let error = json!({ "$ref": format!("#{SCHEMAS}/ErrorBody") });
     let mut paths: Map<String, Value> = Map::new();
-    for operation in operations {
-        let (status, kind, schema) = operation.answered;
+    for operation in paths_in_order {
         let mut reported = json!({
             "summary": operation.about,
             "responses": {
-                status.as_str(): { "description": "success", "content": { kind: { "schema": schema(&mut answered) } } },
+                operation.status.to_string(): { "description": "success", "content": { operation.kind: { "schema": (operation.answered)(&mut answered) } } },
                 "default": { "description": "error", "content": { "application/json": { "schema": error } } },
             },
         });
@@ -118,7 +134,7 @@ pub(crate) fn describe(operations: &[Operation]) -> Value {
             reported["parameters"] = Value::from(parameters);
         }
         let of_path = paths.entry(path).or_insert_with(|| json!({}));
-        of_path[operation.method] = reported;
+        of_path[operation.method.name().to_lowercase()] = reported;
     }
     answered.subschema_for::<ErrorBody>();
     let mut all = requested.take_definitions(true);
