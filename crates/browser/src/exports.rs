@@ -1,5 +1,6 @@
 //! The functions that the page calls. Requests and replies pass through memory that both sides see:
 //!
+//! 0. `armill_threads(count)` sets the number of threads, once.
 //! 1. `armill_input(bytes)` makes room, and returns its address; the page writes method, path and body there.
 //! 2. `armill_answer(method_bytes, path_bytes)` answers, and returns the status.
 //! 3. `armill_output()` and `armill_output_bytes()` are address and length of the reply: its type, a line break, the bytes.
@@ -28,6 +29,19 @@ fn with<T>(work: impl FnOnce(&mut Page) -> T) -> T {
             output: Vec::new(),
         }))
     })
+}
+
+/// Computes with so many threads, of which the page has started the workers; 1: in the calling worker. Called once, first.
+///
+/// 0: it does; 1: they do not start.
+#[allow(unsafe_code)]
+#[unsafe(no_mangle)]
+pub extern "C" fn armill_threads(count: usize) -> u32 {
+    let mut pool = rayon::ThreadPoolBuilder::new().num_threads(count);
+    if count == 1 {
+        pool = pool.use_current_thread();
+    }
+    u32::from(pool.build_global().is_err())
 }
 
 /// Room for a request of so many bytes: its address.

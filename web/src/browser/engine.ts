@@ -1,7 +1,8 @@
-// One worker with the program: requests one after the other; the files of the folder go with them.
+// One worker with the program, and those of its threads: requests one after the other; the files of the folder go with them.
 
 import type { Folder } from "./folder";
 import type { FileChange, FromWorker, ToWorker } from "./protocol";
+import { newShared, threadCount } from "./threads";
 import ProgramWorker from "./worker?worker&inline";
 
 export interface Reply {
@@ -26,9 +27,14 @@ interface Ask {
 const PATIENCE_MS = 1000;
 
 export class Engine {
+  /** The one that is asked, and those of its threads. */
   private worker: Worker | null = null;
+  private threads: Worker[] = [];
   private readonly queue: Ask[] = [];
   private current: Ask | null = null;
+  /** Whether the worker works at all, and why not. */
+  private has_answered = false;
+  private broken: Error | null = null;
   /** The files that the worker has. */
   private seen = new Map<string, Uint8Array>();
 
@@ -44,6 +50,7 @@ export class Engine {
     return new Promise((done, fail) => {
       const { signal } = options;
       if (signal?.aborted) return fail(signal.reason as Error);
+      if (this.broken) return fail(this.broken);
       const ask: Ask = { method, path, body, writes: options.writes ?? false, signal, line: options.line, done, fail };
       this.queue.push(ask);
       signal?.addEventListener("abort", () => this.abort(ask), { once: true });
@@ -53,24 +60,33 @@ export class Engine {
 
   /** Ends the work under way; the next request has a new worker. */
   restart(): void {
+    this.end(new DOMException("cancelled", "AbortError"));
+  }
+
+  /** Ends the workers; the request under way fails with this error. */
+  private end(error: Error): void {
     const { current } = this;
-    this.worker?.terminate();
+    for (const worker of [...this.threads, this.worker!]) worker.terminate();
     this.current = null;
-    current?.fail(new DOMException("cancelled", "AbortError"));
+    current?.fail(error);
+    if (this.broken) return;
     this.start();
     this.next();
   }
 
   private start(): void {
     this.seen = new Map();
-    const worker = (this.worker = new ProgramWorker());
-    worker.onmessage = ({ data }: MessageEvent<FromWorker>) => this.take(data);
-    worker.onerror = (event) => this.failed(event.message || "the worker did not start");
-    this.send({ kind: "start", program: this.program });
-  }
-
-  private send(message: ToWorker): void {
-    this.worker!.postMessage(message);
+    const { program } = this;
+    const shared = newShared();
+    const made = (first: ToWorker): Worker => {
+      const worker = new ProgramWorker();
+      worker.onmessage = ({ data }: MessageEvent<FromWorker>) => this.take(data);
+      worker.onerror = (event) => this.failed(event.message || "the worker did not start");
+      worker.postMessage(first);
+      return worker;
+    };
+    this.threads = shared ? Array.from({ length: threadCount(shared) }, (_, slot) => made({ kind: "thread", program, shared, slot })) : [];
+    this.worker = made({ kind: "start", program, shared });
   }
 
   private next(): void {
@@ -78,7 +94,8 @@ export class Engine {
     const ask = (this.current = this.queue.shift() ?? null);
     if (!ask) return;
     const { method, path, body, writes } = ask;
-    this.send({ kind: "ask", method, path, body, changes: this.changes(), writes });
+    const message: ToWorker = { kind: "ask", method, path, body, changes: this.changes(), writes };
+    this.worker!.postMessage(message);
   }
 
   /** What has changed in the folder since the worker saw it. */
@@ -95,6 +112,7 @@ export class Engine {
     const { current } = this;
     if (message.kind === "line") return current?.line?.(message.line);
     if (message.kind === "failed") return this.failed(message.message);
+    this.has_answered = true;
     for (const [name, bytes] of message.written) bytes ? this.seen.set(name, bytes) : this.seen.delete(name);
     this.folder.take(message.written);
     this.current = null;
@@ -104,12 +122,13 @@ export class Engine {
 
   /** The program has ended: its request fails, the next one has a new worker. */
   private failed(message: string): void {
-    const { current } = this;
-    this.worker?.terminate();
-    this.current = null;
-    current?.fail(new Error(`internal error of armill: ${message}`));
-    this.start();
-    this.next();
+    const error = new Error(`internal error of armill: ${message}`);
+    if (!this.has_answered) {
+      // A program that does not start would fail again, without end.
+      this.broken = error;
+      for (const ask of this.queue.splice(0)) ask.fail(error);
+    }
+    this.end(error);
   }
 
   private abort(ask: Ask): void {
