@@ -7,47 +7,81 @@ use pyo3::prelude::*;
 use crate::errors::{exception, refused};
 use crate::robot::Robot;
 
-/// What a caller may decide, in the words of the command.
-#[derive(Default)]
-pub(crate) struct Wishes<'a, 'py> {
-    pub stiffness: Option<&'a str>,
-    /// (dof,), rad (m).
-    pub joints: Option<&'a Bound<'py, PyAny>>,
-    pub coupling: Option<&'a str>,
-    pub convention: Option<&'a str>,
-}
+/// A word of an option.
+pub(crate) type Word<'a> = Option<&'a str>;
 
-/// The text of the file. A warning of Python for each thing that the format does not express is not given: the head of the file names them.
+/// The text of a robot without stiffness; words of coupling and convention.
 ///
 /// # Errors
 /// Another word than one of the command; a robot that the format cannot express.
-pub(crate) fn text(robot: &Robot, py: Python<'_>, format: &str, wishes: &Wishes<'_, '_>) -> PyResult<String> {
-    let word = |message: String| refused(py, message, "the words are those of `armill export`");
-    let format: ExportFormat = format.parse().map_err(word)?;
+pub(crate) fn rigid(
+    robot: &Robot,
+    py: Python<'_>,
+    format: &str,
+    [coupling, convention]: [Word<'_>; 2],
+) -> PyResult<String> {
+    let word = |message: String| refused(py, message, HINT);
     let options = ExportOptions {
-        coupling: match wishes.coupling {
-            None => None,
-            Some("own") => Some(CoupledJoints::Own),
-            Some("mimic") => Some(CoupledJoints::Follower),
-            Some(other) => return Err(word(format!("coupling: `{other}` is none of own, mimic"))),
-        },
-        stiffness: match wishes.stiffness {
-            None => ExportedStiffness::None,
-            Some("passive") => ExportedStiffness::Passive,
-            Some("joints") => ExportedStiffness::Joints,
-            Some(other) => return Err(word(format!("stiffness: `{other}` is none of passive, joints"))),
-        },
-        joints: wishes
-            .joints
-            .map(|joints| robot.one_a_joint(joints, "joints"))
-            .transpose()?,
-        convention: match wishes.convention {
-            None => Default::default(),
+        coupling: coupled(py, coupling)?,
+        convention: match convention {
+            None => DhConvention::default(),
             Some(name) => name.parse().map_err(word)?,
         },
         ..ExportOptions::default()
     };
-    let exported = export(&robot.description, format, &options);
+    text(robot, py, (format, &options))
+}
+
+/// The text of a robot with its stiffness; words of stiffness and coupling, and joint positions (dof,), rad (m).
+///
+/// # Errors
+/// As of [`rigid`]; positions of another shape.
+pub(crate) fn elastic(
+    robot: &Robot,
+    py: Python<'_>,
+    format: &str,
+    ([stiffness, coupling], joints): &([Word<'_>; 2], Option<&Bound<'_, PyAny>>),
+) -> PyResult<String> {
+    let options = ExportOptions {
+        coupling: coupled(py, *coupling)?,
+        stiffness: match stiffness {
+            None => ExportedStiffness::None,
+            Some("passive") => ExportedStiffness::Passive,
+            Some("joints") => ExportedStiffness::Joints,
+            Some(other) => {
+                let message = format!("stiffness: `{other}` is none of passive, joints");
+                return Err(refused(py, message, HINT));
+            }
+        },
+        joints: joints
+            .map(|joints| robot.one_a_joint(joints, "joints"))
+            .transpose()?,
+        ..ExportOptions::default()
+    };
+    text(robot, py, (format, &options))
+}
+
+/// Where the words of options are explained.
+const HINT: &str = "the words are those of `armill export`";
+
+fn coupled(py: Python<'_>, word: Word<'_>) -> PyResult<Option<CoupledJoints>> {
+    match word {
+        None => Ok(None),
+        Some("own") => Ok(Some(CoupledJoints::Own)),
+        Some("mimic") => Ok(Some(CoupledJoints::Follower)),
+        Some(other) => {
+            let message = format!("coupling: `{other}` is none of own, mimic");
+            Err(refused(py, message, HINT))
+        }
+    }
+}
+
+/// The text of the file; its head names what it does not express.
+fn text(robot: &Robot, py: Python<'_>, (format, options): (&str, &ExportOptions)) -> PyResult<String> {
+    let format: ExportFormat = format
+        .parse()
+        .map_err(|message: String| refused(py, message, HINT))?;
+    let exported = export(&robot.description, format, options);
     let exported = exported.map_err(|error| exception(py, &exported_robot::refused(error)))?;
     Ok(exported.text)
 }

@@ -16,7 +16,7 @@ use pyo3::types::PyBytes;
 use crate::arrays::array;
 use crate::errors::refused;
 use crate::evaluation::{self, EvaluationOptions, PoseEvaluations};
-use crate::export::{self, Wishes};
+use crate::export::{self, Word};
 use crate::html;
 use crate::joint_positions::{self, Request};
 use crate::postures::{self, Postures};
@@ -211,16 +211,8 @@ impl Robot {
 
     /// -> str: the robot as a URDF. `coupling` of coupled joints is `own` (the angle between the links) or `mimic` (a joint follows).
     #[pyo3(signature = (*, coupling=None))]
-    fn to_urdf(&self, py: Python<'_>, coupling: Option<&str>) -> PyResult<String> {
-        export::text(
-            self,
-            py,
-            "urdf",
-            &Wishes {
-                coupling,
-                ..Wishes::default()
-            },
-        )
+    fn to_urdf(&self, py: Python<'_>, coupling: Word<'_>) -> PyResult<String> {
+        export::rigid(self, py, "urdf", [coupling, None])
     }
 
     /// -> str: the robot as an SDF model. `stiffness` is `passive` (a spring joint behind each drive) or `joints` (each joint is
@@ -229,22 +221,11 @@ impl Robot {
     fn to_sdf(
         &self,
         py: Python<'_>,
-        stiffness: Option<&str>,
+        stiffness: Word<'_>,
         joints: Optional<'_, '_>,
-        coupling: Option<&str>,
+        coupling: Word<'_>,
     ) -> PyResult<String> {
-        let convention = None;
-        export::text(
-            self,
-            py,
-            "sdf",
-            &Wishes {
-                stiffness,
-                joints,
-                coupling,
-                convention,
-            },
-        )
+        export::elastic(self, py, "sdf", &([stiffness, coupling], joints))
     }
 
     /// -> str: the robot as a model of MuJoCo (MJCF), with the options of `to_sdf`; `joints` are also its key frame.
@@ -252,43 +233,22 @@ impl Robot {
     fn to_mjcf(
         &self,
         py: Python<'_>,
-        stiffness: Option<&str>,
+        stiffness: Word<'_>,
         joints: Optional<'_, '_>,
-        coupling: Option<&str>,
+        coupling: Word<'_>,
     ) -> PyResult<String> {
-        let convention = None;
-        export::text(
-            self,
-            py,
-            "mjcf",
-            &Wishes {
-                stiffness,
-                joints,
-                coupling,
-                convention,
-            },
-        )
+        export::elastic(self, py, "mjcf", &([stiffness, coupling], joints))
     }
 
     /// -> str: the robot as a Denavit-Hartenberg table (CSV). `convention` is `standard`, `modified` or `hayati`.
     #[pyo3(signature = (convention="standard", *, coupling=None))]
-    fn to_dh(&self, py: Python<'_>, convention: &str, coupling: Option<&str>) -> PyResult<String> {
-        let convention = Some(convention);
-        export::text(
-            self,
-            py,
-            "dh",
-            &Wishes {
-                convention,
-                coupling,
-                ..Wishes::default()
-            },
-        )
+    fn to_dh(&self, py: Python<'_>, convention: &str, coupling: Word<'_>) -> PyResult<String> {
+        export::rigid(self, py, "dh", [coupling, Some(convention)])
     }
 
     /// -> str: the robot as a calibration file of ur_description (YAML).
     fn to_ur(&self, py: Python<'_>) -> PyResult<String> {
-        export::text(self, py, "ur", &Wishes::default())
+        export::rigid(self, py, "ur", [None, None])
     }
 
     /// (n, dof) joints -> (n, 4, 4) poses, base_from_tool.

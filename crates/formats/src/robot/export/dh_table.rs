@@ -9,72 +9,17 @@
 //! The z axis of a joint is in its positive direction, so that every sign is 1. A row of type `fixed` is in front of the first joint or behind the last
 //! one where the base or the flange is not on its axis.
 
-use std::str::FromStr;
-
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::{UnitQuaternion, Vector3};
 use armill_core::units::{to_deg, to_mm};
 
+use super::bodies::{JointKind, Linkage};
+use super::convention::DhConvention;
 use super::dh_rows::{AlongX, AlongZ, Screws, screws};
-use super::linkage::{JointKind, Linkage};
+use super::error::ExportError;
+use super::options::{ExportOptions, Exported};
 use super::spelling::line;
-use super::{ExportError, ExportOptions, Exported};
 use crate::robot::RobotDescription;
-
-/// A convention of Denavit-Hartenberg parameters.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum DhConvention {
-    /// `Rz(theta) Tz(d) Tx(a) Rx(alpha)`.
-    #[default]
-    Standard,
-    /// `Rx(alpha) Tx(a) Rz(theta) Tz(d)`.
-    Modified,
-    /// `Rz(theta) Tz(d) Tx(a) Rx(alpha) Ry(beta)`.
-    Hayati,
-}
-
-impl DhConvention {
-    /// Every convention.
-    pub const ALL: [DhConvention; 3] = [
-        DhConvention::Standard,
-        DhConvention::Modified,
-        DhConvention::Hayati,
-    ];
-
-    /// Its name in a table.
-    pub fn name(self) -> &'static str {
-        match self {
-            DhConvention::Standard => "standard",
-            DhConvention::Modified => "modified",
-            DhConvention::Hayati => "hayati",
-        }
-    }
-
-    /// The product of a row.
-    fn product(self) -> &'static str {
-        match self {
-            DhConvention::Standard => "Rz(theta) Tz(d) Tx(a) Rx(alpha)",
-            DhConvention::Modified => "Rx(alpha) Tx(a) Rz(theta) Tz(d)",
-            DhConvention::Hayati => "Rz(theta) Tz(d) Tx(a) Rx(alpha) Ry(beta)",
-        }
-    }
-}
-
-impl FromStr for DhConvention {
-    type Err = String;
-
-    /// The convention of this name.
-    ///
-    /// # Errors
-    /// Another name; the message lists those that there are.
-    fn from_str(name: &str) -> Result<DhConvention, String> {
-        let found = DhConvention::ALL.into_iter().find(|known| known.name() == name);
-        found.ok_or_else(|| {
-            let names = DhConvention::ALL.map(DhConvention::name).join(", ");
-            format!("`{name}` is none of {names}")
-        })
-    }
-}
 
 /// A normal of two axes farther than this is reported, m.
 const FAR: f64 = 10.0;
@@ -210,7 +155,7 @@ fn rows(text: &mut String, (linkage, convention): (&Linkage, DhConvention), scre
             Some(limits) => cells.extend([limits.lower, limits.upper].map(degrees)),
             None => cells.extend([String::new(), String::new()]),
         }
-        line(text, &cells.join(", "));
+        line(text, cells.join(", ").trim_end());
     }
 }
 

@@ -13,8 +13,8 @@
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::{Attachment, Robot, Spring};
 
-use super::ExportError;
-use super::linkage::{BodyJoint, JointKind, body_of};
+use super::bodies::{BodyJoint, JointKind, body_of};
+use super::error::ExportError;
 use super::names::Names;
 
 /// A twist with less pitch than this, m/rad, is a turn.

@@ -2,7 +2,8 @@
 
 use armill_core::robot::{Attachment, Structure};
 
-use super::{ExportFormat, ExportOptions, ExportedStiffness, title};
+use super::format::{ExportFormat, title};
+use super::options::{ExportOptions, ExportedStiffness};
 use crate::robot::RobotDescription;
 
 /// What of this robot is not in a file of this format, one sentence each.

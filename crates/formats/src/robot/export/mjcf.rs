@@ -16,10 +16,10 @@
 
 use armill_core::source::stiffness_model::FREE_FALL;
 
-use super::linkage::{Body, BodyJoint, BodyShape, Inertial, JointKind, Linkage};
+use super::bodies::{Body, BodyJoint, BodyShape, Inertial, JointKind, Linkage};
+use super::options::{ExportOptions, Exported, ExportedStiffness};
 use super::shapes::{Primitive, primitives};
 use super::spelling::{attribute, exact, head, line, number, vector, xyz_and_quaternion};
-use super::{ExportOptions, Exported, ExportedStiffness};
 use crate::robot::RobotDescription;
 
 /// Most joints of a body.

@@ -15,8 +15,8 @@
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::{Matrix3, Vector3};
 
-use super::Exported;
-use super::linkage::{Body, BodyJoint, BodyShape, Inertial, JointKind, Linkage};
+use super::bodies::{Body, BodyJoint, BodyShape, Inertial, JointKind, Linkage};
+use super::options::Exported;
 use super::shapes::{Primitive, primitives};
 use super::spelling::{attribute, exact, head, line, number, vector, xyz_and_quaternion};
 

@@ -7,7 +7,7 @@ use armill_core::clearance::Shape;
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::{Point3, UnitQuaternion, Vector3};
 
-use super::linkage::{BodyShape, Geometry};
+use super::bodies::{BodyShape, Geometry};
 use super::spelling::{attribute, number, vector};
 
 /// A primitive shape, placed: its z axis is that of a cylinder or capsule.

@@ -11,6 +11,7 @@ use proptest::test_runner::RngSeed;
 
 use super::*;
 use crate::robot::format::{self, Format, RobotReadOptions};
+use armill_core::robot::{Attachment, Robot};
 
 const UR10E: &str = include_str!("../../../../../robots/universal-robots/ur10e.toml");
 const R2000IC: &str = include_str!("../../../../../robots/fanuc/r2000ic.toml");

@@ -22,8 +22,9 @@ use armill_core::robot::forward::{forward, joint_axis};
 use armill_core::units::{to_deg, to_mm};
 use sha2::{Digest, Sha256};
 
+use super::error::ExportError;
+use super::options::Exported;
 use super::spelling::{line, number};
-use super::{ExportError, Exported};
 use crate::robot::RobotDescription;
 
 /// Links of the file, in order.

@@ -11,10 +11,11 @@
 //!
 //! Source: wiki.ros.org/urdf/XML.
 
-use super::linkage::{Body, BodyJoint, Drive, Inertial, JointKind, Linkage};
+use super::bodies::{Body, BodyJoint, Drive, Inertial, JointKind, Linkage};
+use super::error::ExportError;
+use super::options::Exported;
 use super::shapes::{Primitive, primitives, urdf_geometry};
 use super::spelling::{attribute, exact, head, line, number, vector, xyz_rpy};
-use super::{ExportError, Exported};
 use armill_core::frame::Isometry;
 
 /// The text of a URDF.

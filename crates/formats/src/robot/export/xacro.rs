@@ -18,9 +18,11 @@ use armill_core::frame::{Isometry, fixed_angles};
 use armill_core::robot::Amount;
 use armill_core::units::{to_deg, to_mm};
 
-use super::linkage::{Body, JointKind, Linkage};
+use super::bodies::{Body, JointKind, Linkage};
+use super::error::ExportError;
+use super::options::{ExportOptions, Exported};
 use super::spelling::{attribute, head, line, number};
-use super::{ExportError, ExportOptions, Exported, urdf};
+use super::urdf;
 use crate::robot::RobotDescription;
 use crate::robot::armill::CALIBRATED;
 
