@@ -152,8 +152,29 @@ def moved(kind: str, axis: np.ndarray, q: float) -> np.ndarray:
     return matrix
 
 
+def by_drake(text, joint_names):
+    """Drake reads SDF with libsdformat."""
+    parsing = pytest.importorskip("pydrake.multibody.parsing", reason="the wheel drake is not installed")
+    from pydrake.multibody.plant import MultibodyPlant
+
+    plant = MultibodyPlant(0.0)
+    parsing.Parser(plant).AddModelsFromString(text, "sdf")
+    plant.Finalize()
+    context = plant.CreateDefaultContext()
+    base = plant.GetFrameByName("base_link")
+    assert np.abs(plant.CalcRelativeTransform(context, plant.world_frame(), base).GetAsMatrix4() - np.eye(4)).max() == 0
+
+    def at(q):
+        for name, value in zip(joint_names, q, strict=True):
+            joint = plant.GetJointByName(name)
+            (joint.set_translation if "rismatic" in type(joint).__name__ else joint.set_angle)(context, value)
+        return plant.CalcRelativeTransform(context, base, plant.GetFrameByName("flange")).GetAsMatrix4()
+
+    return at
+
+
 def by_sdf(text, joint_names):
-    """No wheel of sdformat exists: the frame semantics of its specification, joint by joint."""
+    """The frame semantics of the specification of SDF, joint by joint; `mimic` too."""
     model = ElementTree.fromstring(text).find("model")
     links = {link.get("name"): link for link in model.findall("link")}
     joints = model.findall("joint")
@@ -253,9 +274,13 @@ def test_mujoco_has_the_flange_of_the_robot(arm):
     assert_same(robot, by_mujoco(robot.to_mjcf(), robot.joint_names))
 
 
-def test_an_sdf_has_the_flange_of_the_robot(arm):
+@pytest.mark.parametrize("reader", [by_sdf, by_drake])
+def test_an_sdf_has_the_flange_of_the_robot(arm, reader):
     robot, _ = arm
-    assert_same(robot, by_sdf(robot.to_sdf(), robot.joint_names))
+    assert_same(robot, reader(robot.to_sdf(), robot.joint_names))
+    if robot.joint_compliance is not None:
+        # Springs at zero do not move the flange.
+        assert_same(robot, reader(robot.to_sdf(stiffness="passive"), robot.joint_names), 20)
 
 
 @pytest.mark.parametrize("convention", ["standard", "modified", "hayati"])
@@ -488,6 +513,48 @@ def test_a_simulation_comes_to_rest_at_the_predicted_deflection():
     found = flange_of_mujoco(mujoco, model, data)[:3, 3] - before[:3, 3]
     predicted = robot.deviation(q, force)
     assert np.linalg.norm(found - predicted) < 5e-3 * np.linalg.norm(predicted)
+
+
+@pytest.mark.parametrize("name", ["yaskawa/mh12", "elastic"])
+def test_springs_of_an_sdf_have_the_energy_of_the_compliances_in_drake(name, samples_of_positions):
+    """Generalised forces of the springs that Drake reads from the file, at deflections of the size that armill predicts."""
+    parsing = pytest.importorskip("pydrake.multibody.parsing", reason="the wheel drake is not installed")
+    from pydrake.multibody.plant import MultibodyPlant
+    from pydrake.multibody.tree import JacobianWrtVariable, MultibodyForces
+
+    robot = armill.Robot.from_text(elastic_text(), "armill") if name == "elastic" else armill.Robot.load(name)
+    plant = MultibodyPlant(0.0)
+    parsing.Parser(plant).AddModelsFromString(robot.to_sdf(stiffness="passive"), "sdf")
+    plant.mutable_gravity_field().set_gravity_vector([0, 0, 0])
+    plant.Finalize()
+    context = plant.CreateDefaultContext()
+    drives = [plant.GetJointByName(drive).velocity_start() for drive in robot.joint_names]
+    free = [index for index in range(plant.num_velocities()) if index not in drives]
+    flange = plant.GetFrameByName("flange")
+    force = np.array([30.0, -50.0, 20.0])
+
+    def spring_forces(q):
+        plant.SetPositions(context, q)
+        forces = MultibodyForces(plant)
+        plant.CalcForceElementsContribution(context, forces)
+        return forces.generalized_forces().copy()
+
+    for joints in samples_of_positions(robot, 5):
+        q = np.zeros(plant.num_positions())
+        q[drives] = joints
+        plant.SetPositions(context, q)
+        jacobian = plant.CalcJacobianTranslationalVelocity(
+            context, JacobianWrtVariable.kV, flange, np.zeros(3), plant.world_frame(), plant.world_frame()
+        )[:, free]
+        # Stiffness of each passive joint, from the force of its spring for a small deflection.
+        stiffness = []
+        for index in free:
+            moved = q.copy()
+            moved[index] += 1e-6
+            stiffness.append(-spring_forces(moved)[index] / 1e-6)
+        found = jacobian @ ((jacobian.T @ force) / np.array(stiffness))
+        predicted = robot.deviation(joints, force)
+        assert np.linalg.norm(found - predicted) < 1e-8 * np.linalg.norm(predicted)
 
 
 def test_springs_of_an_sdf_are_the_inverse_compliances():

@@ -27,12 +27,14 @@ pub(super) struct Linkage {
 /// A rigid body.
 #[derive(Clone, Debug)]
 pub(super) struct Body {
-    /// Its name, different from those of all other bodies and frames.
+    /// Its name. Names of bodies, frames, joints and links between them differ from each other.
     pub name: String,
     /// In the body before, with its joints at zero.
     pub parent_from_body: Isometry,
     /// Those that move it, from the body before on.
     pub joints: Vec<BodyJoint>,
+    /// Names of links between its joints, for formats with one joint between two links: one fewer than joints.
+    pub between: Vec<String>,
     /// Mass and inertia, if known.
     pub inertial: Option<Inertial>,
     /// What it looks like.
@@ -42,7 +44,7 @@ pub(super) struct Body {
 /// A joint between a body and the body before.
 #[derive(Clone, Debug)]
 pub(super) struct BodyJoint {
-    /// Its name, different from those of all other joints.
+    /// Its name.
     pub name: String,
     /// Whether it is prismatic.
     pub slides: bool,

@@ -30,16 +30,16 @@ impl Linkage {
     pub fn of(found: &RobotDescription, options: &ExportOptions) -> Result<Linkage, ExportError> {
         let robot = &found.robot;
         let mut warnings = Vec::new();
-        let mut names = Names::new(["base_link", "flange"]);
+        let mut names = Names::new(robot.joints().iter().map(|joint| joint.name.as_str()));
+        let [base, flange] = ["base_link", "flange"].map(|name| names.unique(name));
         let frames = frames(robot, &mut names);
-        let mut bodies = bodies(robot, &mut names);
-        let mut joint_names = Names::new(robot.joints().iter().map(|joint| joint.name.as_str()));
+        let mut bodies = bodies(robot, &mut names, [base, flange]);
         for (index, body) in bodies.iter_mut().enumerate().skip(1).take(robot.joints().len()) {
-            body.joints = drive(robot, index - 1, (options, &mut joint_names, &mut warnings))?;
+            body.joints = drive(robot, index - 1, (options, &mut names, &mut warnings))?;
         }
         if options.stiffness != ExportedStiffness::None {
             for spring in &robot.structure().springs {
-                match spring_joint(robot, spring, &mut joint_names) {
+                match spring_joint(robot, spring, &mut names) {
                     Ok(Some((at, joint))) => bodies
                         .get_mut(at)
                         .into_iter()
@@ -48,6 +48,12 @@ impl Linkage {
                     Err(warning) => warnings.push(warning),
                 }
             }
+        }
+        for body in &mut bodies {
+            let joints = body.joints.iter().skip(1);
+            body.between = joints
+                .map(|joint| names.unique(&format!("{}_carrier", joint.name)))
+                .collect();
         }
         let masses = &robot.structure().masses;
         for (index, body) in bodies.iter_mut().enumerate() {
@@ -99,15 +105,16 @@ fn frames(robot: &Robot, names: &mut Names) -> Vec<(String, Isometry)> {
 }
 
 /// Base, links and flange without joints.
-fn bodies(robot: &Robot, names: &mut Names) -> Vec<Body> {
+fn bodies(robot: &Robot, names: &mut Names, [base, flange]: [String; 2]) -> Vec<Body> {
     let body = |name: String, parent_from_body: Isometry| Body {
         name,
         parent_from_body,
         joints: Vec::new(),
+        between: Vec::new(),
         inertial: None,
         shapes: Vec::new(),
     };
-    let mut bodies = vec![body("base_link".to_owned(), Isometry::identity())];
+    let mut bodies = vec![body(base, Isometry::identity())];
     let mut fixed = Isometry::identity();
     for motion in robot.chain().motions() {
         match motion.amount() {
@@ -120,7 +127,7 @@ fn bodies(robot: &Robot, names: &mut Names) -> Vec<Body> {
             }
         }
     }
-    bodies.push(body("flange".to_owned(), fixed));
+    bodies.push(body(flange, fixed));
     bodies
 }
 

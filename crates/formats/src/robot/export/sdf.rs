@@ -54,8 +54,12 @@ pub(super) fn write(linkage: &Linkage, about: &[String]) -> Exported {
         }
         parent = name;
     }
+    let base = linkage
+        .bodies
+        .first()
+        .map_or_else(String::new, |body| attribute(&body.name));
     for (name, base_from_frame) in &linkage.frames {
-        frame(&mut text, [&attribute(name), "base_link"], base_from_frame);
+        frame(&mut text, [&attribute(name), &base], base_from_frame);
     }
     line(&mut text, "  </model>");
     line(&mut text, "</sdf>");
@@ -103,7 +107,7 @@ fn joints(text: &mut String, (body, own): (&Body, &str), parent: &str, unknown: 
         let name = attribute(&joint.name);
         let to = match index == last {
             true => own.to_owned(),
-            false => format!("{name}_link"),
+            false => attribute(body.between.get(index).map_or("", String::as_str)),
         };
         let here = Isometry::translation(joint.point.x, joint.point.y, joint.point.z);
         joint_element(text, joint, ([&from, &to], &(from_joint * here)));

@@ -770,3 +770,57 @@ fn formats_are_known_by_name_and_by_ending() {
             .contains("standard, modified, hayati")
     );
 }
+
+/// Names of the children of a model, or links and joints of a robot, in order.
+fn names_in(text: &str) -> Vec<String> {
+    let document = roxmltree::Document::parse(text).unwrap();
+    let root = document.root_element();
+    let model = root
+        .first_element_child()
+        .filter(|child| child.has_tag_name("model"));
+    let children = model.unwrap_or(root).children();
+    children
+        .filter_map(|child| Some(child.attribute("name")?.to_owned()))
+        .collect()
+}
+
+#[test]
+fn every_name_of_a_model_is_used_once() {
+    let mut found = elastic();
+    let joints = ["flange", "base"].map(Joint::plain).to_vec();
+    found.robot = Robot::new("two", found.robot.chain().motions().to_vec(), joints)
+        .unwrap()
+        .with_compliance(vec![
+            JointCompliance {
+                value: 1e-6,
+                standard_uncertainty: 0.0
+            };
+            2
+        ])
+        .unwrap()
+        .with_structure(found.robot.structure().clone())
+        .unwrap();
+    let coupled = ExportOptions {
+        coupling: Some(CoupledJoints::Follower),
+        ..ExportOptions::default()
+    };
+    for (found, format, options) in [
+        (&found, ExportFormat::Sdf, stiff(ExportedStiffness::Passive)),
+        (&found, ExportFormat::Sdf, stiff(ExportedStiffness::Joints)),
+        (&found, ExportFormat::Urdf, ExportOptions::default()),
+        (
+            &library(MH12),
+            ExportFormat::Sdf,
+            stiff(ExportedStiffness::Passive),
+        ),
+        (&library(R2000IC), ExportFormat::Sdf, coupled.clone()),
+        (&library(R2000IC), ExportFormat::Urdf, coupled),
+    ] {
+        let text = export(found, format, &options).unwrap().text;
+        let names = names_in(&text);
+        assert!(names.len() > 5);
+        for (index, name) in names.iter().enumerate() {
+            assert!(!names[..index].contains(name), "{name}\n{text}");
+        }
+    }
+}

@@ -63,10 +63,14 @@ pub(super) fn elements(
         link(text, &own, body);
         parent = Some(&body.name);
     }
+    let base = linkage
+        .bodies
+        .first()
+        .map_or_else(String::new, |body| attribute(&body.name));
     for (name, base_from_frame) in &linkage.frames {
         let name = attribute(name);
         line(text, &format!("  <link name=\"{name}\"/>"));
-        fixed(text, ["base_link", &name], &origin(base_from_frame));
+        fixed(text, [&base, &name], &origin(base_from_frame));
     }
     Ok(())
 }
@@ -100,7 +104,7 @@ fn joints(
     for (index, joint) in body.joints.iter().enumerate() {
         let to = match index == last {
             true => own.to_owned(),
-            false => attribute(&format!("{}_link", joint.name)),
+            false => attribute(body.between.get(index).map_or("", String::as_str)),
         };
         let name = attribute(&joint.name);
         let kind = kind(joint)?;
