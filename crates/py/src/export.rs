@@ -1,6 +1,8 @@
 //! A robot as the text of a file for other programs.
 
-use armill_formats::robot::export::{CoupledJoints, ExportFormat, ExportOptions, ExportedStiffness, export};
+use armill_formats::robot::export::{
+    CoupledJoints, DhConvention, ExportFormat, ExportOptions, ExportedStiffness, export,
+};
 use armill_study::exported_robot;
 use pyo3::prelude::*;
 

@@ -13,7 +13,7 @@
 
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::{Matrix3, Vector3};
-use armill_core::robot::{Amount, Attachment, Axis, Limits, Mass, Motion, Robot};
+use armill_core::robot::{Amount, Attachment, Axis, Limits, Mass, Motion, Motor, Robot};
 
 use super::bodies::{Body, BodyJoint, BodyShape, Drive, Geometry, Inertial, JointKind, Linkage, body_of};
 use super::elasticity::{drive_stiffness, spring_joint};
@@ -195,7 +195,7 @@ fn drive(
         max_speed: joint.max_speed,
         rotor_inertia: motors
             .filter(|motor| motor.joint == index)
-            .map(|motor| motor.inertia_at_joint())
+            .map(Motor::inertia_at_joint)
             .reduce(|a, b| a + b),
         spring: None,
     };

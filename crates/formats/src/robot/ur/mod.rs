@@ -26,7 +26,7 @@ use super::TWO_TURNS;
 use super::description::RobotDescription;
 use super::export::{UR_KEYS, UR_LINKS};
 use super::opw::yaml::{self, Entry};
-use crate::document::{Problem, Problems, Source};
+use crate::document::{Problems, Source};
 
 /// Longest link of an arm, m: a file in mm has one beyond.
 const LONGEST_LINK: f64 = 100.0;
@@ -122,7 +122,7 @@ fn poses(file: &Source) -> Result<[[f64; 6]; 6], Problems> {
                 continue;
             };
             match value(file, entry, key) {
-                Err(problem) => problems.push(problem),
+                Err(found) => problems.extend(found),
                 Ok(_) if found[link][key].is_some() => {
                     refuse(
                         format!("`{}` of `{}` is given twice", entry.key, UR_LINKS[link]),
@@ -168,10 +168,10 @@ fn poses(file: &Source) -> Result<[[f64; 6]; 6], Problems> {
 ///
 /// # Errors
 /// More or fewer values than one; what is not a length or an angle.
-fn value(file: &Source, entry: &Entry<'_>, key: usize) -> Result<f64, Problem> {
+fn value(file: &Source, entry: &Entry<'_>, key: usize) -> Result<f64, Problems> {
     let [scalar] = entry.values.as_slice() else {
         let message = format!("`{}` has {} values: 1 required", entry.key, entry.values.len());
-        return Err(file.problem(entry.place.clone(), message, None));
+        return Err(file.problem(entry.place.clone(), message, None).into());
     };
     let (most, what) = match key < 3 {
         true => (LONGEST_LINK, "a length within 100 m (lengths are in m)"),
@@ -184,7 +184,7 @@ fn value(file: &Source, entry: &Entry<'_>, key: usize) -> Result<f64, Problem> {
         .filter(|value| value.abs() <= most);
     value.ok_or_else(|| {
         let message = format!("`{}` of `{}` is not {what}", scalar.text, entry.key);
-        file.problem(scalar.place.clone(), message, None)
+        file.problem(scalar.place.clone(), message, None).into()
     })
 }
 
