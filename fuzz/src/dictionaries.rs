@@ -74,10 +74,17 @@ pub const OPW: &[&str] = &[
     "|\n", ">\n", "#", "\"", "'", ".inf", ".nan", "1e308",
 ];
 
+/// Keys of a calibration file of Universal Robots.
+#[rustfmt::skip]
+pub const UR: &[&str] = &[
+    "kinematics:\n", "  shoulder:\n", "  upper_arm:\n", "  forearm:\n", "  wrist_1:\n", "  wrist_2:\n", "  wrist_3:\n", "    x: ", "    y: ", "    z: ",
+    "    roll: ", "    pitch: ", "    yaw: ", "  hash: calib_", "  - ", "[", "]", "{", "}", "#", "\"", "'", ".inf", ".nan", "1e308", "-1e-320",
+];
+
 /// Words of a Denavit-Hartenberg table.
 #[rustfmt::skip]
 pub const DH: &[&str] = &[
-    "convention = standard\n", "convention = modified\n", "name = ", "joint", "type", "sign", "a_mm", "a_m", "alpha_deg", "alpha_rad",
+    "convention = standard\n", "convention = modified\n", "convention = hayati\n", "beta_deg", "name = ", "joint", "type", "sign", "a_mm", "a_m", "alpha_deg", "alpha_rad",
     "d_mm", "d_m", "theta_deg", "theta_rad", "lower_deg", "upper_deg", "lower_mm", "upper_mm", "revolute", "prismatic", "fixed", "; ",
     ", ", "\t", "\"", "#", "nan", "inf", "1e308", "-1",
 ];

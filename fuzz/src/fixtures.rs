@@ -132,6 +132,11 @@ pub fn opw() -> Vec<Vec<u8>> {
     ])
 }
 
+/// A calibration file of Universal Robots.
+pub fn ur() -> Vec<Vec<u8>> {
+    seeds(&[include_str!("../../crates/formats/tests/seeds/arm.ur.yaml")])
+}
+
 /// Both conventions, every separator, sliding and fixed rows.
 pub fn dh() -> Vec<Vec<u8>> {
     seeds(&[

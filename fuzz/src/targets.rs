@@ -65,6 +65,7 @@ pub const TARGETS: &[Target] = &[
     target("meshes", edited::meshes, fixtures::meshes, &["urdf"], words::URDF),
     target("xacro", verdicts::xacro, fixtures::xacro, &["xacro"], words::XACRO),
     target("opw", verdicts::opw, fixtures::opw, &["yaml", "yml"], words::OPW),
+    target("ur", verdicts::ur, fixtures::ur, &["yaml", "yml"], words::UR),
     target("dh", verdicts::dh, fixtures::dh, &["dh"], words::DH),
     target("chain", verdicts::chain, fixtures::chain, &["chain", "fsf"], words::CHAIN),
     target("format", verdicts::format, fixtures::named, &[], words::FORMAT),

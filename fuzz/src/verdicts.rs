@@ -70,6 +70,11 @@ pub fn opw(bytes: &[u8]) {
     check_foreign(read_as(bytes, Path::new("arm.yaml"), Format::Opw));
 }
 
+/// A calibration file of Universal Robots.
+pub fn ur(bytes: &[u8]) {
+    check_foreign(read_as(bytes, Path::new("arm.yaml"), Format::Ur));
+}
+
 /// A Denavit-Hartenberg table.
 pub fn dh(bytes: &[u8]) {
     check_foreign(read_as(bytes, Path::new("arm.dh"), Format::Dh));

@@ -19,7 +19,7 @@ TYPED = ["pose", "yaskawa/mh12", "--at-mm", "1000,0,800", "--tilt-deg", "90", "-
 COMMANDS = [
     "robots", "materials", "pose", "posture", "place", "advise", "compare", "compensate", "identify", "calibrate", "learn", "journal", "tracker",
     "forces", "roundness", "ballbar", "backlash", "pose_accuracy", "path_accuracy", "motion", "drives", "frf", "stability", "budget",
-    "modes", "receptance",
+    "modes", "receptance", "export",
 ]  # fmt: skip
 
 

@@ -80,6 +80,7 @@ fn run(command: &Command) -> Result<Outcome, StudyError> {
         Command::Compare(compare) => command::compare::run(compare),
         Command::New(new) => command::new::run(new),
         Command::Robots(robots) => command::robots::run(robots),
+        Command::Export(export) => command::export::run(export),
         Command::Materials(materials) => command::materials::run(materials),
         Command::Pose(pose) => command::pose::run(pose),
         Command::Modes(modes) => command::modes::run(modes),

@@ -2,7 +2,7 @@
 //!
 //! - [`document`]: a TOML file that is checked completely and reports all its problems at once,
 //!   each with its place, its limit and a hint.
-//! - [`robot`]: robot descriptions in, of six formats; readings of pendants.
+//! - [`robot`]: robot descriptions in, of seven formats, and out, of six; readings of pendants.
 //! - [`controller`]: how a cell writes its robot programs.
 //! - [`motion`]: how a controller moves an arm.
 //! - [`convention`]: poses as six makers write them.

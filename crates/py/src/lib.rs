@@ -8,6 +8,7 @@
 //! | `placement_evaluations` | the class `PlacementEvaluations`: the cost of a path for many placements of its part |
 //! | `tool_path` | the class `ToolPath`: the moves of a program |
 //! | `answer` | commands as functions, and the command itself; `operands`, `robot_file`: robots and studies as files |
+//! | `export` | a robot as the text of a file for other programs |
 //! | `arrays`, `poses`, `results` | conversion of numbers, poses and forces from and to arrays |
 //! | `html` | tables for notebooks |
 //! | `threads` | thread pools, release of the lock of Python, Ctrl-C |
@@ -24,6 +25,7 @@ mod arithmetic;
 mod arrays;
 mod errors;
 mod evaluation;
+mod export;
 mod html;
 mod joint_positions;
 mod operands;

@@ -16,6 +16,7 @@ use pyo3::types::PyBytes;
 use crate::arrays::array;
 use crate::errors::refused;
 use crate::evaluation::{self, EvaluationOptions, PoseEvaluations};
+use crate::export::{self, Word};
 use crate::html;
 use crate::joint_positions::{self, Request};
 use crate::postures::{self, Postures};
@@ -59,7 +60,7 @@ impl Robot {
         Robot::read(py, RobotSource::urdf(py, &path, flange)?)
     }
 
-    /// text -> Robot: from the text of a robot file; `format` is `armill`, `urdf`, `opw`, `dh` or `chain`.
+    /// text -> Robot: from the text of a robot file; `format` is `armill`, `urdf`, `opw`, `ur`, `dh` or `chain`.
     #[staticmethod]
     #[pyo3(signature = (text, format, name="robot", flange=None))]
     fn from_text(
@@ -206,6 +207,48 @@ impl Robot {
     /// -> str: the robot as a robot file of armill, with seven digits of each given compliance.
     fn to_toml(&self, py: Python<'_>) -> PyResult<String> {
         self.source.toml(py)
+    }
+
+    /// -> str: the robot as a URDF. `coupling` of coupled joints is `own` (the angle between the links) or `mimic` (a joint follows).
+    #[pyo3(signature = (*, coupling=None))]
+    fn to_urdf(&self, py: Python<'_>, coupling: Word<'_>) -> PyResult<String> {
+        export::rigid(self, py, "urdf", [coupling, None])
+    }
+
+    /// -> str: the robot as an SDF model. `stiffness` is `passive` (a spring joint behind each drive) or `joints` (each joint is
+    /// a spring at `joints`, (dof,) in rad and m).
+    #[pyo3(signature = (*, stiffness=None, joints=None, coupling=None))]
+    fn to_sdf(
+        &self,
+        py: Python<'_>,
+        stiffness: Word<'_>,
+        joints: Optional<'_, '_>,
+        coupling: Word<'_>,
+    ) -> PyResult<String> {
+        export::elastic(self, py, "sdf", &([stiffness, coupling], joints))
+    }
+
+    /// -> str: the robot as a model of MuJoCo (MJCF), with the options of `to_sdf`; `joints` are also its key frame.
+    #[pyo3(signature = (*, stiffness=None, joints=None, coupling=None))]
+    fn to_mjcf(
+        &self,
+        py: Python<'_>,
+        stiffness: Word<'_>,
+        joints: Optional<'_, '_>,
+        coupling: Word<'_>,
+    ) -> PyResult<String> {
+        export::elastic(self, py, "mjcf", &([stiffness, coupling], joints))
+    }
+
+    /// -> str: the robot as a Denavit-Hartenberg table (CSV). `convention` is `standard`, `modified` or `hayati`.
+    #[pyo3(signature = (convention="standard", *, coupling=None))]
+    fn to_dh(&self, py: Python<'_>, convention: &str, coupling: Word<'_>) -> PyResult<String> {
+        export::rigid(self, py, "dh", [coupling, Some(convention)])
+    }
+
+    /// -> str: the robot as a calibration file of ur_description (YAML).
+    fn to_ur(&self, py: Python<'_>) -> PyResult<String> {
+        export::rigid(self, py, "ur", [None, None])
     }
 
     /// (n, dof) joints -> (n, 4, 4) poses, base_from_tool.
@@ -424,23 +467,7 @@ impl Robot {
     }
 
     fn _repr_html_(&self) -> String {
-        let compliances = self.arm().compliance();
-        let rows = self.arm().joints().iter().enumerate().map(|(index, joint)| {
-            let [lower, upper] = match joint.limits {
-                Some(limits) => [limits.lower, limits.upper].map(|limit| format!("{limit:.4}")),
-                None => [String::new(), String::new()],
-            };
-            let compliance = compliances.and_then(|all| all.get(index));
-            let compliance = compliance.map_or_else(String::new, |joint| format!("{:.4e}", joint.value));
-            vec![joint.name.clone(), lower, upper, compliance]
-        });
-        let header = [
-            "joint",
-            "lower limit, rad (m)",
-            "upper limit, rad (m)",
-            "compliance, rad/(N m) (m/N)",
-        ];
-        html::table(&format!("{} ({})", self.title(), self.name()), &header, rows)
+        html::robot(self)
     }
 
     /// How to make it again, from the text that it was read from.

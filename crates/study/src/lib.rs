@@ -20,6 +20,7 @@ pub mod compliance_class;
 pub mod enclosed_links;
 pub mod error;
 pub mod estimated_links;
+pub mod exported_robot;
 pub mod file;
 pub mod file_names;
 pub mod finished;

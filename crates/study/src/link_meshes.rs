@@ -91,6 +91,11 @@ impl LinkMeshes {
     }
 }
 
+/// The meshes that the file of a robot names, whether they are there or not; none of a robot without such a file.
+pub fn named_meshes(robot: &str, folder: &Path) -> Vec<Mesh> {
+    named(robot, folder).map_or_else(Vec::new, |(meshes, _)| meshes)
+}
+
 /// The meshes that the file of a robot names, and where they may be; none of a robot of another format, or without a file of its own, such
 /// as one of the library.
 fn named(robot: &str, folder: &Path) -> Option<(Vec<Mesh>, Places)> {

@@ -65,11 +65,11 @@ class Robot:
     @staticmethod
     def from_text(
         text: str,
-        format: Literal["armill", "urdf", "opw", "dh", "chain"],
+        format: Literal["armill", "urdf", "opw", "ur", "dh", "chain"],
         name: str = "robot",
         flange: str | None = None,
     ) -> Robot:
-        """text -> Robot: from the text of a robot file; `format` is `armill`, `urdf`, `opw`, `dh` or `chain`."""
+        """text -> Robot: from the text of a robot file; `format` is `armill`, `urdf`, `opw`, `ur`, `dh` or `chain`."""
     @staticmethod
     def from_dh(
         rows: _Numbers,
@@ -132,6 +132,32 @@ class Robot:
         """
     def to_toml(self) -> str:
         """-> str: the robot as a robot file of armill, with seven digits of each given compliance."""
+    def to_urdf(self, *, coupling: Literal["own", "mimic"] | None = None) -> str:
+        """-> str: the robot as a URDF. `coupling` of coupled joints is `own` (the angle between the links) or `mimic` (a joint follows)."""
+    def to_sdf(
+        self,
+        *,
+        stiffness: Literal["passive", "joints"] | None = None,
+        joints: _Numbers | None = None,
+        coupling: Literal["own", "mimic"] | None = None,
+    ) -> str:
+        """-> str: the robot as an SDF model. `stiffness` is `passive` (a spring joint behind each drive) or `joints` (each joint is
+        a spring at `joints`, (dof,) in rad and m).
+        """
+    def to_mjcf(
+        self,
+        *,
+        stiffness: Literal["passive", "joints"] | None = None,
+        joints: _Numbers | None = None,
+        coupling: Literal["own", "mimic"] | None = None,
+    ) -> str:
+        """-> str: the robot as a model of MuJoCo (MJCF), with the options of `to_sdf`; `joints` are also its key frame."""
+    def to_dh(
+        self, convention: Literal["standard", "modified", "hayati"] = "standard", *, coupling: Literal["own", "mimic"] | None = None
+    ) -> str:
+        """-> str: the robot as a Denavit-Hartenberg table (CSV). `convention` is `standard`, `modified` or `hayati`."""
+    def to_ur(self) -> str:
+        """-> str: the robot as a calibration file of ur_description (YAML)."""
     def forward(
         self, joints: _Numbers, tool: Poses | None = None, *, out: _Floats | None = None, threads: int | None = None
     ) -> _Floats:

@@ -1,6 +1,6 @@
 //! Arguments of `armill`: one file per command, with the same name as in `command`.
 //!
-//! `run`, `check`, `compare`, `new`, `robots`, `materials`, `pose`, `posture`, `place`, `advise`, `compensate`,
+//! `run`, `check`, `compare`, `new`, `robots`, `export`, `materials`, `pose`, `posture`, `place`, `advise`, `compensate`,
 //! `identify`, `calibrate`, `learn`, `journal`, `tracker`, `forces`, `roundness`, `ballbar`, `backlash`, `budget`, `pose_accuracy`, `path_accuracy`, `motion`, `drives`, `frf`, `modes`, `receptance`,
 //! `stability`, `serve`, `completions`, `man`; `poses` and `program` are used by two of them each, `writing` by all that write
 //! files.
@@ -22,6 +22,7 @@ mod compare;
 mod compensate;
 mod completions;
 mod drives;
+mod export;
 mod forces;
 mod frf;
 mod identify;
@@ -59,6 +60,7 @@ pub(crate) use compare::CompareArguments;
 pub(crate) use compensate::CompensateArguments;
 pub(crate) use completions::CompletionsArguments;
 pub(crate) use drives::DrivesArguments;
+pub(crate) use export::{CouplingArgument, ExportArguments, StiffnessArgument};
 pub(crate) use forces::ForcesArguments;
 pub(crate) use frf::FrfArguments;
 pub(crate) use identify::{IdentifyArguments, PointsArgument, PriorArgument};
@@ -116,6 +118,8 @@ pub(crate) enum Command {
     New(NewArguments),
     /// List the robot library, show one robot, or import one
     Robots(RobotsArguments),
+    /// Write a robot for other programs: URDF, xacro, UR calibration, DH table, SDF, MJCF
+    Export(ExportArguments),
     /// List the material library, or show one material
     Materials(MaterialsArguments),
     /// List all postures of one pose: joints, compliance, deviation
@@ -187,6 +191,7 @@ impl Command {
                 Some(RobotsAction::Check(check)) => check.json,
                 None => a.json,
             },
+            Command::Export(a) => a.json,
             Command::Materials(a) => a.json,
             Command::Pose(a) => a.json,
             Command::Modes(a) => a.json,

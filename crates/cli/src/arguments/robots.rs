@@ -51,7 +51,7 @@ pub(crate) struct RobotsArguments {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum RobotsAction {
-    /// Convert a URDF, xacro, OPW file, DH table, chain or library robot to an armill robot file
+    /// Convert a URDF, xacro, OPW or UR file, DH table, chain or library robot to an armill robot file
     Import(ImportArguments),
     /// Enclose the links of a URDF or xacro by capsules: [[body]] tables of a robot file
     Bodies(BodiesArguments),
@@ -63,7 +63,7 @@ pub(crate) enum RobotsAction {
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
-The extension selects the format: .urdf, .xacro, .xml; .yaml (OPW parameters); .dh, .csv (Denavit-Hartenberg table);
+The extension selects the format: .urdf, .xacro, .xml; .yaml (OPW, UR calibration); .dh, .csv (Denavit-Hartenberg table);
 .chain, .fsf (elementary motions). Comments in the robot file state what was assumed and what is missing.
 
 Examples:
@@ -78,7 +78,7 @@ pub(crate) struct ImportArguments {
     /// Flange link of a URDF or xacro [default: the end of the chain with the most joints]
     #[arg(long, value_name = "LINK")]
     pub tip: Option<String>,
-    /// Format: urdf, xacro, opw, dh, chain [default: by extension and content]
+    /// Format: urdf, xacro, opw, ur, dh, chain [default: by extension and content]
     #[arg(long, value_name = "NAME")]
     pub format: Option<Format>,
     /// Robot file to write (printed on stdout if not given)

@@ -1,6 +1,6 @@
 //! The commands: options to a call of `armill-study`, its result to stdout, as text or JSON.
 //!
-//! One file per command: `run`, `check`, `compare`, `new`, `robots` (a folder, for its subcommands), `materials`,
+//! One file per command: `run`, `check`, `compare`, `new`, `robots` (a folder, for its subcommands), `export`, `materials`,
 //! `pose` (`pose_subject`: a robot, or the cell of a study), `posture`, `place`, `advise`, `compensate`, `identify`, `calibrate`, `learn`, `journal`, `tracker`, `forces`, `roundness`, `ballbar`,
 //! `backlash`, `budget`, `pose_accuracy`, `path_accuracy`, `motion`, `drives`, `frf`, `modes`, `receptance`, `stability`, `serve`, `completions`, `man`. `poses`: options of measured
 //! poses. `program`: options of a robot program. `drawing`: writes requested pictures.
@@ -21,6 +21,7 @@ pub(crate) mod compare;
 pub(crate) mod compensate;
 pub(crate) mod completions;
 pub(crate) mod drives;
+pub(crate) mod export;
 pub(crate) mod forces;
 pub(crate) mod frf;
 pub(crate) mod identify;

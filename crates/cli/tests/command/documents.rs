@@ -113,6 +113,7 @@ guide! {
     guide_programs: "programs",
     guide_your_robot: "your-robot",
     guide_measure_stiffness: "measure-stiffness",
+    guide_export: "export",
     guide_learn: "learn",
     guide_journal: "journal",
     guide_study_file: "study-file",

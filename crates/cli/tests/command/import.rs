@@ -112,7 +112,7 @@ fn refuses_what_cannot_be_imported_and_writes_nothing() {
         assert!(!cell.at("made.toml").exists());
     }
     cell.armill(&["robots", "import", "arm.urdf", "--format", "step"])
-        .refused(&["urdf, xacro, opw, dh, chain"]);
+        .refused(&["urdf, xacro, opw, ur, dh, chain"]);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 //!
 //! `cell` is where they run. What a user meets first: `new_and_robots`, `shell`, `documents` (every page is run).
 //! Commands: `run`,
-//! `pose`, `place`, `advise`, `springs`, `assumed`, `robots_check`, `import`, `bodies`, `masses`, `materials`, `identify`, `calibrate`, `learn`, `journal`, `tracker`,
+//! `pose`, `place`, `advise`, `springs`, `assumed`, `robots_check`, `import`, `export`, `bodies`, `masses`, `materials`, `identify`, `calibrate`, `learn`, `journal`, `tracker`,
 //! `forces`, `roundness`, `ballbar`, `budget`, `path_accuracy`, `motion`, `frf`, `receptance`, `stability`, `compare`, `clearance`, `restricted_space`, `holes`, `unloaded` (backlash). What goes
 //! wrong: `refused`, `guarded` (files of the user), `hostile` (numbers and bytes),
 //! `terminal`, `killed`, `rough` (places and inputs), `slips` (mistakes that are easily made). `without_masses`: an arm whose links have none.
@@ -23,6 +23,7 @@ mod compare;
 mod compensate;
 mod documents;
 mod drives;
+mod export;
 mod forces;
 mod frf;
 mod guarded;

@@ -6,7 +6,7 @@
 //! | `.urdf` | URDF, or xacro if it contains xacro elements |
 //! | `.xacro` | xacro |
 //! | `.xml` | URDF or xacro, by its content |
-//! | `.yaml`, `.yml` | OPW parameters |
+//! | `.yaml`, `.yml` | OPW parameters, or a calibration file of Universal Robots, by its content |
 //! | `.dh`, `.csv` | Denavit-Hartenberg table |
 //! | `.chain`, `.fsf` | chain of elementary motions |
 //! | `.txt` | a table if it names a convention or `alpha`, else a chain |
@@ -18,7 +18,7 @@ use std::path::Path;
 use std::str::FromStr;
 
 use super::description::RobotDescription;
-use super::{armill, chain, dh, opw, urdf};
+use super::{armill, chain, dh, opw, ur, urdf};
 use crate::document::{Document, Problems, Source};
 
 /// A kind of robot file.
@@ -32,6 +32,8 @@ pub enum Format {
     Xacro,
     /// OPW parameters in YAML.
     Opw,
+    /// Calibration file of Universal Robots in YAML.
+    Ur,
     /// A Denavit-Hartenberg table.
     Dh,
     /// A chain of elementary motions.
@@ -58,7 +60,10 @@ const KNOWN: [FormatRow; 8] = [
         let format = if macros { Format::Xacro } else { Format::Urdf };
         text.contains("<robot").then_some(format)
     }),
-    (&["yaml", "yml"], " (OPW parameters)", |_| Some(Format::Opw)),
+    (&["yaml", "yml"], " (OPW parameters, UR calibration)", |text| {
+        let is_ur = text.lines().any(|line| line.starts_with("kinematics:"));
+        Some(if is_ur { Format::Ur } else { Format::Opw })
+    }),
     (&["dh", "csv"], " (Denavit-Hartenberg)", |_| Some(Format::Dh)),
     (&["chain", "fsf"], " (elementary motions)", |_| {
         Some(Format::Chain)
@@ -78,11 +83,12 @@ pub fn endings() -> String {
 
 impl Format {
     /// Every format.
-    pub const ALL: [Format; 6] = [
+    pub const ALL: [Format; 7] = [
         Format::Armill,
         Format::Urdf,
         Format::Xacro,
         Format::Opw,
+        Format::Ur,
         Format::Dh,
         Format::Chain,
     ];
@@ -94,6 +100,7 @@ impl Format {
             Format::Urdf => "urdf",
             Format::Xacro => "xacro",
             Format::Opw => "opw",
+            Format::Ur => "ur",
             Format::Dh => "dh",
             Format::Chain => "chain",
         }
@@ -201,6 +208,7 @@ pub fn read(
             "expand the file to URDF first, or build with the feature `xacro`",
         )),
         Format::Opw => opw::read(&shown, id, &text),
+        Format::Ur => ur::read(&shown, id, &text),
         Format::Dh => dh::read(&shown, id, &text),
         Format::Chain => chain::read(&shown, id, &text),
     }

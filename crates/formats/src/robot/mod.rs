@@ -6,6 +6,7 @@
 //! | URDF, and xacro, which becomes URDF | [`urdf`], `xacro` |
 //! | OPW parameters | [`opw`] |
 //! | Denavit-Hartenberg table | [`dh`] |
+//! | calibration file of Universal Robots | [`ur`] |
 //! | chain of elementary motions | [`chain`] |
 //!
 //! Each gives a [`RobotDescription`]: the robot of the core, with the source of its numbers and what was assumed. Each
@@ -14,17 +15,19 @@
 //!
 //! [`spring_tables`] and [`shape_tables`]: tables of springs, masses and shapes, which studies have as well. `body_inertia`: what no
 //! inertia of a body is.
-//! [`pendant`]: what a pendant shows.
+//! [`pendant`]: what a pendant shows. [`export`]: robots out, in formats of other programs.
 //! `description`: what all of them give.
 
 pub mod armill;
 pub mod chain;
 pub mod dh;
+pub mod export;
 pub mod format;
 pub mod opw;
 pub mod pendant;
 pub mod shape_tables;
 pub mod spring_tables;
+pub mod ur;
 pub mod urdf;
 #[cfg(feature = "xacro")]
 pub mod xacro;

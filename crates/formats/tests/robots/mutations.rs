@@ -9,13 +9,14 @@ use armill_formats::robot::format::{self, RobotReadOptions};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
-const FILES: [(&str, &str); 5] = [
+const FILES: [(&str, &str); 6] = [
     (
         "arm.urdf",
         include_str!("../../../../validation/urdf-forward/oblique.urdf"),
     ),
     ("/nowhere/arm.xacro", include_str!("../seeds/arm.xacro")),
     ("opw.yaml", include_str!("../seeds/arm.opw.yaml")),
+    ("ur.yaml", include_str!("../seeds/arm.ur.yaml")),
     ("arm.dh", include_str!("../seeds/arm.dh")),
     ("arm.chain", include_str!("../seeds/arm.chain")),
 ];

@@ -6,6 +6,7 @@ a table as a data frame, an Arrow table or arrays by column name. ``armill.comma
 """
 
 from armill._commands._call import command_help
+from armill._commands.exports import export
 from armill._commands.libraries import materials, modes, pose, receptance, robots
 from armill._commands.measurements import (
     ballbar,
@@ -34,6 +35,7 @@ __all__ = [
     "compare",
     "compensate",
     "drives",
+    "export",
     "forces",
     "frf",
     "identify",

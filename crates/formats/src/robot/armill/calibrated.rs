@@ -25,7 +25,7 @@ pub struct Geometry {
 }
 
 /// Key of the source, and mark of each motion.
-pub(super) const KEY: &str = "calibrated";
+pub(in crate::robot) const KEY: &str = "calibrated";
 /// Digits kept behind the point of mm and deg: a millionth of what a tracker sees.
 const PLACES: usize = 8;
 

@@ -55,6 +55,7 @@ use crate::document::{Document, Problems};
 use crate::sources;
 
 pub use self::backlash::{JointBacklash, MeasuredBacklash, with_backlash};
+pub(super) use self::calibrated::KEY as CALIBRATED;
 pub use self::calibrated::{Geometry, with_geometry};
 pub use self::geometry_covariance_table::GeometryCovarianceTable;
 pub use self::identified::{Identified, IdentifiedSpring, with_given_springs, with_springs};

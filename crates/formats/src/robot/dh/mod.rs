@@ -11,11 +11,12 @@
 //! |---|---|
 //! | `standard` | `Rz(theta) Tz(d) Tx(a) Rx(alpha)`: a and alpha lead to the next axis |
 //! | `modified` (Craig) | `Rx(alpha) Tx(a) Rz(theta) Tz(d)`: a and alpha lead from the axis before |
+//! | `hayati` | `Rz(theta) Tz(d) Tx(a) Rx(alpha) Ry(beta)`: standard, with a turn about y for axes that are nearly parallel |
 //!
 //! A joint adds to `theta` (a prismatic one to `d`): the column contains the value at the controller's zero. The two
 //! conventions look alike and mean different arms, so the label is demanded; so are units.
 //!
-//! Columns: `a_mm` or `a_m`, `alpha_deg` or `alpha_rad`, `d_mm` or `d_m`, `theta_deg` or `theta_rad`; optional `joint`
+//! Columns: `a_mm` or `a_m`, `alpha_deg` or `alpha_rad`, `d_mm` or `d_m`, `theta_deg` or `theta_rad`; `beta_deg` or `beta_rad` with `hayati`; optional `joint`
 //! (name), `type` (revolute, prismatic, fixed), `sign` (1 or -1), `lower_deg`, `upper_deg` (or `_rad`, `_mm`, `_m`).
 //!
 //! In reading order: `table` (lines, header, cells), `rows` (columns, units, SI), and here the chain of motions.
@@ -59,6 +60,9 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
         Convention::Modified => {
             "modified convention (Craig): a row is Rx(alpha) Tx(a) Rz(theta) Tz(d)".to_owned()
         }
+        Convention::Hayati => {
+            "convention of Hayati: a row is Rz(theta) Tz(d) Tx(a) Rx(alpha) Ry(beta)".to_owned()
+        }
     }];
     found
         .remarks
@@ -76,17 +80,19 @@ fn motions_of(row: &Row, convention: Convention, joint: usize) -> Vec<Motion> {
     };
     let about_z = [Motion::About(Axis::Z, theta), Motion::Along(Axis::Z, d)];
     let motions = match convention {
-        Convention::Standard => [
+        Convention::Standard | Convention::Hayati => [
             about_z[0],
             about_z[1],
             Motion::Along(Axis::X, constant(row.a)),
             Motion::About(Axis::X, constant(row.alpha)),
+            Motion::About(Axis::Y, constant(row.beta)),
         ],
         Convention::Modified => [
             Motion::About(Axis::X, constant(row.alpha)),
             Motion::Along(Axis::X, constant(row.a)),
             about_z[0],
             about_z[1],
+            Motion::About(Axis::Y, constant(0.0)),
         ],
     };
     let moves = |motion: &Motion| motion.amount() != constant(0.0);

@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | `a`, `d` | `_mm`, `_m` | yes |
 //! | `alpha`, `theta` | `_deg`, `_rad` | yes |
+//! | `beta` | `_deg`, `_rad` | in the convention `hayati`, and only there |
 //! | `lower`, `upper` | any of the four, as the joint moves; empty: no limit | both or none |
 //! | `joint`, `type`, `sign` | - | no: `joint_1`, ...; revolute; 1 |
 //!
@@ -17,7 +18,7 @@ use armill_core::robot::joint::Sign;
 use armill_core::units::{from_deg, from_mm};
 
 use super::super::{MOST_JOINTS, TWO_TURNS};
-use super::table::{Cell, Table};
+use super::table::{Cell, Convention, Table};
 use crate::document::{Problems, Source};
 
 /// Which part of a row a joint moves.
@@ -40,6 +41,8 @@ pub(super) struct Row {
     pub moves: Moves,
     pub a: f64,
     pub alpha: f64,
+    /// 0 but in the convention `hayati`.
+    pub beta: f64,
     pub d: f64,
     pub theta: f64,
     /// Counting direction of the controller.
@@ -60,9 +63,10 @@ enum Kind {
 }
 
 /// What a column contains.
-const QUANTITIES: [(&str, Kind); 6] = [
+const QUANTITIES: [(&str, Kind); 7] = [
     ("a", Kind::Length),
     ("alpha", Kind::Angle),
+    ("beta", Kind::Angle),
     ("d", Kind::Length),
     ("theta", Kind::Angle),
     ("lower", Kind::OfJoint),
@@ -102,7 +106,23 @@ pub(super) fn read(file: &Source, table: &Table) -> Result<Vec<Row>, Problems> {
             problems.push(file.problem(cell.place.clone(), message, None));
         }
     }
-    for needed in ["a", "alpha", "d", "theta"] {
+    let hayati = table.convention == Convention::Hayati;
+    if let Some(cell) = table
+        .header
+        .iter()
+        .find(|cell| !hayati && quantity(&cell.text.to_lowercase()) == "beta")
+    {
+        let hint = "only rows of `convention = hayati` end with Ry(beta)".to_owned();
+        problems.push(file.problem(
+            cell.place.clone(),
+            "a column `beta` in another convention",
+            Some(hint),
+        ));
+    }
+    let needed = ["a", "alpha", "d", "theta"]
+        .into_iter()
+        .chain(hayati.then_some("beta"));
+    for needed in needed {
         if !seen.contains(needed) {
             let place = table.header.first().map_or(0..0, |cell| cell.place.clone());
             let message = format!("no column contains `{needed}`");
@@ -226,25 +246,21 @@ impl RowReader<'_> {
             }
             (None, None) => None,
         };
-        let (a, alpha, d, theta) = (
-            self.value("a"),
-            self.value("alpha"),
-            self.value("d"),
-            self.value("theta"),
-        );
-        match (a, alpha, d, theta) {
-            (Ok(a), Ok(alpha), Ok(d), Ok(theta)) => Ok(Row {
+        let values = ["a", "alpha", "beta", "d", "theta"].map(|of| self.value(of));
+        match values {
+            [Ok(a), Ok(alpha), Ok(beta), Ok(d), Ok(theta)] => Ok(Row {
                 joint,
                 moves,
                 a,
                 alpha,
+                beta,
                 d,
                 theta,
                 sign,
                 limits,
             }),
-            (a, alpha, d, theta) => {
-                let refused = [a, alpha, d, theta].into_iter().filter_map(Result::err);
+            values => {
+                let refused = values.into_iter().filter_map(Result::err);
                 Err(refused.flatten().collect())
             }
         }

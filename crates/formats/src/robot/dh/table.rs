@@ -14,6 +14,8 @@ pub(super) enum Convention {
     Standard,
     /// `Rx(alpha) Tx(a) Rz(theta) Tz(d)`
     Modified,
+    /// `Rz(theta) Tz(d) Tx(a) Rx(alpha) Ry(beta)`
+    Hayati,
 }
 
 /// A piece of the text and its position.
@@ -41,7 +43,8 @@ pub(super) struct Table {
 
 /// What to write where the convention is not known.
 const CONVENTIONS: &str = "write `convention = standard` (a row is Rz(theta) Tz(d) Tx(a) Rx(alpha): a and alpha lead to the \
-     next axis) or `convention = modified` (Craig: Rx(alpha) Tx(a) Rz(theta) Tz(d): a and alpha lead from the axis before)";
+     next axis) or `convention = modified` (Craig: Rx(alpha) Tx(a) Rz(theta) Tz(d): a and alpha lead from the axis before); `convention = hayati` is standard with Ry(beta) \
+     behind it";
 
 /// The table of this text: `#` starts a comment, `key = value` is a setting, the first other line is the header.
 ///
@@ -60,8 +63,9 @@ pub(super) fn read(file: &Source) -> Result<Table, Problems> {
                     "convention" => match convention_of(value) {
                         Some(known) => convention = Some(known),
                         None => {
-                            let message =
-                                format!("convention `{value}` is neither `standard` nor `modified`");
+                            let message = format!(
+                                "convention `{value}` is none of `standard`, `modified` and `hayati`"
+                            );
                             problems.push(file.problem(line.place, message, Some(CONVENTIONS.to_owned())));
                             // Already reported: not missing as well.
                             convention = Some(Convention::Standard);
@@ -126,6 +130,7 @@ fn convention_of(word: &str) -> Option<Convention> {
     match word.to_lowercase().as_str() {
         "standard" => Some(Convention::Standard),
         "modified" => Some(Convention::Modified),
+        "hayati" => Some(Convention::Hayati),
         _ => None,
     }
 }

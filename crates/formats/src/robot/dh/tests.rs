@@ -94,6 +94,7 @@ fn link(convention: Convention, [a, alpha, d, theta]: [f64; 4]) -> Matrix4<f64> 
             0.0, sa, ca, d,
             0.0, 0.0, 0.0, 1.0,
         ),
+        Convention::Hayati => unreachable!("its matrix has five parameters"),
     };
     matrix
 }
@@ -224,4 +225,31 @@ fn a_table_of_more_rows_than_any_arm_has_is_refused() {
     };
     assert!(refusal(&rows(65)).contains("more than 64 rows"));
     assert!(read("a.dh", "a", &rows(64)).is_ok());
+}
+
+/// The link matrix of Hayati and Mirmirani (1985), eq. (3), with an offset along z.
+#[test]
+fn the_convention_of_hayati_has_a_turn_about_y_at_the_end_of_a_row() {
+    let [a, alpha, beta, d, theta] = [0.7, 0.02, -0.03, 0.1, 0.6_f64];
+    let text = format!(
+        "convention = hayati\ntype a_m alpha_rad beta_rad d_m theta_rad\nr {a} {alpha} {beta} {d} {theta}\n"
+    );
+    let ((sa, ca), (sb, cb), (st, ct)) = (alpha.sin_cos(), beta.sin_cos(), (theta + 0.4).sin_cos());
+    #[rustfmt::skip]
+    let expected = Matrix4::new(
+        ct * cb - st * sa * sb, -st * ca, ct * sb + st * sa * cb, a * ct,
+        st * cb + ct * sa * sb, ct * ca, st * sb - ct * sa * cb, a * st,
+        -ca * sb, sa, ca * cb, d,
+        0.0, 0.0, 0.0, 1.0,
+    );
+    assert!((flange(&text, &[0.4]) - expected).norm() < 1e-15);
+}
+
+#[test]
+fn beta_is_a_column_of_hayati_alone() {
+    let refused = |text: &str| read("t.dh", "t", text).unwrap_err().to_string();
+    let with = refused("convention = standard\na_m alpha_rad beta_rad d_m theta_rad\n0 0 0 0 0\n");
+    assert!(with.contains("`beta` in another convention"), "{with}");
+    let without = refused("convention = hayati\na_m alpha_rad d_m theta_rad\n0 0 0 0\n");
+    assert!(without.contains("no column contains `beta`"), "{without}");
 }

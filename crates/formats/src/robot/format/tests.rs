@@ -18,6 +18,7 @@ fn the_format_follows_from_ending_and_content() {
         ("a.xml", "<robot xmlns:xacro=\"x\"/>", Some(Format::Xacro)),
         ("package.xml", "<package/>", None),
         ("a.yml", "", Some(Format::Opw)),
+        ("a.yaml", "# c\nkinematics:\n", Some(Format::Ur)),
         ("a.csv", "", Some(Format::Dh)),
         ("a.txt", "convention = standard", Some(Format::Dh)),
         ("a.txt", "Tz(450)", Some(Format::Chain)),

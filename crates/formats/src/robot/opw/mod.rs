@@ -28,7 +28,7 @@
 //!
 //! Source: Brandstoetter, Angerer, Hofbaur 2014; the YAML keys of ROS-Industrial's support packages.
 
-mod yaml;
+pub(super) mod yaml;
 
 use std::ops::Range;
 

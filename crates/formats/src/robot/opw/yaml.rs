@@ -17,7 +17,7 @@ use std::ops::Range;
 
 /// A key with its values.
 #[derive(Debug, PartialEq)]
-pub(super) struct Entry<'a> {
+pub(in crate::robot) struct Entry<'a> {
     /// Without quotes round it.
     pub key: &'a str,
     /// Of the key, in bytes of the text.
@@ -28,7 +28,7 @@ pub(super) struct Entry<'a> {
 
 /// A value as it is written.
 #[derive(Debug, PartialEq)]
-pub(super) struct Scalar<'a> {
+pub(in crate::robot) struct Scalar<'a> {
     /// Without blanks, brackets and commas round it; quotes stay.
     pub text: &'a str,
     /// Bytes of the text.
@@ -38,7 +38,7 @@ pub(super) struct Scalar<'a> {
 /// Every key of the text, in order.
 ///
 /// Nothing is refused: a text of another kind has none of the requested keys. A key that is given twice is there twice.
-pub(super) fn entries(text: &str) -> Vec<Entry<'_>> {
+pub(in crate::robot) fn entries(text: &str) -> Vec<Entry<'_>> {
     let mut entries: Vec<Entry<'_>> = Vec::new();
     let mut in_brackets = false;
     let mut line_start = 0;

@@ -138,7 +138,7 @@ fn body_of(robot: &RobotDescription, found: &LinkMesh) -> Result<ArmBody, StudyE
 }
 
 /// What a mesh moves with, and its position there.
-fn attachment_of(robot: &RobotDescription, mesh: &Mesh) -> (Attachment, Isometry) {
+pub fn attachment_of(robot: &RobotDescription, mesh: &Mesh) -> (Attachment, Isometry) {
     let joints = robot.robot.joints();
     let index = |name: &str| joints.iter().position(|joint| joint.name == name);
     let base_from_mesh = mesh.base_from_mesh(|_| None);
