@@ -30,6 +30,7 @@ export class Engine {
   /** The one that is asked, and those of its threads. */
   private worker: Worker | null = null;
   private threads: Worker[] = [];
+  private startThreads = () => {};
   private readonly queue: Ask[] = [];
   private current: Ask | null = null;
   /** Whether the worker works at all, and why not. */
@@ -85,7 +86,10 @@ export class Engine {
       worker.postMessage(first);
       return worker;
     };
-    this.threads = shared ? Array.from({ length: threadCount(shared) }, (_, slot) => made({ kind: "thread", program, shared, slot })) : [];
+    this.threads = [];
+    this.startThreads = () => {
+      if (shared) this.threads = Array.from({ length: threadCount(shared) }, (_, slot) => made({ kind: "thread", program, shared, slot }));
+    };
     this.worker = made({ kind: "start", program, shared });
   }
 
@@ -111,6 +115,7 @@ export class Engine {
   private take(message: FromWorker): void {
     const { current } = this;
     if (message.kind === "line") return current?.line?.(message.line);
+    if (message.kind === "started") return this.startThreads();
     if (message.kind === "failed") return this.failed(message.message);
     this.has_answered = true;
     for (const [name, bytes] of message.written) bytes ? this.seen.set(name, bytes) : this.seen.delete(name);

@@ -16,8 +16,9 @@ export type ToWorker =
   | { kind: "thread"; program: WebAssembly.Module; shared: Shared; slot: number }
   | { kind: "ask"; method: string; path: string; body: Uint8Array; changes: FileChange[]; writes: boolean };
 
-/** From the worker: the reply, with the files that the program has written, a line of its output, or its end. */
+/** From the worker: that its threads may start, the reply, with the files that the program has written, a line of its output, or its end. */
 export type FromWorker =
+  | { kind: "started" }
   | { kind: "reply"; status: number; type: string; bytes: Uint8Array; written: FileChange[] }
   | { kind: "line"; line: string }
   | { kind: "failed"; message: string };

@@ -62,6 +62,8 @@ function start(module: WebAssembly.Module, shared: Shared | null): void {
   const { wasi, made } = instance(module, [new OpenFile(new File([])), output, keep, folder.preopened], shared);
   program = made.exports as unknown as Exports;
   wasi.initialize({ exports: { memory: memory!, _initialize: () => program!._initialize() } });
+  // The instance that is made first owns the memory of the first thread: those of the other threads come after it.
+  scope.postMessage({ kind: "started" });
   if (program.armill_threads(threadCount(shared)) !== 0) throw new Error("the threads do not start");
 }
 
