@@ -12,8 +12,11 @@ use armill_core::kernel::{EvaluateError, evaluate_at_joints};
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::inverse::posture_at;
 use armill_core::robot::jacobian::jacobian as jacobian_of;
+use armill_core::predict::predict;
 use armill_core::robot::{JointCompliance, PostureName};
-use armill_core::source::{Arm, ArmState, Gravity, StiffnessModel, Unstable};
+use armill_core::sampling::deviations::{SampledDeviations, compliance_terms};
+use armill_core::sampling::{SampledArm, SpringSums};
+use armill_core::source::{Arm, ArmState, Gravity, Links, StiffnessModel, Unstable};
 use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
 use numpy::PyArrayDyn;
@@ -24,7 +27,7 @@ use crate::arrays::{Batch, place_of};
 use crate::errors::{exception, refused};
 use crate::poses::{Forces, one_pose};
 use crate::results::Output;
-use crate::robot::{Robot, Springs};
+use crate::robot::{Robot, Springs, Varied};
 use crate::threads::{Effort, ThreadCount, work};
 
 type Floats<'py> = PyResult<Bound<'py, PyArrayDyn<f64>>>;
@@ -36,8 +39,8 @@ pub(crate) struct Request<'a, 'py> {
     pub joints: &'a Bound<'py, PyAny>,
     /// (4, 4)
     pub tool: Optional<'a, 'py>,
-    /// (..., dof), in place of those of the robot.
-    pub compliances: Optional<'a, 'py>,
+    /// In place of the compliances of the robot.
+    pub varied: Varied<'a, 'py>,
     /// The array to write.
     pub out: Optional<'a, 'py>,
     /// All processors if not given.
@@ -69,6 +72,19 @@ pub(crate) fn jacobian<'py>(robot: &Robot, request: &Request<'_, 'py>) -> Floats
 /// Compliances at the tool.
 pub(crate) fn compliance<'py>(robot: &Robot, request: &Request<'_, 'py>) -> Floats<'py> {
     let positions = JointPositions::compliant(robot, request)?;
+    if positions.is_proportional() {
+        let arm = robot.arm();
+        return positions.write_samples(&[6, 6], |sampled, out, watch| {
+            let samples: Vec<_> = sampled.arms.iter().map(|arm| (arm.compliances(), 1.0)).collect();
+            let sums = SpringSums {
+                arm: sampled.arms[0].arm(arm, sampled.tool),
+                joints: sampled.joints,
+                samples: &samples,
+                width: 36,
+            };
+            Ok(sums.write(|arm_state, _, slots| compliance_terms(arm_state, slots), out, watch)?)
+        });
+    }
     positions.evaluate(&[6, 6], &NO_LOAD, |arm_state, _, out| {
         let compliance = arm_state.compliance().ok_or(Unstable::Buckles)?;
         out.copy_from_slice(compliance.transpose().as_slice());
@@ -80,7 +96,9 @@ pub(crate) fn compliance<'py>(robot: &Robot, request: &Request<'_, 'py>) -> Floa
 pub(crate) fn mass_matrix<'py>(robot: &Robot, request: &Request<'_, 'py>) -> Floats<'py> {
     needs_mass(robot, request, "its mass matrix")?;
     let mut positions = JointPositions::rigid(robot, request)?;
-    positions.springs.model = Cow::Borrowed(&robot.model);
+    if let Springs::Nominal(_, model) = &mut positions.springs {
+        *model = Cow::Borrowed(&robot.model);
+    }
     let dof = robot.dof();
     positions.evaluate(&[dof, dof], &NO_LOAD, |arm_state, _, out| {
         let matrix = over_joint_positions(robot.arm(), &arm_state.mass_matrix());
@@ -128,15 +146,77 @@ pub(crate) fn modes<'py>(robot: &Robot, request: &Request<'_, 'py>) -> Floats<'p
 pub(crate) fn deviation<'py>(
     robot: &Robot,
     request: &Request<'_, 'py>,
-    forces: &Bound<'py, PyAny>,
-    paired: bool,
+    loads: &Loads<'_, 'py>,
+) -> Floats<'py> {
+    let mut positions = JointPositions::compliant(robot, request)?;
+    let forces = loads.at(&positions)?;
+    let shape = [forces.result_axes(), &[3]].concat();
+    if let (Springs::Nominal(compliance, model), true) = (&positions.springs, loads.all_sources) {
+        let nominal = SampledArm::nominal(&positions.arm(compliance, model));
+        positions.springs = Springs::Samples {
+            axes: Vec::new(),
+            arms: Cow::Owned(vec![nominal]),
+        };
+    }
+    if matches!(positions.springs, Springs::Nominal(..)) {
+        return positions.evaluate(&shape, &forces, |arm_state, at, out| {
+            for (wrench, out) in at.cases.iter().zip(out.chunks_mut(3)) {
+                out.copy_from_slice(arm_state.elastic(wrench)?.linear.as_slice());
+            }
+            Ok(())
+        });
+    }
+    let (arm, all_sources) = (robot.arm(), loads.all_sources);
+    positions.write_samples(&shape, |sampled, out, watch| {
+        let deviations = SampledDeviations {
+            robot: arm,
+            flange_from_tool: sampled.tool,
+            samples: sampled.arms,
+            joints: sampled.joints,
+            cases: &forces.cases,
+            paired: forces.paired,
+            all_sources,
+        };
+        deviations.write(out, watch)
+    })
+}
+
+/// Covariance of the deviations under each load case.
+pub(crate) fn covariance<'py>(
+    robot: &Robot,
+    request: &Request<'_, 'py>,
+    loads: &Loads<'_, 'py>,
 ) -> Floats<'py> {
     let positions = JointPositions::compliant(robot, request)?;
-    let forces = Forces::of(forces, paired.then_some(&positions.joints.axes))?;
-    let shape = [forces.result_axes(), &[3]].concat();
-    positions.evaluate(&shape, &forces, |arm_state, cases, out| {
-        for (wrench, out) in cases.iter().zip(out.chunks_mut(3)) {
-            out.copy_from_slice(arm_state.elastic(wrench)?.linear.as_slice());
+    let forces = loads.at(&positions)?;
+    let (all_sources, middle) = (loads.all_sources, vec![0.0; robot.dof()]);
+    let shape = [forces.result_axes(), &[3, 3]].concat();
+    positions.evaluate(&shape, &forces, |arm_state, at, out| {
+        for (wrench, out) in at.cases.iter().zip(out.chunks_mut(9)) {
+            let covariance = if all_sources {
+                predict(arm_state, wrench, &mut Links::KeptByFriction(&middle))?.covariance
+            } else {
+                arm_state.elastic(wrench)?;
+                arm_state.covariance()
+            };
+            out.copy_from_slice(covariance.as_slice());
+        }
+        Ok(())
+    })
+}
+
+/// Screws of the tool by each drive, then each spring.
+pub(crate) fn spring_jacobian<'py>(robot: &Robot, request: &Request<'_, 'py>) -> Floats<'py> {
+    let mut positions = JointPositions::rigid(robot, request)?;
+    if let Springs::Nominal(_, model) = &mut positions.springs {
+        *model = Cow::Borrowed(&robot.model);
+    }
+    let springs = robot.dof() + robot.model.structure.springs.len();
+    positions.evaluate(&[6, springs], &NO_LOAD, |arm_state, _, out| {
+        for (k, screw) in arm_state.screws().iter().enumerate() {
+            for (row, part) in screw.to_vector().iter().enumerate() {
+                out[row * springs + k] = *part;
+            }
         }
         Ok(())
     })
@@ -146,18 +226,17 @@ pub(crate) fn deviation<'py>(
 pub(crate) fn contributions<'py>(
     robot: &Robot,
     request: &Request<'_, 'py>,
-    forces: &Bound<'py, PyAny>,
-    paired: bool,
+    loads: &Loads<'_, 'py>,
 ) -> Floats<'py> {
     let positions = JointPositions::compliant(robot, request)?;
-    let forces = Forces::of(forces, paired.then_some(&positions.joints.axes))?;
+    let forces = loads.at(&positions)?;
     let contributors = robot.model.contributors(robot.dof()).len();
     let shape = [forces.result_axes(), &[contributors, 3]].concat();
-    positions.evaluate(&shape, &forces, |arm_state, cases, out| {
-        for (wrench, out) in cases.iter().zip(out.chunks_mut(3 * contributors)) {
+    positions.evaluate(&shape, &forces, |arm_state, at, out| {
+        for (wrench, out) in at.cases.iter().zip(out.chunks_mut(3 * contributors)) {
             arm_state.elastic(wrench)?;
             for (share, out) in arm_state.shares().iter().zip(out.chunks_mut(3)) {
-                out.copy_from_slice(share.linear.as_slice());
+                out.copy_from_slice((share.linear * at.factor).as_slice());
             }
         }
         Ok(())
@@ -187,7 +266,7 @@ pub(crate) fn gravity<'py>(
         ));
     }
     let mut positions = JointPositions::compliant(robot, request)?;
-    positions.springs.model.to_mut().gravity = Some(Gravity {
+    positions.springs.set_gravity(&Gravity {
         acceleration,
         reference,
     });
@@ -211,6 +290,30 @@ pub(crate) fn branches(robot: &Robot, joints: &Bound<'_, PyAny>) -> PyResult<Vec
         Effort::Points(positions.count),
         |_| all.chunks(robot.dof()).map(name).collect(),
     )
+}
+
+/// Load cases, and the sources of deviation.
+pub(crate) struct Loads<'a, 'py> {
+    /// (cases, 3) or (cases, 6)
+    pub forces: &'a Bound<'py, PyAny>,
+    /// Whether each of the joint positions has a load case of its own.
+    pub paired: bool,
+    /// Whether deviations that no load causes are included.
+    pub all_sources: bool,
+}
+
+impl Loads<'_, '_> {
+    fn at(&self, positions: &JointPositions<'_, '_>) -> PyResult<Forces> {
+        Forces::of(self.forces, self.paired.then_some(&positions.joints.axes))
+    }
+}
+
+/// The load cases at a point.
+#[derive(Clone, Copy)]
+struct AtPoint<'a> {
+    cases: &'a [Wrench],
+    /// Of the deviation under load in this sample: 1 and its model error.
+    factor: f64,
 }
 
 /// For results that depend on no load.
@@ -254,18 +357,66 @@ impl<'a, 'py> JointPositions<'a, 'py> {
             value: 0.0,
             standard_uncertainty: 0.0,
         };
-        let springs = Springs {
-            axes: Vec::new(),
-            samples: vec![vec![STIFF; robot.dof()]],
-            model: Cow::Borrowed(StiffnessModel::DRIVES),
-        };
+        let stiff = Cow::Owned(vec![STIFF; robot.dof()]);
+        let springs = Springs::Nominal(stiff, Cow::Borrowed(StiffnessModel::DRIVES));
         JointPositions::of(robot, request, springs)
     }
 
     /// For results that need the compliance of the arm.
     fn compliant(robot: &'a Robot, request: &Request<'a, 'py>) -> PyResult<JointPositions<'a, 'py>> {
-        let springs = robot.springs(request.joints.py(), request.compliances)?;
+        let springs = robot.springs(request.joints.py(), &request.varied)?;
         JointPositions::of(robot, request, springs)
+    }
+
+    fn arm<'b>(&'b self, compliance: &'b [JointCompliance], model: &'b StiffnessModel) -> Arm<'b> {
+        Arm {
+            robot: self.robot.arm(),
+            compliance,
+            model,
+            flange_from_tool: &self.flange_from_tool,
+        }
+    }
+
+    /// The samples; none for the robot itself.
+    fn samples(&self) -> &[SampledArm] {
+        match &self.springs {
+            Springs::Nominal(..) => &[],
+            Springs::Samples { arms, .. } => arms,
+        }
+    }
+
+    /// Whether there are samples, and each spring deflects in proportion to its torque.
+    fn is_proportional(&self) -> bool {
+        self.samples().first().is_some_and(|arm| SpringSums::applies(&arm.model))
+    }
+
+    /// An array of `item` for each sample and each of the joint positions, written by `write`.
+    fn write_samples(
+        &self,
+        item: &[usize],
+        write: impl FnOnce(&Sampled<'_>, &mut [f64], Watch<'_>) -> Result<(), EvaluateError> + Send,
+    ) -> Floats<'py> {
+        let shape = [self.springs.axes(), &self.joints.axes, item].concat();
+        let mut out = Output::of(self.py, self.out, &shape)?;
+        let numbers = out.numbers()?;
+        let sampled = Sampled {
+            tool: &self.flange_from_tool,
+            joints: self.joints.given.values(),
+            arms: self.samples(),
+        };
+        let written = work(self.py, self.threads, Effort::Long, |watch| write(&sampled, numbers, watch))?;
+        written.map_err(|why| self.failed(why))?;
+        out.array(self.py, &shape)
+    }
+
+    fn failed(&self, why: EvaluateError) -> PyErr {
+        match why {
+            EvaluateError::Cancelled(cancelled) => exception(self.py, &cancelled.into()),
+            EvaluateError::Unstable { point, why } => {
+                let place = place_of(&self.joints.axes, point);
+                refused(self.py, format!("joints{place}: {why}"), "check the load")
+            }
+        }
     }
 
     /// An array of `item` for each of the joint positions, written by `write` from the load cases there.
@@ -273,53 +424,62 @@ impl<'a, 'py> JointPositions<'a, 'py> {
         self,
         item: &[usize],
         forces: &Forces,
-        write: impl Fn(&mut ArmState<'_>, &[Wrench], &mut [f64]) -> Result<(), Unstable> + Sync,
+        write: impl Fn(&mut ArmState<'_>, AtPoint<'_>, &mut [f64]) -> Result<(), Unstable> + Sync,
     ) -> Floats<'py> {
-        let shape = [&self.springs.axes, &self.joints.axes, item].concat();
+        let shape = [self.springs.axes(), &self.joints.axes, item].concat();
         let mut out = Output::of(self.py, self.out, &shape)?;
         let numbers = out.numbers()?;
-        let (joints, samples) = (self.joints.given.values(), &*self.springs.samples);
-        let work_of = match (samples, forces.paired) {
-            ([_], false) => Effort::Points(self.joints.count),
+        let joints = self.joints.given.values();
+        let (tool, width) = (&self.flange_from_tool, item.iter().product());
+        let (robot, springs) = (self.robot.arm(), &self.springs);
+        let work_of = match (springs, forces.paired) {
+            (Springs::Nominal(..), false) => Effort::Points(self.joints.count),
             _ => Effort::Long,
         };
-        let points = Points {
-            arm: Arm {
-                robot: self.robot.arm(),
-                compliance: &[],
-                model: &self.springs.model,
-                flange_from_tool: &self.flange_from_tool,
-            },
+        let points = |arm, factor| Points {
+            arm,
+            factor,
             joints,
-            width: item.iter().product(),
+            width,
             forces,
             write: &write,
         };
-        let stretch = numbers.len() / samples.len().max(1);
-        let written = work(self.py, self.threads, work_of, |watch| match samples {
+        let written = work(self.py, self.threads, work_of, |watch| match springs {
             _ if numbers.is_empty() => Ok(()),
-            [compliance] => points.write(compliance, numbers, watch),
-            _ => first_failed(
+            Springs::Nominal(compliance, model) => {
+                let arm = Arm {
+                    robot,
+                    compliance,
+                    model,
+                    flange_from_tool: tool,
+                };
+                points(arm, 1.0).write(numbers, watch)
+            }
+            Springs::Samples { arms, .. } => first_failed(
                 numbers
-                    .par_chunks_mut(stretch)
-                    .zip(samples)
-                    .map(|(numbers, compliance)| points.write(compliance, numbers, watch)),
+                    .par_chunks_mut(numbers.len() / arms.len())
+                    .zip(&**arms)
+                    .map(|(numbers, sample)| {
+                        points(sample.arm(robot, tool), 1.0 + sample.model_error).write(numbers, watch)
+                    }),
             ),
         })?;
-        written.map_err(|why| match why {
-            EvaluateError::Cancelled(cancelled) => exception(self.py, &cancelled.into()),
-            EvaluateError::Unstable { point, why } => {
-                let place = place_of(&self.joints.axes, point);
-                refused(self.py, format!("joints{place}: {why}"), "check the load")
-            }
-        })?;
+        written.map_err(|why| self.failed(why))?;
         out.array(self.py, &shape)
     }
+}
+
+/// Samples of an arm, and joint positions.
+struct Sampled<'a> {
+    tool: &'a Isometry,
+    joints: &'a [f64],
+    arms: &'a [SampledArm],
 }
 
 /// Joint positions of an arm, and what is written at each.
 struct Points<'a, W> {
     arm: Arm<'a>,
+    factor: f64,
     joints: &'a [f64],
     /// Numbers that are written at each.
     width: usize,
@@ -327,26 +487,21 @@ struct Points<'a, W> {
     write: &'a W,
 }
 
-impl<W: Fn(&mut ArmState<'_>, &[Wrench], &mut [f64]) -> Result<(), Unstable> + Sync> Points<'_, W> {
-    /// Writes all points for one sample of the compliances.
-    fn write(
-        &self,
-        compliance: &[JointCompliance],
-        out: &mut [f64],
-        watch: Watch<'_>,
-    ) -> Result<(), EvaluateError> {
-        let arm = Arm {
-            compliance,
-            ..self.arm
-        };
+impl<W: Fn(&mut ArmState<'_>, AtPoint<'_>, &mut [f64]) -> Result<(), Unstable> + Sync> Points<'_, W> {
+    /// Writes all points.
+    fn write(&self, out: &mut [f64], watch: Watch<'_>) -> Result<(), EvaluateError> {
         let at = |joints, cases: &[Wrench], out: &mut [f64]| {
-            let write = |arm_state: &mut ArmState<'_>, out: &mut [f64]| (self.write)(arm_state, cases, out);
-            evaluate_at_joints(&arm, joints, out, write, watch)
+            let at = AtPoint {
+                cases,
+                factor: self.factor,
+            };
+            let write = |arm_state: &mut ArmState<'_>, out: &mut [f64]| (self.write)(arm_state, at, out);
+            evaluate_at_joints(&self.arm, joints, out, write, watch)
         };
         if !self.forces.paired {
             return at(self.joints, &self.forces.cases, out);
         }
-        let dof = compliance.len();
+        let dof = self.arm.compliance.len();
         let points = self
             .joints
             .par_chunks(dof)

@@ -6,8 +6,11 @@ use std::borrow::Cow;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use armill_core::robot::{JointCompliance, Robot as Arm};
-use armill_core::source::StiffnessModel;
+use armill_core::frame::Isometry;
+use armill_core::nalgebra::DMatrix;
+use armill_core::robot::{JointCompliance, Robot as Arm, Structure};
+use armill_core::sampling::{InputSpace, SampledArm};
+use armill_core::source::{Arm as CoreArm, Gravity, StiffnessModel};
 use armill_formats::robot::RobotDescription;
 use numpy::PyUntypedArray;
 use pyo3::prelude::*;
@@ -15,7 +18,8 @@ use pyo3::types::PyString;
 
 use crate::arrays::{Batch, Given, wrong_shape};
 use crate::errors::{refused, wrong_type};
-use crate::source::RobotSource;
+use crate::samples::Samples;
+use crate::source::{GivenCompliance, RobotSource};
 
 /// A robot: its kinematic chain, its joints and its compliances. It is immutable.
 #[pyclass(frozen, module = "armill")]
@@ -80,25 +84,39 @@ impl Robot {
         })
     }
 
-    /// The compliances of its joints, or those given in their place: (dof,) or samples (..., dof).
+    /// The compliances of its joints, those given in their place, (dof,) or samples (..., dof), or samples of all inputs.
     ///
     /// # Errors
-    /// Joint compliances that are not known; given ones of another shape, or that are not compliances.
-    pub(crate) fn springs(&self, py: Python<'_>, given: Option<&Bound<'_, PyAny>>) -> PyResult<Springs<'_>> {
-        let Some(given) = given else {
-            return Ok(Springs {
-                axes: Vec::new(),
-                samples: vec![self.compliances(py)?.to_vec()],
-                model: Cow::Borrowed(&self.model),
-            });
-        };
+    /// Joint compliances that are not known; given ones of another shape, or that are not compliances; samples of another robot;
+    /// compliances and samples together.
+    pub(crate) fn springs<'a>(&'a self, py: Python<'_>, varied: &Varied<'_, '_>) -> PyResult<Springs<'a>> {
+        match (varied.compliances, varied.samples) {
+            (None, None) => Ok(Springs::Nominal(Cow::Borrowed(self.compliances(py)?), Cow::Borrowed(&self.model))),
+            (Some(given), None) => self.given_springs(py, given),
+            (None, Some(samples)) => {
+                let samples = samples.get();
+                if !samples.robot_source().is_same(&self.source) {
+                    let message = format!("the samples are of robot `{}`", samples.robot_source().name());
+                    return Err(refused(py, message, "give samples of this robot: `robot.sample(...)`"));
+                }
+                Ok(Springs::Samples {
+                    axes: vec![samples.arms().len()],
+                    arms: Cow::Owned(samples.arms().to_vec()),
+                })
+            }
+            (Some(_), Some(_)) => {
+                let message = "compliances and samples are given";
+                Err(refused(py, message, "give one of them: samples have compliances"))
+            }
+        }
+    }
+
+    /// The robot with each of the given compliances: (dof,) or (..., dof).
+    fn given_springs(&self, py: Python<'_>, given: &Bound<'_, PyAny>) -> PyResult<Springs<'_>> {
         let batch = Batch::of(given, "compliances", &[self.dof()])?;
         batch.given.finite(py, "compliances")?;
-        let mut springs = Springs {
-            axes: batch.axes,
-            samples: Vec::with_capacity(batch.count),
-            model: Cow::Borrowed(&self.model),
-        };
+        let mut model = None;
+        let mut arms = Vec::with_capacity(batch.count);
         for values in batch.given.values().chunks(self.dof()) {
             let sample: Vec<JointCompliance> = values
                 .iter()
@@ -109,12 +127,70 @@ impl Robot {
                 .collect();
             let arm = self.arm().clone().with_other_compliance(sample.clone());
             let arm = arm.map_err(|error| refused(py, error.to_string(), COMPLIANCE_HINT))?;
-            if springs.samples.is_empty() {
-                springs.model = Cow::Owned(model_of(&arm));
-            }
-            springs.samples.push(sample);
+            arms.push(SampledArm::nominal(&CoreArm {
+                robot: self.arm(),
+                compliance: &sample,
+                model: model.get_or_insert_with(|| model_of(&arm)),
+                flange_from_tool: &Isometry::identity(),
+            }));
         }
-        Ok(springs)
+        Ok(Springs::Samples {
+            axes: batch.axes,
+            arms: Cow::Owned(arms),
+        })
+    }
+
+    /// The same with other joint compliances.
+    ///
+    /// # Errors
+    /// Numbers that are not compliances, uncertainties or covariances.
+    pub(crate) fn with(&self, py: Python<'_>, given: GivenCompliance) -> PyResult<Robot> {
+        let both = given.values.iter().zip(&given.uncertainties);
+        let compliance = both.map(|(value, uncertainty)| JointCompliance {
+            value: *value,
+            standard_uncertainty: *uncertainty,
+        });
+        let mut description = self.description.clone();
+        let robot = description.robot.with_other_compliance(compliance.collect());
+        let mut robot = robot.map_err(|error| refused(py, error.to_string(), COMPLIANCE_HINT))?;
+        if let Some(covariance) = &given.covariance {
+            let structure = Structure {
+                covariance: Some(DMatrix::from_row_slice(self.dof(), self.dof(), covariance)),
+                ..robot.structure().clone()
+            };
+            let with = robot.with_structure(structure);
+            robot = with.map_err(|error| refused(py, error.to_string(), "a symmetric matrix without negative variances"))?;
+        }
+        description.robot = robot;
+        Ok(Robot::of(self.source.with_compliance(given), description))
+    }
+
+    /// Standard uncertainties (dof,), with their covariance if (dof, dof) is given.
+    ///
+    /// # Errors
+    /// Another shape; numbers that are not finite; a negative variance.
+    pub(crate) fn uncertainty(
+        &self,
+        value: &Bound<'_, PyAny>,
+        name: &str,
+    ) -> PyResult<(Vec<f64>, Option<Vec<f64>>)> {
+        let (py, dof) = (value.py(), self.dof());
+        let expected = format!("({dof},) or ({dof}, {dof})");
+        let given = Given::of(value, name, &expected)?;
+        given.finite(py, name)?;
+        let values = given.values().to_vec();
+        match given.shape() {
+            [count] if *count == dof => Ok((values, None)),
+            [rows, columns] if *rows == dof && *columns == dof => {
+                let variances: Vec<f64> = values.iter().copied().step_by(dof + 1).collect();
+                if let Some(variance) = variances.iter().find(|variance| **variance < 0.0) {
+                    let message = format!("{name}: the variance {variance} is negative");
+                    return Err(refused(py, message, "give a covariance"));
+                }
+                Ok((variances.iter().map(|variance| variance.sqrt()).collect(), Some(values)))
+            }
+            shape => Err(wrong_shape(py, name, &expected, shape)),
+        }
     }
 
     /// Joint positions (..., dof), finite; columns of a data frame in the order of the joints.
@@ -176,6 +252,32 @@ impl Robot {
         Ok(given.values().to_vec())
     }
 
+    /// What the deviation is shared out to.
+    pub(crate) fn contributor_names(&self) -> Vec<String> {
+        self.model.contributor_names(self.arm().joints())
+    }
+
+    /// `rad` of a revolute, `m` of a prismatic joint.
+    pub(crate) fn joint_units(&self) -> Vec<String> {
+        let unit = |index| if self.arm().slides(index) { "m" } else { "rad" };
+        (0..self.dof()).map(|index| unit(index).to_owned()).collect()
+    }
+
+    /// Its uncertain inputs.
+    pub(crate) fn input_space(&self) -> InputSpace {
+        InputSpace::of(&CoreArm {
+            robot: self.arm(),
+            compliance: self.arm().compliance().unwrap_or_default(),
+            model: &self.model,
+            flange_from_tool: &Isometry::identity(),
+        })
+    }
+
+    /// Names of its uncertain inputs.
+    pub(crate) fn input_names(&self) -> Vec<String> {
+        self.input_space().names(self.arm().joints())
+    }
+
     /// Number of joints.
     pub(crate) fn dof(&self) -> usize {
         self.arm().joints().len()
@@ -191,14 +293,48 @@ impl Robot {
 /// What a refused compliance should be.
 pub(crate) const COMPLIANCE_HINT: &str = "rad/(N m), one per joint, 0 or more";
 
-/// Joint compliances of one or several samples, and the other parts of the model.
-pub(crate) struct Springs<'a> {
-    /// The axes of the samples; none for a single one.
-    pub axes: Vec<usize>,
-    /// Each with one compliance per joint.
-    pub samples: Vec<Vec<JointCompliance>>,
-    /// Torque curves and covariance are those of the file only for its own compliances.
-    pub model: Cow<'a, StiffnessModel>,
+/// What is given in place of the compliances of a robot.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Varied<'a, 'py> {
+    /// (..., dof)
+    pub compliances: Option<&'a Bound<'py, PyAny>>,
+    /// Of all uncertain inputs.
+    pub samples: Option<&'a Bound<'py, Samples>>,
+}
+
+/// Joint compliances and other parts of the model: those of the robot, or of one or several samples.
+pub(crate) enum Springs<'a> {
+    /// Those of the robot, with their uncertainties.
+    Nominal(Cow<'a, [JointCompliance]>, Cow<'a, StiffnessModel>),
+    /// Of each sample.
+    Samples {
+        /// The axes of the samples; none for a single one.
+        axes: Vec<usize>,
+        /// Each with its compliances.
+        arms: Cow<'a, [SampledArm]>,
+    },
+}
+
+impl Springs<'_> {
+    /// The axes of the samples; none for the robot itself.
+    pub(crate) fn axes(&self) -> &[usize] {
+        match self {
+            Springs::Nominal(..) => &[],
+            Springs::Samples { axes, .. } => axes,
+        }
+    }
+
+    /// With the weight of the arm.
+    pub(crate) fn set_gravity(&mut self, gravity: &Gravity) {
+        match self {
+            Springs::Nominal(_, model) => model.to_mut().gravity = Some(gravity.clone()),
+            Springs::Samples { arms, .. } => {
+                for arm in arms.to_mut() {
+                    arm.model.gravity = Some(gravity.clone());
+                }
+            }
+        }
+    }
 }
 
 /// The model of an arm under load only.

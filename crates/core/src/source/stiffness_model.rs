@@ -145,7 +145,7 @@ impl Arm<'_> {
     }
 
     /// Attachment of each drive, then of each spring.
-    pub(super) fn attachments(&self) -> Vec<Attachment> {
+    pub fn attachments(&self) -> Vec<Attachment> {
         let springs = self
             .model
             .structure

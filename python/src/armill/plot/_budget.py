@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from armill.plot._answers import Json, Missing, Source
-from armill.plot._style import BLUE, GREEN, INK, ORANGE, legend_below, number, picture, several, title
+from armill.plot._style import BLUE, GREEN, INK, ORANGE, legend_below, number, picture, several, set_title, wants_legend
 
 _SUMS = (
     ("as_functions_um", "added with their signs"),
@@ -19,7 +19,13 @@ _SUMS = (
 
 
 @picture
-def budget(source: Any, *, ax: Sequence[Axes] | None = None) -> list[Axes]:
+def budget(
+    source: Any,
+    *,
+    ax: Sequence[Axes] | None = None,
+    title: str | bool = True,
+    legend: bool = True,
+) -> list[Axes]:
     """Answer of budget, or Result with what was measured -> [bars, waves]: contributions and the part, µm; harmonics.
 
     Bars are largest radial deviations, with twice the scatter of one cut.
@@ -68,8 +74,8 @@ def _bars(ax: Axes, answer: Json, rows: list[tuple[str, float, float, str]]) -> 
     ax.spines[["top", "right"]].set_visible(False)
     datum = answer["datum"]
     conditions = f"circle of {answer['radius_mm']:g} mm, {answer['branch']}; centre {datum['centre']}, radius {datum['radius']}"
-    title(ax, f"{answer['analysis']}: error budget", conditions)
-    legend_below(ax, columns=4, drop=-0.2)
+    set_title(ax, f"{answer['analysis']}: error budget", conditions)
+    legend_below(ax, columns=4)
 
 
 def _waves(ax: Axes, answer: Json) -> None:
@@ -87,5 +93,6 @@ def _waves(ax: Axes, answer: Json) -> None:
     ax.set_ylabel("amplitude (µm)")
     ax.spines[["top", "right"]].set_visible(False)
     rest = number(part["residual"]["rms_um"])
-    title(ax, "Harmonics", f"{part['explained_percent']:.1f} % of the part explained, residual {rest} µm rms")
-    ax.legend(loc="upper right")
+    set_title(ax, "Harmonics", f"{part['explained_percent']:.1f} % of the part explained, residual {rest} µm rms")
+    if wants_legend():
+        ax.legend(loc="upper right")

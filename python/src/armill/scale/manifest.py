@@ -17,13 +17,13 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 
 from armill.scale.errors import refused
 from armill.scale.files import write_whole
 from armill.scale.fingerprint import fingerprint, request_of
 from armill.scale.planning import Plan
+from armill.scale.remote import Folder, is_missing
 
 NAME = "manifest.json"
 FORMAT = 1
@@ -31,7 +31,7 @@ FORMAT = 1
 PARTS = "parts"
 
 
-def part_path(folder: Path, part: int) -> Path:
+def part_path(folder: Folder, part: int) -> Folder:
     """The file of a part. Names of equal length sort like numbers."""
     return folder / PARTS / f"part-{part:06d}.parquet"
 
@@ -80,7 +80,7 @@ class Manifest:
         """Whether all parts are finished."""
         return len(self.done) == self.part_count
 
-    def write(self, folder: Path) -> None:
+    def write(self, folder: Folder) -> None:
         """Writes it into the folder, atomically."""
         head: dict[str, Any] = {
             "format": FORMAT,
@@ -101,15 +101,15 @@ class Manifest:
         write_whole(folder / NAME, text.encode())
 
     @staticmethod
-    def read(folder: Path) -> Manifest | None:
+    def read(folder: Folder) -> Manifest | None:
         """The manifest of the folder; None if there is none. Raises InputError if it cannot be read."""
         path = folder / NAME
         try:
             data = path.read_bytes()
-        except FileNotFoundError:
-            return None
         except OSError as error:
-            raise refused(f"cannot read {path}: {error.strerror}", "give the folder of a sweep") from error
+            if is_missing(error):
+                return None
+            raise refused(f"cannot read {path}: {error.strerror or error}", "give the folder of a sweep") from error
         try:
             return _manifest(json.loads(data))
         except (ValueError, KeyError, TypeError, AttributeError) as error:
@@ -139,7 +139,7 @@ def _manifest(data: dict[str, Any]) -> Manifest:
     return manifest
 
 
-def same_sweep(there: Manifest, here: dict[str, str], folder: Path) -> None:
+def same_sweep(there: Manifest, here: dict[str, str], folder: Folder) -> None:
     """Raises InputError with the differences if the manifest is of another sweep."""
     if there.request == here:
         return

@@ -16,7 +16,6 @@ import time
 import uuid
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 from armill import Cancelled
@@ -28,6 +27,7 @@ from armill.scale.manifest import PARTS, Done, Manifest, same_sweep
 from armill.scale.planning import Plan, plan
 from armill.scale.progress import Progress
 from armill.scale.reading import is_whole, read
+from armill.scale.remote import Folder, StorageOptions, folder_of
 from armill.scale.sweep import Sweep
 from armill.scale.task import forgotten, task
 from armill.scale.window import worked
@@ -47,7 +47,7 @@ class Finished:
     ``seconds`` is the duration of this run, ``task_seconds`` the total duration of its tasks.
     """
 
-    folder: Path
+    folder: Folder
     rows: int
     part_count: int
     evaluation_count: int
@@ -71,6 +71,7 @@ def run(
     items_per_part: int | None = None,
     progress: bool | None = None,
     timeout: float = 30.0,
+    storage_options: StorageOptions = None,
 ) -> Finished:
     """sweep, folder -> Finished: computes the missing parts of the folder.
 
@@ -79,6 +80,7 @@ def run(
     (``"ray://HOST:10001"``). ``workers`` are started here, or waited for where they run elsewhere; without it as many as
     there are processors, or as come. Each has ``threads_per_worker``. ``items_per_part`` fixes the parts, which are else
     planned by what some items take here. ``progress`` shows a bar always or never; without it where stderr is a terminal.
+    ``folder`` is on a disk, or an address of fsspec such as ``s3://bucket/folder``, with its ``storage_options``.
     ``timeout`` is how long a scheduler may take to answer, and its workers to come, s. Ctrl-C stops it; the same call goes on.
     """
     began = time.monotonic()
@@ -86,7 +88,7 @@ def run(
         if value is not None and (isinstance(value, bool) or value < 1):
             raise refused(f"{name} is {value!r}", "an integer of at least 1")
     needed("pyarrow.parquet", "scale")
-    place = Path(folder).absolute()
+    place = folder_of(folder, storage_options).absolute()
     files.made(place)
     with files.alone_in(place):
         ready, manifest = _begun(sweep, place, items_per_part, threads_per_worker)
@@ -116,7 +118,7 @@ def run(
         )
 
 
-def _begun(sweep: Sweep | Plan, place: Path, items_per_part: int | None, threads: int) -> tuple[Plan, Manifest]:
+def _begun(sweep: Sweep | Plan, place: Folder, items_per_part: int | None, threads: int) -> tuple[Plan, Manifest]:
     """The plan of the folder and its manifest; new if there is none."""
     given = sweep if isinstance(sweep, Plan) else None
     if given and items_per_part is not None:
@@ -135,7 +137,7 @@ def _begun(sweep: Sweep | Plan, place: Path, items_per_part: int | None, threads
     return ready, manifest
 
 
-def _damaged(place: Path, manifest: Manifest) -> list[int]:
+def _damaged(place: Folder, manifest: Manifest) -> list[int]:
     parts = sorted(manifest.done)
     with ThreadPoolExecutor(CHECKERS) as pool:
         whole = pool.map(functools.partial(is_whole, place, manifest, verify=True), parts)
@@ -147,7 +149,7 @@ def _evaluations(ready: Plan, manifest: Manifest) -> int:
     return sum(last - first for first, last in spans) * ready.sweep.evaluations_per_item
 
 
-def _work(ready: Plan, place: Path, manifest: Manifest, options: BackendOptions, shown: Progress) -> float:
+def _work(ready: Plan, place: Folder, manifest: Manifest, options: BackendOptions, shown: Progress) -> float:
     """Runs all unfinished parts and writes the manifest; returns the duration of the tasks."""
     keeper = _Keeper(place, manifest)
     try:
@@ -166,7 +168,7 @@ def _work(ready: Plan, place: Path, manifest: Manifest, options: BackendOptions,
         shown.end()
 
 
-def _parts(ready: Plan, place: Path, keeper: _Keeper, options: BackendOptions, shown: Progress) -> float:
+def _parts(ready: Plan, place: Folder, keeper: _Keeper, options: BackendOptions, shown: Progress) -> float:
     """Runs all unfinished parts; returns the duration of their tasks."""
     seconds = 0.0
     manifest = keeper.manifest
@@ -194,7 +196,7 @@ def _parts(ready: Plan, place: Path, keeper: _Keeper, options: BackendOptions, s
 class _Keeper:
     """Writes the manifest at intervals, since its size grows with the parts."""
 
-    def __init__(self, place: Path, manifest: Manifest) -> None:
+    def __init__(self, place: Folder, manifest: Manifest) -> None:
         self.manifest = manifest
         self._place = place
         self._next = 0.0
