@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 
 from armill.plot._answers import Source
 from armill.plot._setting import breaks, words
-from armill.plot._style import BLUE, GREEN, HALO, INK, ORANGE, PINK, TOLERANCE, legend_below, one, picture, points, set_title
+from armill.plot._style import BLUE, GREEN, HALO, INK, ORANGE, PINK, TOLERANCE, legend_below, letters, one, picture, set_title
 
 _PARTS = (
     ("in_plane_um", "in-plane, across the tool", INK, "-", 1.9),
@@ -67,5 +67,5 @@ def _mark_worst(ax: Axes, worst: list[Any]) -> None:
         label = f"worst points: 1 by {point['cause']}" if i == 1 else None
         ax.plot(*place, "o", markersize=5, markerfacecolor="white", markeredgecolor=INK, zorder=4, clip_on=False, label=label)
         ax.annotate(
-            str(i), place, xytext=(0, 7), textcoords="offset points", fontsize=points(9), fontweight="bold", ha="center", path_effects=HALO
+            str(i), place, xytext=(0, 7), textcoords="offset points", fontsize=letters(9), fontweight="bold", ha="center", path_effects=HALO
         )

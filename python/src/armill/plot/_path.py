@@ -12,7 +12,7 @@ from matplotlib.colors import BoundaryNorm
 from armill.plot import _plane
 from armill.plot._answers import Source
 from armill.plot._setting import breaks, in_plane, words
-from armill.plot._style import HALO, INK, colour_bar, colour_map, legend_below, number, one, picture, points, rounded, set_title
+from armill.plot._style import HALO, INK, colour_bar, colour_map, legend_below, letters, number, one, picture, rounded, set_title
 
 _NEEDED = ("x_mm", "y_mm", "z_mm", "distance_mm", "in_plane_um")
 
@@ -62,7 +62,7 @@ def path(
         label = f"worst points: {number(answer['max_in_plane_um'])} µm at 1" if i == 1 else None
         ax.plot(y, z, "o", markersize=5, markerfacecolor="white", markeredgecolor=INK, zorder=4, label=label)
         ax.annotate(
-            str(i), (y, z), xytext=(6, 5), textcoords="offset points", fontsize=points(9), fontweight="bold", path_effects=HALO, zorder=5
+            str(i), (y, z), xytext=(6, 5), textcoords="offset points", fontsize=letters(9), fontweight="bold", path_effects=HALO, zorder=5
         )
     ax.set_aspect("equal", adjustable="datalim")
     ax.autoscale_view()

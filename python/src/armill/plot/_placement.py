@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from numpy.typing import ArrayLike
 
 from armill.plot._answers import Json, Missing, Source
-from armill.plot._style import AMBER, BLUE, FAINT, GREY, INK, TOLERANCE, legend_below, number, picture, several, set_title
+from armill.plot._style import AMBER, BLUE, FAINT, GREY, INK, TOLERANCE, is_narrow, legend_below, number, picture, several, set_title
 
 _NAMES = {
     "x_mm": "x of the part (mm)",
@@ -77,7 +77,7 @@ def _front(ax: Axes, answer: Json, by_margin: list[Json], tolerance_um: float | 
     _tolerance(ax, tolerance_um)
     ax.set_ylim(bottom=0.0)
     ax.margins(y=0.1)
-    ax.set_xlabel("margin to joint limits and singularities (deg)")
+    ax.set_xlabel("margin (deg)" if is_narrow(ax) else "margin to joint limits and singularities (deg)")
     ax.set_ylabel(_what(answer))
     x, y, z = answer["place"]["centre_mm"]
     place = f"({x:.0f}, {y:.0f}, {z:.0f}) mm"

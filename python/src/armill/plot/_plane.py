@@ -18,7 +18,7 @@ from matplotlib.transforms import Bbox
 from numpy.typing import NDArray
 
 from armill.plot._answers import Json, Missing
-from armill.plot._style import HALO, INK, TOLERANCE, colour_map, points
+from armill.plot._style import HALO, INK, TOLERANCE, colour_map, is_narrow, letters
 
 Floats = NDArray[np.float64]
 
@@ -77,7 +77,7 @@ def lines(ax: Axes, answer: Json, value: str, levels: Floats, labelled: bool) ->
     inner = [level for level in levels if np.nanmin(values) < level < np.nanmax(values)]
     drawn = ax.contour(y, z, np.ma.masked_invalid(values), levels=inner, colors=INK, linewidths=0.5, zorder=2)
     if labelled:
-        texts = ax.clabel(drawn, inline=False, fontsize=points(8), fmt=lambda level: f"{level:g}", colors=INK)
+        texts = ax.clabel(drawn, inline=False, fontsize=letters(8), fmt=lambda level: f"{level:g}", colors=INK)
         for text in texts:
             text.set_path_effects(HALO)
             text.set_zorder(5)
@@ -157,8 +157,9 @@ def thin(ax: Axes, texts: Iterable[Text], marked: Iterable[Any]) -> None:
 
 def name_axes(ax: Axes) -> None:
     """Axes of the plane, seen from the tool side."""
-    ax.set_xlabel("across, y′ (mm)")
-    ax.set_ylabel("along the plane, z′ (mm)")
+    narrow = is_narrow(ax)
+    ax.set_xlabel("y′ (mm)" if narrow else "across, y′ (mm)")
+    ax.set_ylabel("z′ (mm)" if narrow else "along the plane, z′ (mm)")
 
 
 def mark_tolerance(bar_ax: Axes, tolerance: float) -> None:

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import ArrayLike, NDArray
 
-from armill.plot._style import BLUE, GREEN, GREY, INK, ORANGE, legend_below, one, picture, points, set_title
+from armill.plot._style import BLUE, GREEN, GREY, INK, ORANGE, legend_below, letters, one, picture, set_title
 
 Floats = NDArray[np.float64]
 
@@ -129,7 +129,7 @@ def _box(ax: Any, points: Floats) -> None:
     for name, centre in zip("xyz", middle):
         getattr(ax, f"set_{name}lim")(centre - half, centre + half)
         getattr(ax, f"set_{name}label")(f"{name} (mm)", labelpad=6)
-        ax.tick_params(axis=name, labelsize=points(8))
+        ax.tick_params(axis=name, labelsize=letters(8))
     ax.set_box_aspect((1, 1, 1))
     ax.view_init(elev=22, azim=-62)
 

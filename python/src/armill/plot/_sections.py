@@ -12,7 +12,7 @@ from matplotlib.lines import Line2D
 from armill.plot import _plane
 from armill.plot._answers import Json, Missing, Source
 from armill.plot._setting import words
-from armill.plot._style import TOLERANCE, colour_bar, legend_below, picture, points, rounded, several
+from armill.plot._style import TOLERANCE, colour_bar, legend_below, letters, picture, rounded, several
 
 
 @picture
@@ -50,9 +50,9 @@ def sections(
         _plane.tolerance_line(each, plane)
         label = plane["name"].removeprefix(f"{name}: ")
         share = 100 * plane["fraction_within"]
-        each.set_title(f"{label}\n{share:.0f} % within", loc="left", fontsize=points(9))
+        each.set_title(f"{label}\n{share:.0f} % within", loc="left", fontsize=letters(9))
         each.label_outer()
-    figure = axes[0].figure
+    figure: Any = axes[0].get_figure(root=True)
     for i, each in enumerate(axes):
         if i % columns == 0:
             each.set_ylabel("z′ (mm)")
@@ -66,7 +66,7 @@ def sections(
     handles = [Line2D([], [], color=TOLERANCE, linewidth=2.6, label=f"tolerance {tolerance:g} µm"), *_plane.reason_handles(planes)]
     if title and (ax is None or isinstance(title, str)):
         heading = title if isinstance(title, str) else f"{name}: {_shared(planes[0])}"
-        figure.suptitle(heading, x=0.01, ha="left", fontsize=points(11), fontweight="bold")
+        figure.suptitle(heading, x=0.01, ha="left", fontsize=letters(11), fontweight="bold")
     if figure.get_layout_engine() is None:
         legend_below(axes[columns * (rows - 1)], 3, handles)
     elif legend:

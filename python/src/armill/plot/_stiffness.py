@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import ArrayLike
 
-from armill.plot._style import BLUE, GREEN, ORANGE, SKY, legend_below, number, one, picture, points, set_title
+from armill.plot._style import BLUE, GREEN, ORANGE, SKY, legend_below, letters, number, one, picture, set_title
 
 
 @picture
@@ -49,7 +49,7 @@ def stiffness(
     for axis_name in "xyz":
         getattr(ax, f"set_{axis_name}lim")(-half, half)
         getattr(ax, f"set_{axis_name}label")(f"{axis_name} (µm/N)", labelpad=6)
-        ax.tick_params(axis=axis_name, labelsize=points(8))
+        ax.tick_params(axis=axis_name, labelsize=letters(8))
     ax.set_box_aspect((1, 1, 1))
     ax.view_init(elev=22, azim=-62)
     place = ", ".join(f"{part + 0.0:.0f}" for part in np.round(1e3 * np.asarray(arm.forward(posture, tool))[:3, 3]))

@@ -98,7 +98,7 @@ def picture(draw: Callable[P, T]) -> Callable[P, T]:
     return drawn
 
 
-def points(size: float) -> float:
+def letters(size: float) -> float:
     """A size of letters, points, in proportion to that of the settings."""
     return size * float(mpl.rcParams["font.size"]) / _BASE
 
@@ -114,6 +114,8 @@ def colour_bar(drawn: Any, ax: Any, label: str, **options: Any) -> Any:
     if not _LOOK.get().cbar:
         return None
     first = ax if isinstance(ax, Axes) else ax[0]
+    if is_narrow(first):
+        options = {"aspect": 25, "pad": 0.03, "fraction": 0.06} | options
     return first.figure.colorbar(drawn, ax=ax, label=label, **options)
 
 
@@ -137,7 +139,7 @@ def one(ax: Any, size: tuple[float, float], projection: str | None = None) -> Ax
     expected = projection or "rectilinear"
     if ax.name != expected:
         raise ValueError(f"ax: expected {expected} axes, as by figure.add_subplot(projection={projection!r}); these are {ax.name}")
-    return ax
+    return _settled(ax) if is_narrow(ax) else ax
 
 
 def several(
@@ -163,8 +165,10 @@ def several(
 
 def _settled(ax: Axes) -> Axes:
     """Ticks are created when a figure is drawn: their style is set here."""
+    settings: Any = mpl.rcParams
     for name in ("x", "y"):
-        ax.tick_params(axis=name, which="both", color=INK, labelcolor=INK, labelsize=mpl.rcParams[f"{name}tick.labelsize"], width=0.8)
+        getattr(ax, f"{name}axis").label.set_size(settings["axes.labelsize"])
+        ax.tick_params(axis=name, which="both", color=INK, labelcolor=INK, labelsize=settings[f"{name}tick.labelsize"], width=0.8)
     return ax
 
 
@@ -176,21 +180,21 @@ def set_title(ax: Axes, text: str, subtitle: str = "", lift: float = 0.0) -> Non
     look = _LOOK.get()
     if look.title is False or look.title == "":
         return
-    width, scale, heading = _room(ax), points(1.0), text
+    width, scale, heading = _room(ax), letters(1.0), text
     if isinstance(look.title, str):
         heading, subtitle = look.title, ""
         look.title = True
     elif width < NARROW:
         subtitle = ""
-    size: dict[str, Any] = {"fontsize": points(9.0)} if width < NARROW else {}
+    size: dict[str, Any] = {"fontsize": letters(9.0)} if width < NARROW else {}
     lines = textwrap.wrap(subtitle, max(24, int(13.0 * width / scale)))
-    heading = textwrap.fill(heading, max(18, int((11.0 if size else 9.0) * width / scale)))
+    heading = textwrap.fill(heading, max(18, int((8.5 if size else 9.0) * width / scale)))
     # With `y` given, matplotlib does not move the title.
     ax.set_title(heading, loc="left", fontweight="bold", y=1.0, pad=7 + lift + 11.5 * scale * len(lines), **size)
     if lines:
         note = ax.annotate(
             "\n".join(lines), (0, 1), xycoords="axes fraction", xytext=(0, 5 + lift), textcoords="offset points",
-            color=SOFT, fontsize=points(8.5), va="bottom", annotation_clip=False,
+            color=SOFT, fontsize=letters(8.5), va="bottom", annotation_clip=False,
         )
         note.set_in_layout(False)
 
@@ -211,16 +215,24 @@ def legend_below(ax: Axes, columns: int = 3, handles: list[Any] | None = None, c
         handles, _ = ax.get_legend_handles_labels()
     if not handles or not wants_legend():
         return
-    options: dict[str, Any] = {"ncols": columns, "columnspacing": 1.4}
+    options: dict[str, Any] = {"columnspacing": 1.4}
+    labels = [str(handle.get_label()) for handle in handles]
     if is_narrow(ax):
-        longest = max(len(str(handle.get_label())) for handle in handles)
-        fits = 2 if longest <= 22 else 1
-        options = {"ncols": min(columns, fits), "fontsize": points(7.0), "columnspacing": 1.0, "handlelength": 1.6, "labelspacing": 0.3}
-    place = ("upper center", 0.5) if centred else ("upper left", 0.0)
+        options = {"fontsize": letters(7.0), "columnspacing": 1.0, "handlelength": 1.6, "labelspacing": 0.3}
+        # As many characters as fit next to the handle, in one column.
+        most = max(20, int(13.5 * (_room(ax) - 0.6) / letters(1.0)))
+        labels = [textwrap.fill(label, most) for label in labels]
+        columns = max(1, min(columns, most // (3 + max(len(line) for label in labels for line in label.splitlines()))))
+    place: tuple[Any, float] = ("upper center", 0.5) if centred else ("upper left", 0.0)
     figure: Any = ax.get_figure(root=True)
     # In inches, since the axes shrink to make room for the legend.
     under = ax.transAxes + ScaledTranslation(0.0, -_below(ax), figure.dpi_scale_trans)
-    ax.legend(handles=handles, loc=place[0], bbox_to_anchor=(place[1], 0.0), bbox_transform=under, borderaxespad=0.0, **options)
+    ax.legend(
+        handles, labels, loc=place[0], bbox_to_anchor=(place[1], 0.0), bbox_transform=under, borderaxespad=0.0, ncols=columns, **options
+    )
+    if ax.name == "polar":
+        # Its layout needs one more pass, since it keeps its shape.
+        figure.draw_without_rendering()
 
 
 def _below(ax: Axes) -> float:
@@ -232,7 +244,7 @@ def _below(ax: Axes) -> float:
     parts = [axes.xaxis, axes.yaxis, *([axes.zaxis] if hasattr(axes, "zaxis") else [])]
     boxes = [axis.get_tightbbox(figure._get_renderer()) for axis in parts]
     lowest = min((box.y0 for box in boxes if box is not None), default=frame.y0)
-    return float((frame.y0 - lowest) / figure.dpi + points(6.0) / 72)
+    return float((frame.y0 - lowest) / figure.dpi + letters(6.0) / 72)
 
 
 def rounded(low: float, high: float, about: int = 8) -> NDArray[np.float64]:

@@ -155,8 +155,11 @@ def _named(value: Any) -> str:
 
 
 @functools.cache
-def _is_installed(module: str) -> bool:
+def _is_installed(module: str | None) -> bool:
     """Whether a module is part of Python or of an installed package, which their versions identify."""
+    # Code that was executed without a module is not.
+    if module is None:
+        return False
     if module.partition(".")[0] in ("armill", "builtins"):
         return True
     file = getattr(sys.modules.get(module), "__file__", None)
