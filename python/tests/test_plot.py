@@ -497,7 +497,7 @@ def test_python_blocks_of_the_guide_run(tmp_path, monkeypatch, capsys):
     found = blocks(ROOT / "docs/guide/plotting.md")
     for number, block in enumerate(found, 1):
         exec(compile(block, f"plotting.md, block {number}", "exec"), names)
-    assert len(found) == 5 and "along: its points are not in the JSON" in capsys.readouterr().out
+    assert len(found) == 6 and "along: its points are not in the JSON" in capsys.readouterr().out
     assert (tmp_path / "fig-6.pdf").is_file()
     for name in plot.__all__:
         labels = f"| `{name}` |" in (ROOT / "docs/guide/plotting.md").read_text()

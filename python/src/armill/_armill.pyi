@@ -164,7 +164,7 @@ class Robot:
     ) -> Samples:
         """n -> Samples: n samples of all uncertain inputs of the robot file.
 
-        `method` is `sobol`, a Sobol sequence with a random shift (best with a power of two), or `random`. Sample i depends on
+        `method` is `sobol`, a scrambled Sobol sequence (best with a power of two), or `random`. Sample i depends on
         `seed` and i alone: `first` is the index of the first one, for samples in parts. Inputs have normal distributions
         with the standard uncertainties and covariances of the file; negative compliances, backlashes and masses become 0.
         """
@@ -783,7 +783,7 @@ def normal_draws(
 ) -> _Floats:
     """n, inputs -> (n, inputs) independent standard normal numbers.
 
-    `method` is `sobol`, a Sobol sequence with a random shift (best with a power of two), or `random`. A number depends on `seed`,
+    `method` is `sobol`, a scrambled Sobol sequence (best with a power of two), or `random`. A number depends on `seed`,
     row and column alone; `first` is the index of the first row. `Robot.samples_at` gives the samples of a robot for them.
     """
 def read_path(

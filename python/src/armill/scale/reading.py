@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from typing import Any
 
+from armill._labelled import needed as labelled_needed
 from armill.scale.errors import needed, refused
 from armill.scale.files import sha256_of
 from armill.scale.manifest import Manifest, part_path
@@ -58,3 +59,30 @@ def is_whole(folder: Folder, manifest: Manifest, part: int, verify: bool) -> boo
         return path.stat().st_size == done.size and (not verify or sha256_of(path) == done.sha256)
     except OSError:
         return False
+
+
+#: Units of columns by the end of their names, as pint reads them.
+_UNITS = {"um": "um", "mm": "mm", "deg": "deg", "m": "m", "rad": "rad", "n": "N", "nm": "N*m", "hz": "Hz", "s": "s", "percent": "percent"}
+
+
+def read_xarray(folder: str | os.PathLike[str], *, storage_options: StorageOptions = None) -> Any:
+    """folder -> xarray.Dataset: the columns of a finished sweep over its axes, with units. Needs xarray.
+
+    Where an item has several rows, such as one for each load case, the last dimension is ``row``. Missing values are NaN.
+    """
+    xarray = labelled_needed("xarray", "xarray")
+    _, manifest = _complete(folder, False, storage_options)
+    table = read(folder, storage_options=storage_options).to_table()
+    axes = {name.removeprefix("axis "): int(length) for name, length in manifest.request.items() if name.startswith("axis ")}
+    rows = table.num_rows // manifest.item_count
+    dims, shape = list(axes), list(axes.values())
+    if rows > 1:
+        dims, shape = [*dims, "row"], [*shape, rows]
+    data: dict[str, Any] = {}
+    for name in table.column_names:
+        if name.removesuffix("_index") in axes:
+            continue
+        unit = _UNITS.get(name.rpartition("_")[2])
+        values = table[name].to_numpy().reshape(shape)
+        data[name] = xarray.Variable(dims, values, {"units": unit} if unit else {})
+    return xarray.Dataset(data, attrs={"fingerprint": manifest.fingerprint})

@@ -97,7 +97,7 @@ def folder_of(folder: str | os.PathLike[str] | RemotePath, options: StorageOptio
 
     Raises InputError for an unknown protocol, and MissingExtra if the package for it is not installed.
     """
-    if isinstance(folder, (RemotePath, Path)):
+    if isinstance(folder, RemotePath):
         return folder
     text = os.fspath(folder)
     found = _ADDRESS.fullmatch(text)
