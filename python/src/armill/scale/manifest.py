@@ -9,6 +9,7 @@
 ``evaluation_count``
 ``columns``           name and type of each; empty before the first part is finished
 ``complete``          whether all parts are finished
+``shard``             of a job of an array: its number from 0, and the number of jobs
 ``parts``             of each finished part: number, rows, size in bytes, SHA-256 of the file
 ====================  ==================================================================================
 """
@@ -29,6 +30,8 @@ NAME = "manifest.json"
 FORMAT = 1
 #: The folder of the parts.
 PARTS = "parts"
+#: The folder of the jobs of an array, each with a folder and a manifest.
+JOBS = "jobs"
 
 
 def part_path(folder: Folder, part: int) -> Folder:
@@ -58,12 +61,13 @@ class Manifest:
     evaluation_count: int
     columns: tuple[tuple[str, str], ...] = ()
     done: dict[int, Done] = field(default_factory=dict[int, Done])
+    shard: tuple[int, int] | None = None
 
     @staticmethod
-    def of(plan: Plan) -> Manifest:
+    def of(plan: Plan, shard: tuple[int, int] | None = None) -> Manifest:
         """Of a plan without finished parts."""
         sweep = plan.sweep
-        return Manifest(request_of(sweep), sweep.item_count, plan.items_per_part, sweep.evaluation_count)
+        return Manifest(request_of(sweep), sweep.item_count, plan.items_per_part, sweep.evaluation_count, shard=shard)
 
     @property
     def fingerprint(self) -> str:
@@ -76,9 +80,15 @@ class Manifest:
         return -(-self.item_count // self.items_per_part)
 
     @property
+    def parts(self) -> range:
+        """The numbers of its parts: all, or those of its job."""
+        job, jobs = self.shard or (0, 1)
+        return range(job, self.part_count, jobs)
+
+    @property
     def is_complete(self) -> bool:
-        """Whether all parts are finished."""
-        return len(self.done) == self.part_count
+        """Whether all its parts are finished."""
+        return len(self.done) == len(self.parts)
 
     def write(self, folder: Folder) -> None:
         """Writes it into the folder, atomically."""
@@ -92,6 +102,8 @@ class Manifest:
             "columns": [list(column) for column in self.columns],
             "complete": self.is_complete,
         }
+        if self.shard:
+            head["shard"] = list(self.shard)
         rows = [
             json.dumps({"part": done.part, "rows": done.rows, "size": done.size, "sha256": done.sha256})
             for _, done in sorted(self.done.items())
@@ -127,13 +139,18 @@ def _manifest(data: dict[str, Any]) -> Manifest:
         int(data["evaluation_count"]),
         tuple((str(name), str(kind)) for name, kind in data["columns"]),
     )
+    if "shard" in data:
+        job, jobs = (int(number) for number in data["shard"])
+        if not 0 <= job < jobs:
+            raise ValueError(f"job {job} of {jobs} does not exist")
+        manifest.shard = (job, jobs)
     if min(manifest.item_count, manifest.items_per_part) < 1:
         raise ValueError("a sweep and a part have at least one item")
     if manifest.fingerprint != data["fingerprint"]:
         raise ValueError("`request` and `fingerprint` do not match")
     for row in data["parts"]:
         done = Done(int(row["part"]), int(row["rows"]), int(row["size"]), str(row["sha256"]))
-        if not 0 <= done.part < manifest.part_count:
+        if done.part not in manifest.parts:
             raise ValueError(f"part {done.part} does not exist")
         manifest.done[done.part] = done
     return manifest

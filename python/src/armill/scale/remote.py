@@ -49,6 +49,11 @@ class RemotePath:
         """The last part."""
         return self.path.rstrip("/").rpartition("/")[2]
 
+    @property
+    def parent(self) -> RemotePath:
+        """The folder that contains it."""
+        return RemotePath(self.system, self.protocol, self.path.rstrip("/").rpartition("/")[0])
+
     def absolute(self) -> RemotePath:
         """Itself."""
         return self

@@ -37,6 +37,7 @@ class Task:
     """Computes a part when called with its number."""
 
     folder: Folder
+    home: Folder
     pickle_name: str
     fingerprint: str
     version: str
@@ -64,7 +65,7 @@ class Task:
         return f" (items {first} to {last - 1})"
 
     def _plan(self) -> Plan:
-        return _plan(self.folder, self.pickle_name)
+        return _plan(self.home, self.pickle_name)
 
     def _done(self, part: int) -> Done:
         if armill.__version__ != self.version:
@@ -107,13 +108,17 @@ def pickle_name(data: bytes) -> str:
     return f".sweep-{hashlib.sha256(data).hexdigest()[:32]}.pickle"
 
 
-def task(plan: Plan, folder: Folder, fingerprint: str, threads: int, run: str) -> Task:
-    """The task that makes the parts of this plan in this folder for this run, and writes the pickle that it reads."""
+def task(plan: Plan, folders: tuple[Folder, Folder], fingerprint: str, threads: int, run: str) -> Task:
+    """The task that makes the parts of this plan for this run, and writes the pickle that it reads.
+
+    `folders` are those of the sweep and of the pickle, which differ for a job of an array.
+    """
+    folder, home = folders
     data = _pickled(plan)
     name = pickle_name(data)
-    forgotten(folder)
-    write_whole(folder / name, data)
-    return Task(folder, name, fingerprint, armill.__version__, _armill.arithmetic(), threads, run)
+    forgotten(home)
+    write_whole(home / name, data)
+    return Task(folder, home, name, fingerprint, armill.__version__, _armill.arithmetic(), threads, run)
 
 
 def forgotten(folder: Folder) -> None:
