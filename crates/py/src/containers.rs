@@ -27,7 +27,10 @@ macro_rules! containers {
             }
 
             /// Whether all arrays are equal, NaN where NaN.
-            fn __eq__(slf: &pyo3::Bound<'_, Self>, other: &pyo3::Bound<'_, pyo3::PyAny>) -> pyo3::PyResult<bool> {
+            fn __eq__(
+                slf: &pyo3::Bound<'_, Self>,
+                other: &pyo3::Bound<'_, pyo3::PyAny>,
+            ) -> pyo3::PyResult<bool> {
                 use pyo3::prelude::PyAnyMethods;
                 if !other.is_instance_of::<Self>() {
                     return Ok(false);

@@ -16,8 +16,8 @@ use pyo3::prelude::*;
 use rayon::prelude::*;
 
 use crate::arrays::{Given, wrong_shape};
-use crate::errors::{exception, refused};
 use crate::containers::containers;
+use crate::errors::{exception, refused};
 use crate::html;
 use crate::poses::{Forces, Poses, one_pose};
 use crate::postures::{FirstWrong, effort};
@@ -108,7 +108,11 @@ pub(crate) fn evaluate(
         dof: robot.dof(),
         contributors: robot.model.contributors(robot.dof()).len(),
     };
-    let names = [robot.joint_names(), robot.contributor_names(), robot.joint_units()];
+    let names = [
+        robot.joint_names(),
+        robot.contributor_names(),
+        robot.joint_units(),
+    ];
     let wrong = FirstWrong::default();
     let found = work(py, options.threads, work_of, |watch| {
         let of = |compliance: &[JointCompliance], model: &StiffnessModel| {
@@ -123,7 +127,9 @@ pub(crate) fn evaluate(
         let answers = match &springs {
             Springs::Nominal(compliance, model) => of(compliance, model)?,
             Springs::Samples { arms, .. } => {
-                let each = arms.par_iter().map(|sample| of(&sample.compliance, &sample.model));
+                let each = arms
+                    .par_iter()
+                    .map(|sample| of(&sample.compliance, &sample.model));
                 let each: Result<Vec<_>, Cancelled> = each.collect();
                 each?.into_iter().flatten().collect()
             }

@@ -10,9 +10,9 @@ use armill_core::dynamics::over_joint_positions;
 use armill_core::frame::Isometry;
 use armill_core::kernel::{EvaluateError, evaluate_at_joints};
 use armill_core::nalgebra::Vector3;
+use armill_core::predict::predict;
 use armill_core::robot::inverse::posture_at;
 use armill_core::robot::jacobian::jacobian as jacobian_of;
-use armill_core::predict::predict;
 use armill_core::robot::{JointCompliance, PostureName};
 use armill_core::sampling::deviations::{SampledDeviations, compliance_terms};
 use armill_core::sampling::{SampledArm, SpringSums};
@@ -82,7 +82,11 @@ pub(crate) fn compliance<'py>(robot: &Robot, request: &Request<'_, 'py>) -> Floa
                 samples: &samples,
                 width: 36,
             };
-            Ok(sums.write(|arm_state, _, slots| compliance_terms(arm_state, slots), out, watch)?)
+            Ok(sums.write(
+                |arm_state, _, slots| compliance_terms(arm_state, slots),
+                out,
+                watch,
+            )?)
         });
     }
     positions.evaluate(&[6, 6], &NO_LOAD, |arm_state, _, out| {
@@ -387,7 +391,9 @@ impl<'a, 'py> JointPositions<'a, 'py> {
 
     /// Whether there are samples, and each spring deflects in proportion to its torque.
     fn is_proportional(&self) -> bool {
-        self.samples().first().is_some_and(|arm| SpringSums::applies(&arm.model))
+        self.samples()
+            .first()
+            .is_some_and(|arm| SpringSums::applies(&arm.model))
     }
 
     /// An array of `item` for each sample and each of the joint positions, written by `write`.
@@ -404,7 +410,9 @@ impl<'a, 'py> JointPositions<'a, 'py> {
             joints: self.joints.given.values(),
             arms: self.samples(),
         };
-        let written = work(self.py, self.threads, Effort::Long, |watch| write(&sampled, numbers, watch))?;
+        let written = work(self.py, self.threads, Effort::Long, |watch| {
+            write(&sampled, numbers, watch)
+        })?;
         written.map_err(|why| self.failed(why))?;
         out.array(self.py, &shape)
     }

@@ -8,8 +8,8 @@ use armill_study::file::placement::PlaceTable;
 use numpy::{PyArrayDyn, PyReadonlyArrayDyn};
 use pyo3::prelude::*;
 
-use crate::containers::containers;
 use crate::arrays::{Batch, Given, array, wrong_shape};
+use crate::containers::containers;
 use crate::errors::exception;
 use crate::html;
 use crate::results::{Stored, Words};
@@ -180,10 +180,25 @@ impl PlacementEvaluations {
         let (least, greatest) = known.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), cost| {
             (low.min(*cost), high.max(*cost))
         });
-        let reachable = self.n_unreachable.values.iter().filter(|count| **count == 0).count();
-        let shown = |cost: f64| if cost.is_finite() { format!("{cost:.3e}") } else { String::new() };
+        let reachable = self
+            .n_unreachable
+            .values
+            .iter()
+            .filter(|count| **count == 0)
+            .count();
+        let shown = |cost: f64| {
+            if cost.is_finite() {
+                format!("{cost:.3e}")
+            } else {
+                String::new()
+            }
+        };
         let row = vec![reachable.to_string(), shown(least), shown(greatest)];
-        html::table(&self.__repr__(), &["reachable", "least cost, m", "greatest cost, m"], [row])
+        html::table(
+            &self.__repr__(),
+            &["reachable", "least cost, m", "greatest cost, m"],
+            [row],
+        )
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyAny>,))> {

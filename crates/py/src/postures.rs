@@ -9,11 +9,11 @@ use numpy::{PyArrayDyn, PyReadonlyArrayDyn};
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PySlice};
 
-use crate::containers::containers;
 use crate::arrays::array;
+use crate::containers::containers;
 use crate::errors::exception;
-use crate::poses::{Poses, no_pose, one_pose, pose_at};
 use crate::html;
+use crate::poses::{Poses, no_pose, one_pose, pose_at};
 use crate::results::{Stored, Words, item_of};
 use crate::robot::Robot;
 use crate::threads::{Effort, ThreadCount, work};
@@ -188,11 +188,17 @@ impl Postures {
         /// Postures that a notebook shows.
         const SHOWN: usize = 10;
         let dof = self.joints.shape.last().copied().unwrap_or(0).max(1);
-        let rows = self.joints.values.chunks(dof).take(SHOWN).enumerate().map(|(i, joints)| {
-            let joints: Vec<String> = joints.iter().map(|q| format!("{q:.4}")).collect();
-            let pose = self.pose_index.values[i].to_string();
-            vec![pose, self.branch.get(i).unwrap_or_default(), joints.join(", ")]
-        });
+        let rows = self
+            .joints
+            .values
+            .chunks(dof)
+            .take(SHOWN)
+            .enumerate()
+            .map(|(i, joints)| {
+                let joints: Vec<String> = joints.iter().map(|q| format!("{q:.4}")).collect();
+                let pose = self.pose_index.values[i].to_string();
+                vec![pose, self.branch.get(i).unwrap_or_default(), joints.join(", ")]
+            });
         html::table(&self.__repr__(), &["pose", "branch", "joints, rad (m)"], rows)
     }
 

@@ -91,13 +91,20 @@ impl Robot {
     /// compliances and samples together.
     pub(crate) fn springs<'a>(&'a self, py: Python<'_>, varied: &Varied<'_, '_>) -> PyResult<Springs<'a>> {
         match (varied.compliances, varied.samples) {
-            (None, None) => Ok(Springs::Nominal(Cow::Borrowed(self.compliances(py)?), Cow::Borrowed(&self.model))),
+            (None, None) => Ok(Springs::Nominal(
+                Cow::Borrowed(self.compliances(py)?),
+                Cow::Borrowed(&self.model),
+            )),
             (Some(given), None) => self.given_springs(py, given),
             (None, Some(samples)) => {
                 let samples = samples.get();
                 if !samples.robot_source().is_same(&self.source) {
                     let message = format!("the samples are of robot `{}`", samples.robot_source().name());
-                    return Err(refused(py, message, "give samples of this robot: `robot.sample(...)`"));
+                    return Err(refused(
+                        py,
+                        message,
+                        "give samples of this robot: `robot.sample(...)`",
+                    ));
                 }
                 Ok(Springs::Samples {
                     axes: vec![samples.arms().len()],
@@ -159,7 +166,13 @@ impl Robot {
                 ..robot.structure().clone()
             };
             let with = robot.with_structure(structure);
-            robot = with.map_err(|error| refused(py, error.to_string(), "a symmetric matrix without negative variances"))?;
+            robot = with.map_err(|error| {
+                refused(
+                    py,
+                    error.to_string(),
+                    "a symmetric matrix without negative variances",
+                )
+            })?;
         }
         description.robot = robot;
         Ok(Robot::of(self.source.with_compliance(given), description))
@@ -187,7 +200,10 @@ impl Robot {
                     let message = format!("{name}: the variance {variance} is negative");
                     return Err(refused(py, message, "give a covariance"));
                 }
-                Ok((variances.iter().map(|variance| variance.sqrt()).collect(), Some(values)))
+                Ok((
+                    variances.iter().map(|variance| variance.sqrt()).collect(),
+                    Some(values),
+                ))
             }
             shape => Err(wrong_shape(py, name, &expected, shape)),
         }

@@ -106,7 +106,8 @@ impl Robot {
             entry.set_item("name", name)?;
             entry.set_item("source", input.source.name())?;
             let contributors = input.contributors.iter();
-            let contributors: Vec<String> = contributors.map(|contributor| contributor.name(joints)).collect();
+            let contributors: Vec<String> =
+                contributors.map(|contributor| contributor.name(joints)).collect();
             entry.set_item("contributors", contributors)?;
             Ok(entry)
         };
@@ -231,7 +232,8 @@ impl Robot {
         match self.input_space().inputs().len() {
             0 => {
                 let message = format!("robot `{}` has no uncertainties", self.arm().name());
-                let hint = "give them: `robot.with_compliance(values, standard_uncertainty)`, or in the robot file";
+                let hint =
+                    "give them: `robot.with_compliance(values, standard_uncertainty)`, or in the robot file";
                 Err(refused(py, message, hint))
             }
             inputs => Ok(inputs),
@@ -248,9 +250,7 @@ impl Robot {
             .collect();
         let mut covariance = DMatrix::from_diagonal(&own.into());
         if let Some(known) = &structure.covariance {
-            covariance
-                .view_mut((0, 0), known.shape())
-                .copy_from(known);
+            covariance.view_mut((0, 0), known.shape()).copy_from(known);
         }
         covariance
     }

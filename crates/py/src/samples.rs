@@ -10,8 +10,8 @@ use pyo3::prelude::*;
 use pyo3::types::PySlice;
 use rayon::prelude::*;
 
-use crate::containers::containers;
 use crate::arrays::{Given, array, wrong_shape};
+use crate::containers::containers;
 use crate::html;
 use crate::robot::Robot;
 use crate::source::RobotSource;
@@ -130,7 +130,9 @@ impl Samples {
     /// -> (n, dof) side of the backlash where no torque decides it: -1 or 1; 0 for all other joints.
     #[getter]
     fn backlash_side<'py>(&self, py: Python<'py>) -> Floats<'py> {
-        self.table(py, self.robot.get().dof(), |arm, row| row.copy_from_slice(&arm.side))
+        self.table(py, self.robot.get().dof(), |arm, row| {
+            row.copy_from_slice(&arm.side)
+        })
     }
 
     /// -> (n, masses) masses of the robot file, kg.
@@ -208,7 +210,9 @@ impl Samples {
         html::table(&caption, &self.robot.get().input_names(), cells)
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Py<Robot>, Bound<'py, PyAny>))> {
+    fn __reduce__<'py>(
+        slf: &Bound<'py, Self>,
+    ) -> PyResult<(Bound<'py, PyAny>, (Py<Robot>, Bound<'py, PyAny>))> {
         let py = slf.py();
         let again = slf.get_type().getattr("_again")?;
         let samples = slf.get();
@@ -232,7 +236,12 @@ pub(crate) fn standard_normal(robot: &Robot, z: &Bound<'_, PyAny>, inputs: usize
     let given = Given::of(z, "z", &expected)?;
     if given.shape().len() != 2 || given.shape()[1] != inputs {
         let names = robot.input_names().join(", ");
-        return Err(wrong_shape(z.py(), "z", &format!("{expected}, for {names}"), given.shape()));
+        return Err(wrong_shape(
+            z.py(),
+            "z",
+            &format!("{expected}, for {names}"),
+            given.shape(),
+        ));
     }
     given.finite(z.py(), "z")?;
     Ok(given.values().to_vec())

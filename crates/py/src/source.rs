@@ -237,10 +237,19 @@ impl RobotSource {
         let turning: Vec<usize> = (0..dof).filter(|index| !slides(index)).collect();
         for index in (0..dof).filter(slides) {
             let row = &covariance[index * dof..][..dof];
-            if row.iter().enumerate().any(|(other, entry)| other != index && *entry != 0.0) {
+            if row
+                .iter()
+                .enumerate()
+                .any(|(other, entry)| other != index && *entry != 0.0)
+            {
                 let name = &found.robot.joints()[index].name;
-                let message = format!("the covariance of prismatic joint {name} with other joints cannot be written");
-                return Err(refused(py, message, "robot files have covariances of revolute joints"));
+                let message =
+                    format!("the covariance of prismatic joint {name} with other joints cannot be written");
+                return Err(refused(
+                    py,
+                    message,
+                    "robot files have covariances of revolute joints",
+                ));
             }
         }
         let row = |i: &usize| turning.iter().map(|j| covariance[i * dof + j]).collect();

@@ -286,7 +286,10 @@ impl Study {
         };
         let other = other.get();
         let same = (&self.found.folder, &self.found.bytes) == (&other.found.folder, &other.found.bytes);
-        let (own, given) = (self.robot(py).into_pyobject(py)?, other.robot(py).into_pyobject(py)?);
+        let (own, given) = (
+            self.robot(py).into_pyobject(py)?,
+            other.robot(py).into_pyobject(py)?,
+        );
         Ok(same && own.eq(given)?)
     }
 
@@ -296,10 +299,21 @@ impl Study {
 
     fn _repr_html_(&self, py: Python<'_>) -> String {
         let (header, rows) = match self.checked(py) {
-            Ok(study) => ("analysis", study.analyses.iter().map(|analysis| analysis.name.clone()).collect()),
+            Ok(study) => (
+                "analysis",
+                study
+                    .analyses
+                    .iter()
+                    .map(|analysis| analysis.name.clone())
+                    .collect(),
+            ),
             Err(error) => ("problems", vec![error.to_string()]),
         };
-        html::table(&self.found.shown, &[header], rows.into_iter().map(|row: String| vec![row]))
+        html::table(
+            &self.found.shown,
+            &[header],
+            rows.into_iter().map(|row: String| vec![row]),
+        )
     }
 
     /// How to make it again, from the bytes that were read.

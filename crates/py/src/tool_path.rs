@@ -13,8 +13,8 @@ use numpy::{Element, PyArrayDyn};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 
-use crate::containers::containers;
 use crate::arrays::array;
+use crate::containers::containers;
 use crate::errors::{exception, refused};
 use crate::html;
 use crate::threads::{Effort, ThreadCount, work};
@@ -58,7 +58,8 @@ pub(crate) fn read_path(
             input::open(&file)?.read_to_end(&mut bytes).map(|_| bytes)
         })
     });
-    let bytes = bytes.map_err(|error| refused(py, format!("cannot read {shown}: {error}"), "check the path"))?;
+    let bytes =
+        bytes.map_err(|error| refused(py, format!("cannot read {shown}: {error}"), "check the path"))?;
     parsed(
         py,
         ProgramSource {
@@ -104,19 +105,14 @@ fn parsed(py: Python<'_>, source: ProgramSource) -> PyResult<ToolPath> {
             dialect,
             ..ToolpathReadOptions::default()
         };
-        let summary = read(
-            &shown,
-            &*source.bytes,
-            &requested,
-            &mut |step| match step {
-                Step::Operation(begun) => operations.push(begun),
-                Step::Command(_) => {}
-                Step::Move(given) => {
-                    moves.push(given);
-                    operation.push(operations.len() as i64 - 1);
-                }
-            },
-        )?;
+        let summary = read(&shown, &*source.bytes, &requested, &mut |step| match step {
+            Step::Operation(begun) => operations.push(begun),
+            Step::Command(_) => {}
+            Step::Move(given) => {
+                moves.push(given);
+                operation.push(operations.len() as i64 - 1);
+            }
+        })?;
         Ok(ToolPath {
             moves,
             operation,
@@ -263,7 +259,9 @@ impl ToolPath {
 
     fn _repr_html_(&self) -> String {
         let rows = self.operations.iter().map(|operation| {
-            let diameter = operation.diameter.map_or_else(String::new, |diameter| format!("{diameter:.4}"));
+            let diameter = operation
+                .diameter
+                .map_or_else(String::new, |diameter| format!("{diameter:.4}"));
             let name = operation.name.clone().unwrap_or_default();
             vec![operation.line.to_string(), name, diameter]
         });

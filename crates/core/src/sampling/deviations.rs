@@ -48,8 +48,15 @@ impl SampledDeviations<'_> {
         let points = self.joints.len() / dof;
         let cases = if self.paired { 1 } else { self.cases.len() };
         let width = 3 * cases;
-        assert_eq!(out.len(), self.samples.len() * points * width, "a vector for each sample, point and load");
-        assert!(!self.paired || self.cases.len() == points, "a load case for each point");
+        assert_eq!(
+            out.len(),
+            self.samples.len() * points * width,
+            "a vector for each sample, point and load"
+        );
+        assert!(
+            !self.paired || self.cases.len() == points,
+            "a load case for each point"
+        );
         if out.is_empty() {
             return Ok(());
         }
@@ -63,11 +70,17 @@ impl SampledDeviations<'_> {
                 samples: &samples,
                 width,
             };
-            sums.write(|arm_state, point, slots| elastic_terms(arm_state, self.loads_of(point), slots), out, watch)?;
+            sums.write(
+                |arm_state, point, slots| elastic_terms(arm_state, self.loads_of(point), slots),
+                out,
+                watch,
+            )?;
             return Ok(());
         }
         let each = out.par_chunks_mut(points * width).zip(self.samples);
-        let failed = each.map(|(out, sample)| self.of_sample(sample, width, out, watch)).find_map_first(Result::err);
+        let failed = each
+            .map(|(out, sample)| self.of_sample(sample, width, out, watch))
+            .find_map_first(Result::err);
         failed.map_or(Ok(()), Err)
     }
 
@@ -100,7 +113,10 @@ impl SampledDeviations<'_> {
             return evaluate_at_joints(&arm, self.joints, out, at, watch);
         }
         let mut arm_state = ArmState::new(arm);
-        let points = self.joints.chunks(arm.compliance.len()).zip(out.chunks_mut(width));
+        let points = self
+            .joints
+            .chunks(arm.compliance.len())
+            .zip(out.chunks_mut(width));
         for (point, (q, out)) in points.enumerate() {
             if watch.is_cancelled() {
                 return Err(Cancelled.into());

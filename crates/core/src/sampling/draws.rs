@@ -67,8 +67,15 @@ impl Draws {
                 }
             }),
             Method::Sobol => {
-                assert!(self.inputs <= MOST_DIMENSIONS, "a Sobol sequence of {} inputs", self.inputs);
-                assert!(first + (count as u64) <= 1 << BITS, "a Sobol sequence has 2^32 points");
+                assert!(
+                    self.inputs <= MOST_DIMENSIONS,
+                    "a Sobol sequence of {} inputs",
+                    self.inputs
+                );
+                assert!(
+                    first + (count as u64) <= 1 << BITS,
+                    "a Sobol sequence has 2^32 points"
+                );
                 let (directions, shifts) = scrambled(directions(self.inputs), self.seed);
                 rows.for_each(|(row, i)| {
                     let place = first + i;
@@ -168,14 +175,24 @@ mod tests {
         assert_eq!(second[..2], SECOND);
     }
 
-    const FIRST: [u64; 4] = [0x7b6cc7b1862cc5f2, 0xb960f2ea4b3f8d9f, 0xcdd72e015deb1a6, 0x50edb0d22a6a6fd5];
+    const FIRST: [u64; 4] = [
+        0x7b6cc7b1862cc5f2,
+        0xb960f2ea4b3f8d9f,
+        0xcdd72e015deb1a6,
+        0x50edb0d22a6a6fd5,
+    ];
     const SECOND: [u64; 2] = [0xae45891bf7ab4df3, 0x32005aae5c700f2c];
 
     #[test]
     fn sobol_points_are_those_of_scipy() {
         // scipy.stats.qmc.Sobol(256, scramble=False, bits=32).random(1000)[[1, 2, 3, 999]], dimensions 0, 1, 2, 40 and 255, times 2^32.
         let directions = directions(256);
-        for (place, expected) in [(1, [2147483648, 2147483648, 2147483648, 2147483648, 2147483648]), (2, [3221225472, 1073741824, 1073741824, 1073741824, 3221225472]), (3, [1073741824, 3221225472, 3221225472, 3221225472, 1073741824]), (999, [675282944, 3904897024, 348127232, 1505755136, 1874853888])] {
+        for (place, expected) in [
+            (1, [2147483648, 2147483648, 2147483648, 2147483648, 2147483648]),
+            (2, [3221225472, 1073741824, 1073741824, 1073741824, 3221225472]),
+            (3, [1073741824, 3221225472, 3221225472, 3221225472, 1073741824]),
+            (999, [675282944, 3904897024, 348127232, 1505755136, 1874853888]),
+        ] {
             let gray = place ^ (place >> 1);
             let point = |k: usize| {
                 let bits = (0..BITS).filter(|bit| gray >> bit & 1 == 1);
@@ -189,7 +206,11 @@ mod tests {
     fn scrambling_keeps_one_point_in_each_part_of_every_dimension() {
         let (directions, _) = scrambled(directions(40), 9);
         for v in &directions {
-            let point = |place: u32| (0..8).filter(|bit| place >> bit & 1 == 1).fold(0, |sum, bit| sum ^ v[bit]);
+            let point = |place: u32| {
+                (0..8)
+                    .filter(|bit| place >> bit & 1 == 1)
+                    .fold(0, |sum, bit| sum ^ v[bit])
+            };
             let mut parts: Vec<u32> = (0..256).map(|place| point(place) >> 24).collect();
             parts.sort_unstable();
             assert_eq!(parts, (0..256).collect::<Vec<_>>());
@@ -200,7 +221,11 @@ mod tests {
     fn scrambled_dimensions_are_not_correlated() {
         // Of a sequence with a digital shift alone, dimensions 1 and 25 have here a correlation of 0.08.
         const COUNT: usize = 1 << 14;
-        let draws = Draws { method: Method::Sobol, seed: 1, inputs: 48 };
+        let draws = Draws {
+            method: Method::Sobol,
+            seed: 1,
+            inputs: 48,
+        };
         let all = draws.normal(0, COUNT);
         for (a, b) in [(1, 25), (2, 26), (0, 47), (10, 33)] {
             let sum: f64 = all.chunks(48).map(|row| row[a] * row[b]).sum();
@@ -211,7 +236,11 @@ mod tests {
     #[test]
     fn numbers_depend_on_seed_index_and_input_alone() {
         for method in [Method::Random, Method::Sobol] {
-            let draws = Draws { method, seed: 5, inputs: 7 };
+            let draws = Draws {
+                method,
+                seed: 5,
+                inputs: 7,
+            };
             let all = draws.normal(0, 100);
             assert_eq!(draws.normal(40, 10), all[40 * 7..50 * 7], "{method:?}");
             let fewer = Draws { inputs: 3, ..draws };
@@ -225,7 +254,11 @@ mod tests {
     fn numbers_have_the_moments_of_the_normal_distribution() {
         const COUNT: usize = 1 << 14;
         for (method, tolerance) in [(Method::Random, 5.0), (Method::Sobol, 0.2)] {
-            let draws = Draws { method, seed: 11, inputs: 20 };
+            let draws = Draws {
+                method,
+                seed: 11,
+                inputs: 20,
+            };
             let all = draws.normal(0, COUNT);
             for k in 0..20 {
                 let column = || all.iter().skip(k).step_by(20);

@@ -130,12 +130,25 @@ impl InputSpace {
             contributors: contributor.into_iter().collect(),
             change,
         };
-        let geometry = structure.geometry.as_ref().map_or(0, |geometry| geometry.inputs());
+        let geometry = structure
+            .geometry
+            .as_ref()
+            .map_or(0, |geometry| geometry.inputs());
         inputs.extend((0..geometry).map(|input| {
-            of_arm(InputSource::Geometry, Some(Contributor::Geometry), Change::Geometry(input))
+            of_arm(
+                InputSource::Geometry,
+                Some(Contributor::Geometry),
+                Change::Geometry(input),
+            )
         }));
         if structure.learnt.is_some() {
-            let shift = |axis| of_arm(InputSource::Learnt, Some(Contributor::Learnt), Change::Learnt(axis));
+            let shift = |axis| {
+                of_arm(
+                    InputSource::Learnt,
+                    Some(Contributor::Learnt),
+                    Change::Learnt(axis),
+                )
+            };
             inputs.extend((0..3).map(shift));
         }
         if structure.model_error > 0.0 {
@@ -186,7 +199,10 @@ impl InputSpace {
         let mut sampled = SampledArm::exact(arm);
         let structure = &mut sampled.model.structure;
         let mut by = vec![0.0; sampled.compliance.len() + structure.springs.len()];
-        let inputs = structure.geometry.as_ref().map_or(0, |geometry| geometry.inputs());
+        let inputs = structure
+            .geometry
+            .as_ref()
+            .map_or(0, |geometry| geometry.inputs());
         let (mut motions, mut learnt) = (vec![0.0; inputs], [0.0; 3]);
         for (input, z) in self.inputs.iter().zip(z) {
             match &input.change {
@@ -271,7 +287,11 @@ impl SampledArm {
         let mut sampled = SampledArm::nominal(arm);
         sampled.compliance = sampled.compliance.iter().map(exact).collect();
         let structure = &mut sampled.model.structure;
-        (structure.covariance, structure.model_error, structure.repeatability) = (None, 0.0, 0.0);
+        (
+            structure.covariance,
+            structure.model_error,
+            structure.repeatability,
+        ) = (None, 0.0, 0.0);
         for spring in &mut structure.springs {
             spring.compliance = exact(&spring.compliance);
         }
@@ -296,7 +316,12 @@ impl SampledArm {
 
     /// Compliances of all drives, then of all springs.
     pub fn compliances(&self) -> Vec<f64> {
-        let springs = self.model.structure.springs.iter().map(|spring| spring.compliance);
+        let springs = self
+            .model
+            .structure
+            .springs
+            .iter()
+            .map(|spring| spring.compliance);
         (self.compliance.iter().copied().chain(springs))
             .map(|compliance| compliance.value)
             .collect()

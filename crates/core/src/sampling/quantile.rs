@@ -116,7 +116,10 @@ mod tests {
             (1e-60, -16.397_278_212_718_71),
         ] {
             let found = normal_quantile(p);
-            assert!((found - expected).abs() <= 1e-14 * f64::abs(expected), "{p}: {found}");
+            assert!(
+                (found - expected).abs() <= 1e-14 * f64::abs(expected),
+                "{p}: {found}"
+            );
         }
     }
 

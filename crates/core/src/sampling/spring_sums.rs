@@ -83,7 +83,11 @@ impl SpringSums<'_> {
     ) -> Result<(), Cancelled> {
         let dof = self.arm.robot.joints().len();
         let stretch = self.joints.len() / dof * self.width;
-        assert_eq!(out.len(), stretch * self.samples.len(), "a value for each sample and point");
+        assert_eq!(
+            out.len(),
+            stretch * self.samples.len(),
+            "a value for each sample and point"
+        );
         if out.is_empty() {
             return Ok(());
         }
@@ -117,7 +121,10 @@ impl SpringSums<'_> {
             }
             let found: Vec<Terms> = group
                 .par_iter()
-                .map_init(|| ArmState::new(self.arm), |arm_state, block_of| block(arm_state, *block_of))
+                .map_init(
+                    || ArmState::new(self.arm),
+                    |arm_state, block_of| block(arm_state, *block_of),
+                )
                 .collect();
             let values: usize = found.iter().map(|terms| terms.values).sum();
             let samples = out.par_chunks_mut(stretch).zip(self.samples);
@@ -146,7 +153,10 @@ impl Terms {
     /// Writes the sums over all drives and springs.
     fn sum(&self, compliances: &[f64], factor: f64, out: &mut [f64]) {
         out.fill(0.0);
-        let both = self.first.chunks(self.values).zip(self.second.chunks(self.values));
+        let both = self
+            .first
+            .chunks(self.values)
+            .zip(self.second.chunks(self.values));
         for ((first, second), c) in both.zip(compliances) {
             for ((out, a), b) in out.iter_mut().zip(first).zip(second) {
                 *out += a * (c * b);

@@ -1,7 +1,9 @@
 use super::*;
 use crate::arms;
 use crate::predict::predict;
-use crate::robot::{Attachment, Backlash, BacklashSide, JointCompliance, SmallMotion, Spring, UncertainGeometry};
+use crate::robot::{
+    Attachment, Backlash, BacklashSide, JointCompliance, SmallMotion, Spring, UncertainGeometry,
+};
 use crate::sampling::{Draws, InputSpace, Method};
 use crate::source::{Arm, StiffnessModel};
 use nalgebra::{DMatrix, Matrix3, Vector3};
@@ -32,7 +34,9 @@ fn model() -> StiffnessModel {
     ];
     let motions = [(0, 3), (1, 0), (4, 5)].map(|(after, component)| SmallMotion { after, component });
     let covariance = DMatrix::from_row_slice(3, 3, &[1e-8, 4e-9, 0.0, 4e-9, 2e-8, 0.0, 0.0, 0.0, 3e-8]);
-    structure.geometry = Some(Arc::new(UncertainGeometry::new(motions.to_vec(), &covariance).unwrap()));
+    structure.geometry = Some(Arc::new(
+        UncertainGeometry::new(motions.to_vec(), &covariance).unwrap(),
+    ));
     (structure.model_error, structure.repeatability) = (0.05, 2e-5);
     model
 }
@@ -51,7 +55,11 @@ fn sampled(model: &StiffnessModel, method: Method, count: usize) -> Vec<SampledA
         seed: 2,
         inputs: space.inputs().len(),
     };
-    draws.normal(0, count).chunks(draws.inputs).map(|z| space.sampled(&arm, z)).collect()
+    draws
+        .normal(0, count)
+        .chunks(draws.inputs)
+        .map(|z| space.sampled(&arm, z))
+        .collect()
 }
 
 fn deviations(samples: &[SampledArm], all_sources: bool) -> Vec<f64> {
@@ -67,7 +75,10 @@ fn deviations(samples: &[SampledArm], all_sources: bool) -> Vec<f64> {
     };
     let mut out = vec![f64::NAN; samples.len() * 12];
     question.write(&mut out, Watch::NONE).unwrap();
-    let paired = SampledDeviations { paired: true, ..question };
+    let paired = SampledDeviations {
+        paired: true,
+        ..question
+    };
     let mut each = vec![f64::NAN; samples.len() * 6];
     paired.write(&mut each, Watch::NONE).unwrap();
     for (all, each) in out.chunks(12).zip(each.chunks(6)) {
@@ -94,7 +105,10 @@ fn each_sample_is_the_arm_with_its_values() {
                         true => elastic + rest.linear + sample.scatter,
                         false => elastic,
                     };
-                    assert!((Vector3::from_column_slice(found) - expected).norm() < 1e-15, "{found:?} {expected}");
+                    assert!(
+                        (Vector3::from_column_slice(found) - expected).norm() < 1e-15,
+                        "{found:?} {expected}"
+                    );
                 }
             }
         }
@@ -118,13 +132,28 @@ fn the_covariance_of_many_samples_is_that_of_the_prediction() {
         arm_state.set_joints(q);
         for (case, load) in loads().iter().enumerate() {
             let expected = predict(&mut arm_state, load, &mut Links::KeptByFriction(&[0.0; 6])).unwrap();
-            let column = || found.chunks(12).map(|sample| Vector3::from_column_slice(&sample[6 * point + 3 * case..][..3]));
+            let column = || {
+                found
+                    .chunks(12)
+                    .map(|sample| Vector3::from_column_slice(&sample[6 * point + 3 * case..][..3]))
+            };
             let mean: Vector3<f64> = column().sum::<Vector3<f64>>() / COUNT as f64;
-            let spread = column().map(|y| (y - mean) * (y - mean).transpose()).sum::<Matrix3<f64>>() / COUNT as f64;
+            let spread = column()
+                .map(|y| (y - mean) * (y - mean).transpose())
+                .sum::<Matrix3<f64>>()
+                / COUNT as f64;
             let u = expected.covariance.trace().sqrt();
-            assert!((mean - expected.twist.linear).norm() < 0.01 * u, "{mean} {}", expected.twist.linear);
+            assert!(
+                (mean - expected.twist.linear).norm() < 0.01 * u,
+                "{mean} {}",
+                expected.twist.linear
+            );
             // The model error multiplies the compliances, a term of second order of some 0.1 %.
-            assert!((spread - expected.covariance).norm() < 0.02 * expected.covariance.norm(), "{spread} {}", expected.covariance);
+            assert!(
+                (spread - expected.covariance).norm() < 0.02 * expected.covariance.norm(),
+                "{spread} {}",
+                expected.covariance
+            );
         }
     }
 }
@@ -154,6 +183,9 @@ fn a_cancelled_evaluation_stops() {
             all_sources,
         };
         let mut out = vec![0.0; if paired { 18 } else { 36 }];
-        assert_eq!(question.write(&mut out, watch), Err(EvaluateError::Cancelled(Cancelled)));
+        assert_eq!(
+            question.write(&mut out, watch),
+            Err(EvaluateError::Cancelled(Cancelled))
+        );
     }
 }

@@ -62,7 +62,13 @@ fn on_arm<T>(model: &StiffnessModel, of: impl Fn(&Arm<'_>) -> T) -> T {
 #[test]
 fn every_uncertain_input_is_named_with_its_contributors() {
     let space = on_arm(&model(), InputSpace::of);
-    let count = |source| space.inputs().iter().filter(|input| input.source == source).count();
+    let count = |source| {
+        space
+            .inputs()
+            .iter()
+            .filter(|input| input.source == source)
+            .count()
+    };
     // Three joints of the covariance, three others, a spring.
     assert_eq!(count(InputSource::Compliance), 7);
     assert_eq!(count(InputSource::Backlash), 2);
@@ -79,26 +85,37 @@ fn every_uncertain_input_is_named_with_its_contributors() {
     assert_eq!(space.inputs()[1].contributors, at(&[0, 2]));
     assert_eq!(space.inputs()[2].contributors, at(&[1]));
     let names = on_arm(&model(), |arm| space.names(arm.robot.joints()));
-    let joints = on_arm(&model(), |arm| arm.robot.joints().iter().map(|joint| joint.name.clone()).collect::<Vec<_>>());
+    let joints = on_arm(&model(), |arm| {
+        arm.robot
+            .joints()
+            .iter()
+            .map(|joint| joint.name.clone())
+            .collect::<Vec<_>>()
+    });
     let [a, b, c] = [&joints[0], &joints[1], &joints[2]];
     assert_eq!(names[0], format!("compliance {a}+{c} 1"));
     assert_eq!(names[1], format!("compliance {a}+{c} 2"));
     // The drive of the joint and the spring after it.
     assert_eq!(names[2], format!("compliance {b} 1"));
     assert!(names.contains(&format!("compliance {b} 2")) && names.contains(&format!("backlash side {b}")));
-    assert!(names.contains(&"geometry 3".to_owned()) && names.contains(&"model error".to_owned()), "{names:?}");
-    assert!(on_arm(StiffnessModel::DRIVES, |arm| {
-        let exact = arm.robot.compliance().unwrap().iter().map(|c| JointCompliance {
-            standard_uncertainty: 0.0,
-            ..*c
-        });
-        InputSpace::of(&Arm {
-            compliance: &exact.collect::<Vec<_>>(),
-            ..*arm
+    assert!(
+        names.contains(&"geometry 3".to_owned()) && names.contains(&"model error".to_owned()),
+        "{names:?}"
+    );
+    assert!(
+        on_arm(StiffnessModel::DRIVES, |arm| {
+            let exact = arm.robot.compliance().unwrap().iter().map(|c| JointCompliance {
+                standard_uncertainty: 0.0,
+                ..*c
+            });
+            InputSpace::of(&Arm {
+                compliance: &exact.collect::<Vec<_>>(),
+                ..*arm
+            })
         })
-    })
-    .inputs()
-    .is_empty());
+        .inputs()
+        .is_empty()
+    );
 }
 
 #[test]
@@ -107,7 +124,10 @@ fn one_standard_uncertainty_of_each_input_gives_the_covariances_of_the_file() {
     on_arm(&model, |arm| {
         let space = InputSpace::of(arm);
         let nominal = space.sampled(arm, &vec![0.0; space.inputs().len()]);
-        assert_eq!(nominal.compliances(), arm.compliances().iter().map(|c| c.value).collect::<Vec<_>>());
+        assert_eq!(
+            nominal.compliances(),
+            arm.compliances().iter().map(|c| c.value).collect::<Vec<_>>()
+        );
         let mut covariance = DMatrix::<f64>::zeros(8, 8);
         let mut of_geometry = DMatrix::<f64>::zeros(3, 3);
         for k in 0..space.inputs().len() {
@@ -117,7 +137,13 @@ fn one_standard_uncertainty_of_each_input_gives_the_covariances_of_the_file() {
             let pairs = sampled.compliances().into_iter().zip(nominal.compliances());
             let by = nalgebra::DVector::from_iterator(8, pairs.map(|(with, without)| with - without));
             covariance += &by * by.transpose();
-            let motions = sampled.model.structure.geometry.as_ref().unwrap().shift_of_motions();
+            let motions = sampled
+                .model
+                .structure
+                .geometry
+                .as_ref()
+                .unwrap()
+                .shift_of_motions();
             of_geometry += &motions * motions.transpose();
             assert_eq!(sampled.cut, 0);
         }
@@ -127,9 +153,15 @@ fn one_standard_uncertainty_of_each_input_gives_the_covariances_of_the_file() {
             _ if i == j => compliances[i].standard_uncertainty.powi(2),
             _ => 0.0,
         });
-        assert!((&covariance - &expected).amax() < 1e-9 * expected.amax(), "{covariance} {expected}");
+        assert!(
+            (&covariance - &expected).amax() < 1e-9 * expected.amax(),
+            "{covariance} {expected}"
+        );
         let known = model.structure.geometry.as_ref().unwrap().covariance();
-        assert!((&of_geometry - &known).amax() < 1e-12 * known.amax(), "{of_geometry}");
+        assert!(
+            (&of_geometry - &known).amax() < 1e-12 * known.amax(),
+            "{of_geometry}"
+        );
     });
 }
 
@@ -163,7 +195,12 @@ fn negative_values_are_cut_and_counted() {
             let structure = &sampled.model.structure;
             let gaps = structure.backlash.iter().flatten().map(|backlash| backlash.gap);
             let masses = structure.masses.iter().map(|mass| mass.mass);
-            let values: Vec<f64> = sampled.compliances().into_iter().chain(gaps).chain(masses).collect();
+            let values: Vec<f64> = sampled
+                .compliances()
+                .into_iter()
+                .chain(gaps)
+                .chain(masses)
+                .collect();
             assert!(values.iter().all(|value| *value >= 0.0));
             let zeros = values.iter().filter(|value| **value == 0.0).count();
             assert_eq!(sampled.cut, zeros);
@@ -175,11 +212,18 @@ fn negative_values_are_cut_and_counted() {
 fn links_are_at_either_side_where_no_torque_decides() {
     on_arm(&model(), |arm| {
         let space = InputSpace::of(arm);
-        let side = space.inputs().iter().position(|input| input.source == InputSource::BacklashSide).unwrap();
+        let side = space
+            .inputs()
+            .iter()
+            .position(|input| input.source == InputSource::BacklashSide)
+            .unwrap();
         for sign in [-1.0, 1.0] {
             let mut z = vec![0.0; space.inputs().len()];
             z[side] = 0.3 * sign;
-            assert_eq!(space.sampled(arm, &z).links(), [0.0, 5e-5 * sign, 0.0, 0.0, 0.0, 0.0]);
+            assert_eq!(
+                space.sampled(arm, &z).links(),
+                [0.0, 5e-5 * sign, 0.0, 0.0, 0.0, 0.0]
+            );
         }
         assert_eq!(SampledArm::nominal(arm).links(), [0.0; 6]);
     });

@@ -18,7 +18,12 @@ fn compliances_of_all_samples_are_those_of_each() {
     // More points than a block, and not a whole number of blocks.
     let joints: Vec<f64> = (0..3000).flat_map(|_| stream.joints(robot)).collect();
     let samples: Vec<(Vec<f64>, f64)> = (0..3)
-        .map(|i| ((0..7).map(|_| stream.between(1e-7, 1e-6)).collect(), 1.0 + 0.1 * f64::from(i)))
+        .map(|i| {
+            (
+                (0..7).map(|_| stream.between(1e-7, 1e-6)).collect(),
+                1.0 + 0.1 * f64::from(i),
+            )
+        })
         .collect();
     let compliance = robot.compliance().unwrap();
     let arm = Arm {
@@ -34,7 +39,12 @@ fn compliances_of_all_samples_are_those_of_each() {
         width: 36,
     };
     let mut out = vec![f64::NAN; 3 * 3000 * 36];
-    sums.write(|arm_state, _, slots| compliance_terms(arm_state, slots), &mut out, Watch::NONE).unwrap();
+    sums.write(
+        |arm_state, _, slots| compliance_terms(arm_state, slots),
+        &mut out,
+        Watch::NONE,
+    )
+    .unwrap();
     for (sample, out) in samples.iter().zip(out.chunks(3000 * 36)) {
         let mut model = model.clone();
         model.structure.springs[0].compliance.value = sample.0[6];
@@ -61,6 +71,10 @@ fn compliances_of_all_samples_are_those_of_each() {
         finished: &|_| (),
         cancel: &cancel,
     };
-    let stopped = sums.write(|arm_state, _, slots| compliance_terms(arm_state, slots), &mut out, cancelled);
+    let stopped = sums.write(
+        |arm_state, _, slots| compliance_terms(arm_state, slots),
+        &mut out,
+        cancelled,
+    );
     assert_eq!(stopped, Err(Cancelled));
 }
