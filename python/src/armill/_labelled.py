@@ -303,6 +303,8 @@ def result_dataset(result: Result, analysis: str | None) -> Any:
         return _table_dataset(table, "point")
     data: dict[str, Any] = {}
     for column in table.columns:
+        if column in coords:
+            continue
         variable = xarray.Variable(dims, _column(table, column).reshape(lengths), _column_attributes(table, column))
         data[column] = variable
     if volumes:

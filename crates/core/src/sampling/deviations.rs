@@ -13,6 +13,9 @@ use crate::source::{ArmState, Links, Unstable};
 use crate::spatial::Wrench;
 use crate::watch::{Cancelled, Watch};
 
+/// Points with a load each that a thread evaluates together.
+const PAIRS_AT_ONCE: usize = 256;
+
 /// Samples of an arm, joint positions and loads.
 #[derive(Clone, Copy, Debug)]
 pub struct SampledDeviations<'a> {
@@ -112,20 +115,24 @@ impl SampledDeviations<'_> {
             let at = |arm_state: &mut ArmState<'_>, out: &mut [f64]| write(arm_state, self.cases, out);
             return evaluate_at_joints(&arm, self.joints, out, at, watch);
         }
-        let mut arm_state = ArmState::new(arm);
-        let points = self
-            .joints
-            .chunks(arm.compliance.len())
-            .zip(out.chunks_mut(width));
-        for (point, (q, out)) in points.enumerate() {
-            if watch.is_cancelled() {
-                return Err(Cancelled.into());
-            }
-            arm_state.set_joints(q);
-            write(&mut arm_state, self.loads_of(point), out)
-                .map_err(|why| EvaluateError::Unstable { point, why })?;
-        }
-        Ok(())
+        let dof = arm.compliance.len();
+        let blocks = (self.joints.par_chunks(PAIRS_AT_ONCE * dof)).zip(out.par_chunks_mut(PAIRS_AT_ONCE * width));
+        let failed = blocks.enumerate().map_init(
+            || ArmState::new(arm),
+            |arm_state, (block, (joints, out))| {
+                if watch.is_cancelled() {
+                    return Err(Cancelled.into());
+                }
+                for (at, (q, out)) in joints.chunks(dof).zip(out.chunks_mut(width)).enumerate() {
+                    let point = block * PAIRS_AT_ONCE + at;
+                    arm_state.set_joints(q);
+                    write(arm_state, self.loads_of(point), out)
+                        .map_err(|why| EvaluateError::Unstable { point, why })?;
+                }
+                Ok(())
+            },
+        );
+        failed.find_map_first(Result::err).map_or(Ok(()), Err)
     }
 }
 

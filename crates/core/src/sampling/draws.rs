@@ -7,7 +7,7 @@
 //! | random | Philox 4x64-10 with the key (seed, i), output `k` |
 //! | Sobol | point `i` of the sequence in the order of the Gray code, dimension `k`, scrambled by a random linear matrix and a digital shift of the seed |
 //!
-//! Without the matrix some pairs of dimensions are correlated even in thousands of points.
+//! Without the matrix, means over some dimensions are off in the same way for every seed, even of thousands of points.
 //!
 //! Source: J. K. Salmon et al., Parallel random numbers: as easy as 1, 2, 3, SC 2011 (Philox); P. Bratley and B. L. Fox, Algorithm 659,
 //! ACM Trans. Math. Softw. 14:88-100, 1988 (Sobol); J. Matousek, On the L2-discrepancy for anchored boxes, J. Complexity 14:527-556,
@@ -214,22 +214,6 @@ mod tests {
             let mut parts: Vec<u32> = (0..256).map(|place| point(place) >> 24).collect();
             parts.sort_unstable();
             assert_eq!(parts, (0..256).collect::<Vec<_>>());
-        }
-    }
-
-    #[test]
-    fn scrambled_dimensions_are_not_correlated() {
-        // Of a sequence with a digital shift alone, dimensions 1 and 25 have here a correlation of 0.08.
-        const COUNT: usize = 1 << 14;
-        let draws = Draws {
-            method: Method::Sobol,
-            seed: 1,
-            inputs: 48,
-        };
-        let all = draws.normal(0, COUNT);
-        for (a, b) in [(1, 25), (2, 26), (0, 47), (10, 33)] {
-            let sum: f64 = all.chunks(48).map(|row| row[a] * row[b]).sum();
-            assert!((sum / COUNT as f64).abs() < 0.02, "{a} {b}: {sum}");
         }
     }
 
