@@ -22,7 +22,8 @@ use crate::html;
 use crate::poses::{Forces, Poses, one_pose};
 use crate::postures::{FirstWrong, effort};
 use crate::results::{Stored, Words, item_of};
-use crate::robot::{Robot, Springs, Varied};
+use crate::robot::Robot;
+use crate::springs::{Springs, Varied};
 use crate::threads::{Effort, ThreadCount, work};
 
 /// The posture of an arm and the deviation of the tool at each of n poses under each load case.

@@ -2,9 +2,9 @@
 //!
 //! | module | contents |
 //! |---|---|
-//! | `robot_class` | the class `Robot`; `robot_uncertainty`: its uncertainties and springs; `robot`: its arm and compliances; `source`: the text that it is made from |
-//! | `samples` | the class `Samples`: samples of the uncertain inputs of a robot |
-//! | `joint_positions`, `postures`, `evaluation` | results at many joint positions or poses |
+//! | `robot_class` | the class `Robot`; `robot_uncertainty`: its uncertainties and springs; `robot_masses`: what depends on masses; `robot`: its arm and compliances; `source`: the text that it is made from |
+//! | `samples` | the class `Samples`: samples of the uncertain inputs of a robot; `springs`: compliances or samples in place of those of a robot |
+//! | `joint_positions`, `postures`, `evaluation` | results at many joint positions or poses; `joint_evaluation`: arrays of them |
 //! | `study`, `outcome`, `table` | the classes `Study`, `Result` and `Table`; `table_columns`: columns as arrays |
 //! | `placement_evaluations` | the class `PlacementEvaluations`: the cost of a path for many placements of its part |
 //! | `tool_path` | the class `ToolPath`: the moves of a program |
@@ -27,6 +27,7 @@ mod containers;
 mod errors;
 mod evaluation;
 mod html;
+mod joint_evaluation;
 mod joint_positions;
 mod operands;
 mod outcome;
@@ -37,9 +38,11 @@ mod results;
 mod robot;
 mod robot_class;
 mod robot_file;
+mod robot_masses;
 mod robot_uncertainty;
 mod samples;
 mod source;
+mod springs;
 mod study;
 mod table;
 mod table_columns;

@@ -2,15 +2,14 @@
 //!
 //! `source` keeps what is needed to make it again in another process; `robot_class` has its methods.
 
-use std::borrow::Cow;
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::DMatrix;
 use armill_core::robot::{JointCompliance, Robot as Arm, Structure};
-use armill_core::sampling::{InputSpace, SampledArm};
-use armill_core::source::{Arm as CoreArm, Gravity, StiffnessModel};
+use armill_core::sampling::InputSpace;
+use armill_core::source::{Arm as CoreArm, StiffnessModel, standard_uncertainties};
 use armill_formats::robot::RobotDescription;
 use numpy::PyUntypedArray;
 use pyo3::prelude::*;
@@ -18,7 +17,6 @@ use pyo3::types::PyString;
 
 use crate::arrays::{Batch, Given, wrong_shape};
 use crate::errors::{refused, wrong_type};
-use crate::samples::Samples;
 use crate::source::{GivenCompliance, RobotSource};
 
 /// A robot: its kinematic chain, its joints and its compliances. It is immutable.
@@ -84,69 +82,6 @@ impl Robot {
         })
     }
 
-    /// The compliances of its joints, those given in their place, (dof,) or samples (..., dof), or samples of all inputs.
-    ///
-    /// # Errors
-    /// Joint compliances that are not known; given ones of another shape, or that are not compliances; samples of another robot;
-    /// compliances and samples together.
-    pub(crate) fn springs<'a>(&'a self, py: Python<'_>, varied: &Varied<'_, '_>) -> PyResult<Springs<'a>> {
-        match (varied.compliances, varied.samples) {
-            (None, None) => Ok(Springs::Nominal(
-                Cow::Borrowed(self.compliances(py)?),
-                Cow::Borrowed(&self.model),
-            )),
-            (Some(given), None) => self.given_springs(py, given),
-            (None, Some(samples)) => {
-                let samples = samples.get();
-                if !samples.robot_source().is_same(&self.source) {
-                    let message = format!("the samples are of robot `{}`", samples.robot_source().name());
-                    return Err(refused(
-                        py,
-                        message,
-                        "give samples of this robot: `robot.sample(...)`",
-                    ));
-                }
-                Ok(Springs::Samples {
-                    axes: vec![samples.arms().len()],
-                    arms: Cow::Owned(samples.arms().to_vec()),
-                })
-            }
-            (Some(_), Some(_)) => {
-                let message = "compliances and samples are given";
-                Err(refused(py, message, "give one of them: samples have compliances"))
-            }
-        }
-    }
-
-    /// The robot with each of the given compliances: (dof,) or (..., dof).
-    fn given_springs(&self, py: Python<'_>, given: &Bound<'_, PyAny>) -> PyResult<Springs<'_>> {
-        let batch = Batch::of(given, "compliances", &[self.dof()])?;
-        batch.given.finite(py, "compliances")?;
-        let mut model = None;
-        let mut arms = Vec::with_capacity(batch.count);
-        for values in batch.given.values().chunks(self.dof()) {
-            let sample: Vec<JointCompliance> = values
-                .iter()
-                .map(|value| JointCompliance {
-                    value: *value,
-                    standard_uncertainty: 0.0,
-                })
-                .collect();
-            let arm = self.arm().clone().with_other_compliance(sample.clone());
-            let arm = arm.map_err(|error| refused(py, error.to_string(), COMPLIANCE_HINT))?;
-            arms.push(SampledArm::nominal(&CoreArm {
-                robot: self.arm(),
-                compliance: &sample,
-                model: model.get_or_insert_with(|| model_of(&arm)),
-                flange_from_tool: &Isometry::identity(),
-            }));
-        }
-        Ok(Springs::Samples {
-            axes: batch.axes,
-            arms: Cow::Owned(arms),
-        })
-    }
-
     /// The same with other joint compliances.
     ///
     /// # Errors
@@ -200,10 +135,8 @@ impl Robot {
                     let message = format!("{name}: the variance {variance} is negative");
                     return Err(refused(py, message, "give a covariance"));
                 }
-                Ok((
-                    variances.iter().map(|variance| variance.sqrt()).collect(),
-                    Some(values),
-                ))
+                let covariance = DMatrix::from_row_slice(dof, dof, &values);
+                Ok((standard_uncertainties(&covariance), Some(values)))
             }
             shape => Err(wrong_shape(py, name, &expected, shape)),
         }
@@ -309,52 +242,8 @@ impl Robot {
 /// What a refused compliance should be.
 pub(crate) const COMPLIANCE_HINT: &str = "rad/(N m), one per joint, 0 or more";
 
-/// What is given in place of the compliances of a robot.
-#[derive(Clone, Copy, Default)]
-pub(crate) struct Varied<'a, 'py> {
-    /// (..., dof)
-    pub compliances: Option<&'a Bound<'py, PyAny>>,
-    /// Of all uncertain inputs.
-    pub samples: Option<&'a Bound<'py, Samples>>,
-}
-
-/// Joint compliances and other parts of the model: those of the robot, or of one or several samples.
-pub(crate) enum Springs<'a> {
-    /// Those of the robot, with their uncertainties.
-    Nominal(Cow<'a, [JointCompliance]>, Cow<'a, StiffnessModel>),
-    /// Of each sample.
-    Samples {
-        /// The axes of the samples; none for a single one.
-        axes: Vec<usize>,
-        /// Each with its compliances.
-        arms: Cow<'a, [SampledArm]>,
-    },
-}
-
-impl Springs<'_> {
-    /// The axes of the samples; none for the robot itself.
-    pub(crate) fn axes(&self) -> &[usize] {
-        match self {
-            Springs::Nominal(..) => &[],
-            Springs::Samples { axes, .. } => axes,
-        }
-    }
-
-    /// With the weight of the arm.
-    pub(crate) fn set_gravity(&mut self, gravity: &Gravity) {
-        match self {
-            Springs::Nominal(_, model) => model.to_mut().gravity = Some(gravity.clone()),
-            Springs::Samples { arms, .. } => {
-                for arm in arms.to_mut() {
-                    arm.model.gravity = Some(gravity.clone());
-                }
-            }
-        }
-    }
-}
-
 /// The model of an arm under load only.
-fn model_of(arm: &Arm) -> StiffnessModel {
+pub(crate) fn model_of(arm: &Arm) -> StiffnessModel {
     StiffnessModel {
         structure: arm.structure().clone(),
         gravity: None,

@@ -5,8 +5,6 @@
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::PathBuf;
 
-use armill_core::nalgebra::Vector3;
-use armill_core::source::stiffness_model::FREE_FALL;
 use armill_formats::robot::format::Format;
 use numpy::PyArrayDyn;
 use pyo3::prelude::*;
@@ -16,11 +14,13 @@ use crate::arrays::array;
 use crate::errors::refused;
 use crate::evaluation::{self, EvaluationOptions, PoseEvaluations};
 use crate::html;
-use crate::joint_positions::{self, Loads, Request};
+use crate::joint_evaluation::{Loads, Request};
+use crate::joint_positions;
 use crate::postures::{self, Postures};
-use crate::robot::{Robot, Varied};
+use crate::robot::Robot;
 use crate::samples::Samples;
 use crate::source::{self, GivenCompliance, RobotSource};
+use crate::springs::Varied;
 use crate::threads::ThreadCount;
 
 type Floats<'py> = PyResult<Bound<'py, PyArrayDyn<f64>>>;
@@ -44,7 +44,7 @@ pub(crate) fn request<'a, 'py>(
 }
 
 /// Compliances or samples in place of those of the robot.
-fn varied<'a, 'py>(
+pub(crate) fn varied<'a, 'py>(
     compliances: Optional<'a, 'py>,
     samples: Option<&'a Bound<'py, Samples>>,
 ) -> Varied<'a, 'py> {
@@ -257,39 +257,6 @@ impl Robot {
         joint_positions::compliance(self, &request)
     }
 
-    /// (n, dof) joints -> (n, dof, dof) mass matrices over the joint positions, kg m^2 (kg m, kg).
-    ///
-    /// From the masses and motors of the robot file, or the inertials of a URDF. Rotors turn with their joints.
-    #[pyo3(signature = (joints, *, out=None, threads=None))]
-    fn mass_matrix<'py>(
-        &self,
-        joints: &Bound<'py, PyAny>,
-        out: Optional<'_, 'py>,
-        threads: Option<ThreadCount>,
-    ) -> Floats<'py> {
-        let request = request(joints, None, Varied::default(), out, threads);
-        joint_positions::mass_matrix(self, &request)
-    }
-
-    /// (n, dof) joints -> (n, modes, 8) modes of vibration, frequencies rising.
-    ///
-    /// The last axis is: frequency in Hz, damping ratio, and the shape at the TCP normalised by mass, base axes: translation in
-    /// 1/sqrt(kg), then rotation in rad/(m sqrt(kg)). There are as many rows as joints and springs; a motion without mass has
-    /// an infinite frequency and shape 0. `compliances` and `samples` as for `compliance`.
-    #[pyo3(signature = (joints, tool=None, *, compliances=None, samples=None, out=None, threads=None))]
-    fn modes<'py>(
-        &self,
-        joints: &Bound<'py, PyAny>,
-        tool: Optional<'_, 'py>,
-        compliances: Optional<'_, 'py>,
-        samples: Option<&Bound<'py, Samples>>,
-        out: Optional<'_, 'py>,
-        threads: Option<ThreadCount>,
-    ) -> Floats<'py> {
-        let request = request(joints, tool, varied(compliances, samples), out, threads);
-        joint_positions::modes(self, &request)
-    }
-
     /// (n, dof) joints, (cases, 3) forces -> (n, cases, 3) deviations of the TCP, m, base axes.
     ///
     /// `forces` are forces (cases, 3) in N or wrenches (cases, 6) in N and N m on the tool at the TCP, base axes; one case
@@ -354,31 +321,6 @@ impl Robot {
             all_sources: false,
         };
         joint_positions::contributions(self, &request, &loads)
-    }
-
-    /// (n, dof) joints, (dof,) reference -> (n, 3) deviations of the TCP by the weight of the arm, m, base axes.
-    ///
-    /// They are relative to the joint positions `reference`, at which the tool was measured. The robot file must give the
-    /// masses. `acceleration` (3,) is the acceleration of free fall in base axes, m/s^2; `samples` are those of `Robot.sample`.
-    #[pyo3(
-        signature = (
-            joints, reference, tool=None, *, acceleration=[0.0, 0.0, -FREE_FALL], samples=None, out=None, threads=None
-        ),
-        text_signature = "($self, joints, reference, tool=None, *, acceleration=(0.0, 0.0, -9.80665), samples=None, out=None, threads=None)"
-    )]
-    fn gravity<'py>(
-        &self,
-        joints: &Bound<'py, PyAny>,
-        reference: &Bound<'py, PyAny>,
-        tool: Optional<'_, 'py>,
-        acceleration: [f64; 3],
-        samples: Option<&Bound<'py, Samples>>,
-        out: Optional<'_, 'py>,
-        threads: Option<ThreadCount>,
-    ) -> Floats<'py> {
-        let reference = self.one_a_joint(reference, "reference")?;
-        let request = request(joints, tool, varied(None, samples), out, threads);
-        joint_positions::gravity(self, &request, reference, Vector3::from(acceleration))
     }
 
     /// (n, dof) joints -> list of n str: the branch at each of the joint positions.

@@ -1,17 +1,22 @@
 //! The class `Robot`, continued: its uncertain inputs, samples of them, covariances, springs.
 
+use armill_core::frame::Isometry;
 use armill_core::nalgebra::DMatrix;
-use armill_core::sampling::{Draws, MOST_DIMENSIONS, Method};
+use armill_core::robot::SmallMotion;
+use armill_core::sampling::{Draws, MOST_DIMENSIONS, Method, SampledInput};
+use armill_core::source::{Arm, Contributor, standard_uncertainties};
 use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::arrays::array;
 use crate::errors::refused;
-use crate::joint_positions::{self, Loads};
-use crate::robot::{Robot, Varied};
+use crate::joint_evaluation::Loads;
+use crate::joint_positions;
+use crate::robot::Robot;
 use crate::robot_class::request;
 use crate::samples::{Samples, standard_normal};
+use crate::springs::Varied;
 use crate::threads::ThreadCount;
 
 type Floats<'py> = PyResult<Bound<'py, PyArrayDyn<f64>>>;
@@ -28,9 +33,9 @@ impl Robot {
         if self.arm().compliance().is_none() {
             return Ok(None);
         }
-        let covariance = self.covariance_of_springs();
-        let u = (0..self.dof()).map(|k| covariance[(k, k)].max(0.0).sqrt());
-        array(py, &[self.dof()], u.collect()).map(Some)
+        let mut u = standard_uncertainties(&self.covariance_of_springs());
+        u.truncate(self.dof());
+        array(py, &[self.dof()], u).map(Some)
     }
 
     /// -> list of str: names of all springs, the joints first, as in `spring_jacobian` and `spring_compliance`.
@@ -39,7 +44,7 @@ impl Robot {
         let mut names = self.joint_names();
         let mut counts = std::collections::BTreeMap::new();
         for spring in &self.model.structure.springs {
-            let at = armill_core::source::Contributor::At(spring.attachment).name(self.arm().joints());
+            let at = Contributor::At(spring.attachment).name(self.arm().joints());
             let count = counts.entry(at.clone()).or_insert(0);
             *count += 1;
             names.push(format!("{at} spring {count}"));
@@ -75,7 +80,7 @@ impl Robot {
     fn geometry_motions(&self) -> Vec<String> {
         let known = self.model.structure.geometry.as_ref();
         let motions = known.map_or(&[] as &[_], |geometry| geometry.motions());
-        let name = |motion: &armill_core::robot::SmallMotion| {
+        let name = |motion: &SmallMotion| {
             let joint = &self.arm().joints()[motion.after].name;
             let way = if motion.component < 3 { "along" } else { "about" };
             format!("{joint} {way} {}", ["x", "y", "z"][motion.component % 3])
@@ -101,7 +106,7 @@ impl Robot {
     fn uncertain_inputs<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
         let (space, joints) = (self.input_space(), self.arm().joints());
         let names = space.names(joints).into_iter();
-        let entry = |(name, input): (String, &armill_core::sampling::SampledInput)| {
+        let entry = |(name, input): (String, &SampledInput)| {
             let entry = PyDict::new(py);
             entry.set_item("name", name)?;
             entry.set_item("source", input.source.name())?;
@@ -240,18 +245,14 @@ impl Robot {
         }
     }
 
-    /// Covariance of the compliances of drives, then springs; those outside a covariance of the file are independent.
+    /// Covariance of the compliances of drives, then springs.
     fn covariance_of_springs(&self) -> DMatrix<f64> {
-        let structure = &self.model.structure;
-        let drives = self.arm().compliance().unwrap_or_default().iter();
-        let springs = structure.springs.iter().map(|spring| &spring.compliance);
-        let own: Vec<f64> = (drives.chain(springs))
-            .map(|compliance| compliance.standard_uncertainty.powi(2))
-            .collect();
-        let mut covariance = DMatrix::from_diagonal(&own.into());
-        if let Some(known) = &structure.covariance {
-            covariance.view_mut((0, 0), known.shape()).copy_from(known);
-        }
-        covariance
+        let arm = Arm {
+            robot: self.arm(),
+            compliance: self.arm().compliance().unwrap_or_default(),
+            model: &self.model,
+            flange_from_tool: &Isometry::identity(),
+        };
+        arm.compliance_covariance()
     }
 }

@@ -131,7 +131,7 @@ impl Samples {
     #[getter]
     fn backlash_side<'py>(&self, py: Python<'py>) -> Floats<'py> {
         self.table(py, self.robot.get().dof(), |arm, row| {
-            row.copy_from_slice(&arm.side)
+            row.copy_from_slice(&arm.side);
         })
     }
 
@@ -210,9 +210,7 @@ impl Samples {
         html::table(&caption, &self.robot.get().input_names(), cells)
     }
 
-    fn __reduce__<'py>(
-        slf: &Bound<'py, Self>,
-    ) -> PyResult<(Bound<'py, PyAny>, (Py<Robot>, Bound<'py, PyAny>))> {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Parts<'py>)> {
         let py = slf.py();
         let again = slf.get_type().getattr("_again")?;
         let samples = slf.get();
@@ -226,6 +224,9 @@ impl Samples {
 }
 
 containers!(Samples);
+
+/// The parts that a pickle keeps: the robot, and the standard normal numbers.
+type Parts<'py> = (Py<Robot>, Bound<'py, PyAny>);
 
 /// Standard normal numbers (n, inputs).
 ///

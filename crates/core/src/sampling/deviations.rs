@@ -116,7 +116,8 @@ impl SampledDeviations<'_> {
             return evaluate_at_joints(&arm, self.joints, out, at, watch);
         }
         let dof = arm.compliance.len();
-        let blocks = (self.joints.par_chunks(PAIRS_AT_ONCE * dof)).zip(out.par_chunks_mut(PAIRS_AT_ONCE * width));
+        let blocks =
+            (self.joints.par_chunks(PAIRS_AT_ONCE * dof)).zip(out.par_chunks_mut(PAIRS_AT_ONCE * width));
         let failed = blocks.enumerate().map_init(
             || ArmState::new(arm),
             |arm_state, (block, (joints, out))| {

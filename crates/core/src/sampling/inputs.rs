@@ -339,16 +339,10 @@ impl SampledArm {
 
 /// Inputs of the compliances: one for each axis of the blocks of the covariance.
 fn of_compliances(arm: &Arm<'_>) -> Vec<SampledInput> {
-    let (compliances, attachments) = (arm.compliances(), arm.attachments());
-    let known = arm.model.structure.covariance.as_ref();
-    let size = known.map_or(0, DMatrix::nrows);
-    let entry = |i: usize, j: usize| match known {
-        Some(covariance) if i < size && j < size => covariance[(i, j)],
-        _ if i == j => compliances[i].standard_uncertainty.powi(2),
-        _ => 0.0,
-    };
+    let (covariance, attachments) = (arm.compliance_covariance(), arm.attachments());
+    let entry = |i: usize, j: usize| covariance[(i, j)];
     let mut inputs = Vec::new();
-    for block in blocks(compliances.len(), |i, j| entry(i, j) != 0.0 || entry(j, i) != 0.0) {
+    for block in blocks(attachments.len(), |i, j| entry(i, j) != 0.0 || entry(j, i) != 0.0) {
         let covariance = DMatrix::from_fn(block.len(), block.len(), |i, j| entry(block[i], block[j]));
         let least = NEGLIGIBLE * covariance.amax();
         let axes = SymmetricEigen::new(covariance);
@@ -381,9 +375,9 @@ fn blocks(count: usize, connected: impl Fn(usize, usize) -> bool) -> Vec<Vec<usi
         }
         let (mut block, mut next) = (vec![first], 0);
         while next < block.len() {
-            for other in 0..count {
-                if !is_taken[other] && connected(block[next], other) {
-                    is_taken[other] = true;
+            for (other, is_taken) in is_taken.iter_mut().enumerate() {
+                if !*is_taken && connected(block[next], other) {
+                    *is_taken = true;
                     block.push(other);
                 }
             }
