@@ -182,3 +182,150 @@ def test_notebooks_show_tables(mh12, result, table):
     answer = armill.pose("yaskawa/mh12", at_mm=[1000, 0, 800])
     assert "<th>postures</th>" in answer._repr_html_() and "<script" not in answer._repr_html_()
     assert "<table>" in armill.robots()._repr_html_()
+
+
+def test_results_become_dicts_frames_and_data_sets(mh12, joints):
+    pandas, xarray = pytest.importorskip("pandas"), pytest.importorskip("xarray")
+    poses = mh12.forward(joints[:12])
+    poses[3, 0, 3] = 9.0
+    flat = mh12.evaluate(poses, FORCES, normal=[0, 0, 1])
+    assert list(flat.to_dict()) == [
+        "reachable", "joints", "deviation", "in_plane", "in_plane_uncertainty", "normal_deviation", "magnitude",
+        "worst_case", "within_limits", "contributions", "branch", "singularity",
+    ]  # fmt: skip
+    frame = flat.to_pandas()
+    assert frame.index.name == "pose" and len(frame) == 12 and frame.attrs["units"]["joints_L"] == "rad"
+    assert np.array_equal(frame["deviation_1_z"], flat.deviation[:, 1, 2], equal_nan=True)
+    assert np.array_equal(frame["contributions_U"], flat.contributions[:, 2], equal_nan=True) and frame["branch"].tolist() == flat.branch
+    assert isinstance(frame, pandas.DataFrame) and frame["worst_case"].dtype == np.int64
+
+    grid = mh12.evaluate(poses.reshape(3, 4, 4, 4), FORCES, normal=[0, 0, 1])
+    data = grid.to_xarray(dims=["row", "column"])
+    assert isinstance(data, xarray.Dataset) and dict(data.sizes) == {"row": 3, "column": 4, "joint": 6, "case": 2, "axis": 3, "contributor": 6}
+    assert data.deviation.dims == ("row", "column", "case", "axis") and data.deviation.attrs["units"] == "m"
+    assert data.in_plane.attrs["long_name"].startswith("largest in-plane deviation")
+    assert np.array_equal(data.deviation.sel(axis="z"), grid.deviation[..., 2], equal_nan=True)
+    assert data.joint.values.tolist() == mh12.joint_names and data.joint_unit.values.tolist() == ["rad"] * 6
+    assert list(grid.to_pandas().index.names) == ["pose_0", "pose_1"] and data.branch.values.ravel().tolist() == grid.branch
+    assert set(grid.to_xarray().sizes) >= {"pose_0", "pose_1"}
+    with pytest.raises(ValueError, match="dims: expected 2 names, given row"):
+        grid.to_xarray(dims=["row"])
+    paired = mh12.evaluate(poses, np.tile(FORCES, (6, 1)), normal=[0, 0, 1], paired=True).to_xarray()
+    assert paired.deviation.dims == ("pose", "axis")
+    samples = mh12.sample(3)
+    spread = mh12.evaluate(poses, FORCES, normal=[0, 0, 1], samples=samples).to_xarray(dims=["sample", "pose"])
+    assert spread.deviation.dims == ("sample", "pose", "case", "axis")
+
+    postures = mh12.inverse(poses[:3]).to_pandas()
+    assert {"joints_0", "pose_index", "branch", "within_limits"} <= set(postures.columns)
+    drawn = samples.to_xarray()
+    assert drawn.z.dims == ("sample", "input") and drawn.input.values[0] == "compliance S"
+    assert np.array_equal(drawn.compliances, samples.compliances) and drawn.compliances.attrs["units"] == "rad/(N*m)"
+    assert np.array_equal(samples.to_pandas()["z_compliance U"], samples.z[:, 2])
+
+
+def test_units_are_those_that_pint_reads(mh12, joints, result):
+    pytest.importorskip("pint_xarray")
+    quantified = mh12.evaluate(mh12.forward(joints[:4]), FORCES, normal=[0, 0, 1]).to_xarray().pint.quantify()
+    assert str(quantified.deviation.pint.units) == "meter" and str(quantified.joints.pint.units) == "radian"
+    plane = result.to_xarray().pint.quantify()
+    assert str(plane.in_plane_um.pint.to("m").pint.units) == "meter"
+    assert str(mh12.sample(2).to_xarray().pint.quantify().compliances.pint.units) == "radian / meter / newton"
+
+
+def test_maps_and_tables_are_labelled(result, table):
+    pytest.importorskip("xarray")
+    plane = result.to_xarray(result.analyses[0])
+    grid = result.answer["maps"][0]["grid"]
+    assert dict(plane.sizes) == {"z": len(grid["z_mm"]), "y": len(grid["y_mm"])}
+    assert np.array_equal(plane.y, grid["y_mm"]) and plane.y.attrs["units"] == "mm"
+    # The table has more digits than the JSON.
+    expected = np.array(grid["in_plane_um"], dtype=float).reshape(plane.in_plane_um.shape)
+    assert np.allclose(plane.in_plane_um, expected, atol=0.051, equal_nan=True) and plane.in_plane_um.attrs["units"] == "um"
+    assert plane.in_plane_um.attrs["long_name"] == table.descriptions["in_plane_um"] and table.units["in_plane_um"] == "um"
+    sections = result.to_xarray("Table 4, best branch")
+    assert sections.in_plane_um.dims == ("section", "z", "y")
+    assert np.array_equal(sections.in_plane_um.values.ravel(), result.table("Table 4, best branch")["in_plane_um"], equal_nan=True)
+    rows = table.to_xarray()
+    assert dict(rows.sizes) == {"row": len(table)} and table.to_xarray(dims=["point"]).in_plane_um.dims == ("point",)
+    assert result.to_pandas().equals(table.to_pandas()) and list(table.to_dict()) == table.columns
+
+
+def test_a_volume_is_labelled(result):
+    pytest.importorskip("xarray")
+    box, table = result.to_xarray("Space, 800 mm box"), result.table("Space, 800 mm box")
+    assert list(box.sizes) == ["z", "y", "x"] and box.in_plane_um.size == len(table)
+    assert np.array_equal(box.in_plane_um.values.ravel(), table["in_plane_um"], equal_nan=True)
+    for axis in "xyz":
+        assert np.array_equal(box[axis], np.unique(table[f"{axis}_mm"])) and box[axis].attrs["units"] == "mm"
+    point = box.isel(z=2, y=1, x=3)
+    assert (float(point.x), float(point.y), float(point.z)) == (float(point.x_mm), float(point.y_mm), float(point.z_mm))
+
+
+def test_results_are_equal_where_their_numbers_are(mh12, joints, result, table):
+    poses = mh12.forward(joints[:12])
+    poses[3, 0, 3] = 9.0
+    one = mh12.evaluate(poses, FORCES, normal=[0, 0, 1])
+    assert one == mh12.evaluate(poses, FORCES, normal=[0, 0, 1]) == pickle.loads(pickle.dumps(one))
+    assert one != mh12.evaluate(poses, 2 * FORCES, normal=[0, 0, 1]) and one != "evaluation" and len({one, pickle.loads(pickle.dumps(one))}) == 1
+    postures = mh12.inverse(poses)
+    assert postures == pickle.loads(pickle.dumps(postures)) != mh12.inverse(poses[:5])
+    study = armill.Study.load(GROOVE)
+    assert study == armill.Study.load(GROOVE) == pickle.loads(pickle.dumps(study)) != armill.Study.load(GROOVE, robot=mh12.with_compliance(mh12.joint_compliance))
+    again = pickle.loads(pickle.dumps(result))
+    assert again == result and again["maps"] == result.answer["maps"] and result != study
+    assert table == pickle.loads(pickle.dumps(table)) and table != result.table(result.analyses[1])
+    assert one.contributors == mh12.contributors and one.joint_names == mh12.joint_names
+
+
+def test_a_tool_path_is_pickled(tmp_path):
+    program = tmp_path / "part.nc"
+    program.write_text("G21 G90 G17\nT1 M6\nG0 X0 Y0 Z5\nG1 Z-1 F300\nG2 X10 Y10 I5 J5\nG1 X20\nM30\n")
+    path = armill.read_path(program)
+    program.unlink()
+    again = pickle.loads(pickle.dumps(path))
+    assert again == path and np.array_equal(again.points, path.points) and again.notes == path.notes and again.operations == path.operations
+    frame = path.to_pandas() if pytest.importorskip("pandas") else None
+    assert np.array_equal(frame["points_x"], path.points[:, 0]) and frame.attrs["units"]["feed"] == "m/s"
+    assert "<table>" in path._repr_html_() and len({path, again}) == 1
+
+
+def test_everything_is_shown_in_notebooks(mh12, joints):
+    study = armill.Study.load(GROOVE)
+    shown = [mh12.inverse(mh12.forward(joints[:2])), study, armill.Study.from_text("format = 1\n"), mh12.sample(4)]
+    assert all("<table>" in each._repr_html_() for each in shown)
+    assert "Fig. 6" in study._repr_html_()
+
+
+def test_a_missing_package_is_named(mh12, joints, monkeypatch):
+    import sys
+
+    monkeypatch.setitem(sys.modules, "xarray", None)
+    with pytest.raises(ImportError, match=r'xarray is not installed .*: pip install "armill\[xarray\]"'):
+        mh12.evaluate(mh12.forward(joints[:2]), FORCES, normal=[0, 0, 1]).to_xarray()
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with pytest.raises(ImportError, match=r'pip install "armill\[pandas\]"'):
+        mh12.sample(2).to_pandas()
+
+
+def test_answers_give_robots_and_samples_of_them(tmp_path):
+    import answers
+
+    answers.springs()
+    rows = (answers.folder() / "tests.csv").read_text().splitlines(keepends=True)
+    # Without the test that is wrong.
+    (tmp_path / "tests.csv").write_text("".join(rows[:8] + rows[9:]))
+    options = {"robot": "yaskawa/mh12", "tool_mm": [0, 60, 150], "out": tmp_path / "found.toml"}
+    answer = armill.identify(tmp_path / "tests.csv", **options)
+    found = answer.updated_robot()
+    assert found.compliance_covariance.any() and found.joint_compliance[2] == pytest.approx(4e-5, rel=0.1)
+    samples = answer.samples(1 << 12, seed=3)
+    springs = np.hstack([samples.compliances, samples.spring_compliances])
+    size = np.sqrt(np.outer(*[np.diag(found.compliance_covariance)] * 2))
+    inside = np.diag(found.compliance_covariance) ** 0.5 < 0.2 * found.spring_compliance
+    part = np.ix_(inside, inside)
+    assert inside.sum() >= 3
+    assert np.allclose(np.cov(springs.T)[part], found.compliance_covariance[part], atol=0.03 * size[part].max())
+    assert pickle.loads(pickle.dumps(answer)).updated_robot() == found
+    with pytest.raises(ValueError, match="the command wrote no robot file"):
+        answers.springs().samples(3)

@@ -256,3 +256,38 @@ def test_modes_solve_the_equation_of_motion_with_the_mass_matrix_of_pinocchio(pi
         expected = arm.compliance(q[None])[0]
         assert np.abs(still - expected).max() < 1e-9 * np.abs(expected).max()
     assert np.all(modes[:, :, 1] == 0.03)
+
+
+def test_masses_of_a_model_of_pinocchio_are_converted(pin):
+    rng = np.random.default_rng(3)
+    model = pin.buildSampleModelManipulator()
+    for joint in range(1, model.njoints):
+        turn, _ = np.linalg.qr(rng.normal(size=(3, 3)))
+        inertia = turn @ np.diag(rng.uniform(1, 2, 3)) @ turn.T
+        model.inertias[joint] = pin.Inertia(float(rng.uniform(1, 20)), rng.normal(0, 0.2, 3), inertia)
+    robot = interop.from_pinocchio(model)
+    data = model.createData()
+    for q in rng.uniform(-1, 1, (5, model.nv)):
+        upper = np.triu(pin.crba(model, data, q))
+        expected = upper + np.triu(upper, 1).T
+        assert np.allclose(robot.mass_matrix(q), expected, rtol=1e-9, atol=1e-9 * np.abs(expected).max())
+
+
+def test_masses_at_inclined_axes_are_converted(pin):
+    rng = np.random.default_rng(4)
+    model = pin.Model()
+    parent = 0
+    for joint in range(4):
+        axis = rng.normal(size=3)
+        place = pin.SE3(pin.exp3(rng.normal(size=3)), rng.normal(0, 0.3, 3))
+        parent = model.addJoint(parent, pin.JointModelRevoluteUnaligned(axis / np.linalg.norm(axis)), place, f"j{joint}")
+        turn, _ = np.linalg.qr(rng.normal(size=(3, 3)))
+        inertia = turn @ np.diag(rng.uniform(1, 2, 3)) @ turn.T
+        model.appendBodyToJoint(parent, pin.Inertia(2.0 + joint, rng.normal(0, 0.2, 3), inertia), pin.SE3.Identity())
+    model.addFrame(pin.Frame("tool0", parent, pin.SE3(np.eye(3), np.array([0.1, 0.0, 0.2])), pin.FrameType.OP_FRAME))
+    robot = interop.from_pinocchio(model)
+    data = model.createData()
+    for q in rng.uniform(-1, 1, (5, 4)):
+        upper = np.triu(pin.crba(model, data, q))
+        expected = upper + np.triu(upper, 1).T
+        assert np.allclose(robot.mass_matrix(q), expected, rtol=1e-9, atol=1e-9 * np.abs(expected).max())

@@ -25,8 +25,8 @@ def ran(name):
     return text, sum("image/png" in output.get("data", {}) for output in outputs)
 
 
-def test_the_folder_has_four_notebooks():
-    assert NAMES == ["fanuc-identification", "own-robot", "paper-in-ten-cells", "placement-with-sensitivity"]
+def test_the_folder_has_five_notebooks():
+    assert NAMES == ["fanuc-identification", "monte-carlo", "own-robot", "paper-in-ten-cells", "placement-with-sensitivity"]
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -77,3 +77,10 @@ def test_the_placement_is_found_and_is_robust_to_other_compliances():
     assert pictures == 2
     assert "nominal   cost 139.74 um (the study reports 139.74)" in text
     assert "the recommended placement is better in 100.0 % of all draws" in text and "U twice as soft" in text
+
+
+@pytest.mark.filterwarnings("default")
+def test_monte_carlo_agrees_with_the_law_of_propagation():
+    text, pictures = ran("monte-carlo")
+    assert pictures == 2
+    assert "ratio of standard uncertainties" in text and "measure first: J" in text

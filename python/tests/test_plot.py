@@ -497,7 +497,7 @@ def test_python_blocks_of_the_guide_run(tmp_path, monkeypatch, capsys):
     found = blocks(ROOT / "docs/guide/plotting.md")
     for number, block in enumerate(found, 1):
         exec(compile(block, f"plotting.md, block {number}", "exec"), names)
-    assert len(found) == 5 and "along: its points are not in the JSON" in capsys.readouterr().out
+    assert len(found) == 6 and "along: its points are not in the JSON" in capsys.readouterr().out
     assert (tmp_path / "fig-6.pdf").is_file()
     for name in plot.__all__:
         labels = f"| `{name}` |" in (ROOT / "docs/guide/plotting.md").read_text()
@@ -509,3 +509,57 @@ def test_every_function_documents_inputs_and_result():
         thing = getattr(plot, name)
         if name != "Missing":
             assert "->" in thing.__doc__.splitlines()[0] and f"``{name}``" in plot.__doc__ or name == "skeleton", name
+
+
+PROJECTIONS = {"polar": "polar", "polar of a ball-bar": "polar", "roundness": "polar", "robot": "3d", "stiffness": "3d"}
+PANELS = {"budget": 2, "placement": 2, "identify": 2}
+
+
+@pytest.mark.parametrize("name", [name for name in PICTURES if name != "sections"])
+def test_a_picture_is_usable_in_a_column_of_a_journal(name):
+    count = PANELS.get(name, 1)
+    figure = plt.figure(figsize=(3.5, 3.2 * count), layout="constrained")
+    given = [figure.add_subplot(count, 1, i + 1, projection=PROJECTIONS.get(name)) for i in range(count)]
+    PICTURES[name](given if count > 1 else given[0])
+    figure.draw_without_rendering()
+    for ax in given:
+        box = ax.get_window_extent()
+        width, height = box.width / figure.dpi, box.height / figure.dpi
+        assert width > 1.0 and height > 0.9, (width, height)
+        title = ax.title if ax.get_title() else ax._left_title
+        assert title.get_window_extent().x1 < figure.bbox.x1 + 0.15 * figure.dpi, title.get_text()
+
+
+def test_sections_in_a_column_of_a_journal():
+    figure, axes = plt.subplots(4, 2, figsize=(3.5, 7.0), layout="constrained", squeeze=False)
+    drawn = plot.sections(answers.paper(), "Table 4, best branch", ax=axes)
+    figure.draw_without_rendering()
+    assert all(ax.get_window_extent().width / figure.dpi > 0.6 for ax in drawn)
+    assert all(ax.get_legend() is None for ax in drawn) and len(figure.legends) == 1
+
+
+def test_title_legend_colours_and_colour_bar_are_options():
+    ax = plot.map(answers.paper(), "Fig. 6, best branch", title="Mine", legend=False, cmap="magma", cbar=False)
+    assert ax.get_title(loc="left") == "Mine" and ax.get_legend() is None and len(ax.figure.axes) == 1
+    filled = next(each for each in ax.collections if isinstance(each, QuadContourSet))
+    assert filled.get_cmap().name == "magma"
+    ax = plot.path(answers.paths(), "pocket", title=False, cmap="cividis")
+    assert not ax.get_title(loc="left") and not ax.texts[0].get_text().startswith("100") and len(ax.figure.axes) == 2
+    collections = [each for each in ax.collections if isinstance(each, LineCollection) and each.get_array() is not None]
+    assert {each.get_cmap().name for each in collections} == {"cividis"}
+    bars, waves = plot.budget(answers.budget(), title="Budget", legend=False)
+    assert bars.get_title(loc="left") == "Budget" and waves.get_title(loc="left") == "Harmonics"
+    assert bars.get_legend() is None and waves.get_legend() is None
+    ax = plot.along(answers.paths(), "pocket", legend=False)
+    assert ax.get_legend() is None and "pocket" in ax.get_title(loc="left")
+
+
+def test_settings_of_the_caller_are_kept():
+    with mpl.rc_context({"font.size": 14, "axes.labelsize": 17, "image.cmap": "plasma", "legend.fontsize": 13, "axes.linewidth": 3.0}):
+        ax = plot.map(answers.paper(), "Fig. 6, best branch")
+        assert ax.xaxis.label.get_size() == 17 and ax.spines["left"].get_linewidth() == 3.0
+        filled = next(each for each in ax.collections if isinstance(each, QuadContourSet))
+        assert filled.get_cmap().name == "plasma" and ax.get_legend().get_texts()[0].get_size() == 13
+    with mpl.rc_context():
+        ax = plot.map(answers.paper(), "Fig. 6, best branch")
+        assert ax.xaxis.label.get_size() == 9 and not ax.get_legend().get_frame_on()

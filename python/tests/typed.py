@@ -23,6 +23,15 @@ def deviations(robot: armill.Robot, joints: npt.NDArray[np.float64]) -> npt.NDAr
     return robot.deviation(joints.tolist(), [[1.0, 2.0, 3.0]], threads=2)
 
 
+def uncertain(robot: armill.Robot, joints: npt.NDArray[np.float64]) -> armill.VarianceShares:
+    given = robot.with_compliance(np.full(6, 1e-6), np.diag(np.full(6, 1e-14)), source="typed")
+    samples: armill.Samples = given.sample(100, "random", seed=1)
+    cloud: npt.NDArray[np.float64] = given.deviation(joints, [0, 0, 1], samples=samples[:50], all_sources=True)
+    u: npt.NDArray[np.float64] | None = given.standard_uncertainty
+    print(cloud.shape, u is None, given.uncertain_inputs[0]["name"], given.samples_at(armill.normal_draws(3, 6)).cut.sum())
+    return armill.sobol_indices(given, function=lambda each: each.z[:, 0], by="source")
+
+
 def study(path: Path) -> str:
     try:
         result: armill.Result = armill.Study.load(path).run(progress=lambda count: None)

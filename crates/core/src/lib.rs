@@ -6,7 +6,7 @@
 //! [`frame`] and [`spatial`] (poses, twists, wrenches), `statistics` (medians), [`roundness`] (circles of measured points, without a
 //! robot), [`marching_squares`] (level lines and areas on a grid), [`robot`] (chain, postures), [`compliance`],
 //! [`dynamics`] (vibration), [`load`], [`stability`] (of a cut against chatter), [`source`] (sources of the deviation), [`workpiece`] and [`path`] (points), [`removal`] (the part that is left of the stock), [`motion`] (speed, time, rounded corners), [`kernel`] (many
-//! points at once), [`map`] (planes, sections, volumes, the region within a tolerance), [`machined`] (the part as it comes out),
+//! points at once), [`sampling`] (samples of uncertain inputs), [`map`] (planes, sections, volumes, the region within a tolerance), [`machined`] (the part as it comes out),
 //! [`optimize`] (the posture along a path), `least_squares`, [`form`] (form, size and location of measured features), [`identify`] (joint compliances from load tests), [`calibrate`] (geometry
 //! from measured poses), [`learn`] (what calibration leaves), [`update`] (all measurements of an arm at once), [`measure`] (circular tests and repeated poses), [`budget`] (the error budget of
 //! a milled circle), [`torsion`] (of a driven joint, from both encoders and the torque), [`motor_torque`] (friction and load from the torque of the motor).
@@ -38,6 +38,7 @@ pub mod predict;
 pub mod removal;
 pub mod robot;
 pub mod roundness;
+pub mod sampling;
 pub mod source;
 pub mod spatial;
 pub mod stability;

@@ -6,7 +6,7 @@ use armill_core::kernel::{Answers, BranchChoice, Evaluation, Question, evaluate 
 use armill_core::load::InputUncertainty;
 use armill_core::nalgebra::{Unit, Vector3};
 use armill_core::robot::{JointCompliance, PostureName, Singularity, Unreachable};
-use armill_core::source::Arm;
+use armill_core::source::{Arm, StiffnessModel};
 use armill_core::spatial::Wrench;
 use armill_core::watch::{Cancelled, Watch};
 use armill_core::workpiece::common_normal;
@@ -16,12 +16,14 @@ use pyo3::prelude::*;
 use rayon::prelude::*;
 
 use crate::arrays::{Given, wrong_shape};
+use crate::containers::containers;
 use crate::errors::{exception, refused};
 use crate::html;
 use crate::poses::{Forces, Poses, one_pose};
 use crate::postures::{FirstWrong, effort};
 use crate::results::{Stored, Words, item_of};
 use crate::robot::Robot;
+use crate::springs::{Springs, Varied};
 use crate::threads::{Effort, ThreadCount, work};
 
 /// The posture of an arm and the deviation of the tool at each of n poses under each load case.
@@ -44,6 +46,8 @@ pub(crate) struct PoseEvaluations {
     branch: Words<PostureName>,
     singularity: Words<&'static str>,
     reason: Words<Unreachable>,
+    /// Names of joints and contributors, and the unit of each joint.
+    names: [Vec<String>; 3],
 }
 
 /// The options of an evaluation.
@@ -56,8 +60,8 @@ pub(crate) struct EvaluationOptions<'a, 'py> {
     pub home: Option<&'a Bound<'py, PyAny>>,
     /// Whether each pose has a load case of its own.
     pub paired: bool,
-    /// (..., dof), in place of those of the robot.
-    pub compliances: Option<&'a Bound<'py, PyAny>>,
+    /// In place of the compliances of the robot.
+    pub varied: Varied<'a, 'py>,
     /// All processors if not given.
     pub threads: Option<ThreadCount>,
 }
@@ -75,13 +79,13 @@ pub(crate) fn evaluate(
     let forces = Forces::of(forces, options.paired.then_some(&poses.batch.axes))?;
     let flange_from_tool = one_pose(tool, "tool")?;
     let home = robot.home(options.home)?;
-    let springs = robot.springs(py, options.compliances)?;
+    let springs = robot.springs(py, &options.varied)?;
     let template = Question {
         homes: None,
         arm: Arm {
             robot: robot.arm(),
             compliance: &[],
-            model: &springs.model,
+            model: &robot.model,
             flange_from_tool: &flange_from_tool,
         },
         home: home.as_deref(),
@@ -95,35 +99,43 @@ pub(crate) fn evaluate(
         clearance: None,
     };
     let (matrices, count) = (poses.values(), poses.batch.count);
-    let samples = &*springs.samples;
-    let work_of = match (samples, forces.paired) {
-        ([_], false) => effort(robot, count),
+    let work_of = match (&springs, forces.paired) {
+        (Springs::Nominal(..), false) => effort(robot, count),
         _ => Effort::Long,
     };
     let shape = Shape {
-        axes: [&*springs.axes, &poses.batch.axes].concat(),
+        axes: [springs.axes(), &poses.batch.axes].concat(),
         case_axes: forces.result_axes().to_vec(),
         dof: robot.dof(),
-        contributors: springs.model.contributors(robot.dof()).len(),
+        contributors: robot.model.contributors(robot.dof()).len(),
     };
+    let names = [
+        robot.joint_names(),
+        robot.contributor_names(),
+        robot.joint_units(),
+    ];
     let wrong = FirstWrong::default();
     let found = work(py, options.threads, work_of, |watch| {
-        let of = |compliance: &[JointCompliance]| {
+        let of = |compliance: &[JointCompliance], model: &StiffnessModel| {
             let arm = Arm {
                 compliance,
+                model,
                 ..template.arm
             };
             let pose = |i| wrong.pose(matrices, i);
             answers(&Question { arm, ..template }, &forces, count, pose, watch)
         };
-        let answers = match samples {
-            [compliance] => of(compliance)?,
-            _ => {
-                let each: Result<Vec<_>, Cancelled> = samples.par_iter().map(|sample| of(sample)).collect();
+        let answers = match &springs {
+            Springs::Nominal(compliance, model) => of(compliance, model)?,
+            Springs::Samples { arms, .. } => {
+                let each = arms
+                    .par_iter()
+                    .map(|sample| of(&sample.compliance, &sample.model));
+                let each: Result<Vec<_>, Cancelled> = each.collect();
                 each?.into_iter().flatten().collect()
             }
         };
-        Ok(PoseEvaluations::of(answers, shape))
+        Ok(PoseEvaluations::of(answers, shape, names))
     })?;
     wrong.check(py, &poses, "poses")?;
     found.map_err(|cancelled: Cancelled| exception(py, &cancelled.into()))
@@ -190,7 +202,7 @@ struct Shape {
 
 impl PoseEvaluations {
     /// The answers at consecutive poses, with NaN at those that are unreachable.
-    fn of(stretches: Vec<Answers>, shape: Shape) -> PoseEvaluations {
+    fn of(stretches: Vec<Answers>, shape: Shape, names: [Vec<String>; 3]) -> PoseEvaluations {
         let Joined {
             points,
             mut joints,
@@ -228,6 +240,7 @@ impl PoseEvaluations {
                 None,
             )),
             reason: Words::Found(points.into_par_iter().map(Result::err).collect()),
+            names,
         }
     }
 }
@@ -284,6 +297,7 @@ type Parts<'py> = (
     PyReadonlyArrayDyn<'py, i64>,
     [PyReadonlyArrayDyn<'py, f64>; 7],
     [Vec<Option<String>>; 3],
+    [Vec<String>; 3],
 );
 
 #[pymethods]
@@ -350,6 +364,24 @@ impl PoseEvaluations {
     #[getter]
     fn contributions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         self.contributions.array(py)
+    }
+
+    /// -> list of str: names along the last axis of `joints`.
+    #[getter]
+    fn joint_names(&self) -> Vec<String> {
+        self.names[0].clone()
+    }
+
+    /// -> list of str: names along the last axis of `contributions`.
+    #[getter]
+    fn contributors(&self) -> Vec<String> {
+        self.names[1].clone()
+    }
+
+    /// -> list of str: unit of each joint, `rad` or `m`.
+    #[getter]
+    fn joint_units(&self) -> Vec<String> {
+        self.names[2].clone()
     }
 
     /// -> list of n str: the branch used at each pose; empty where unreachable.
@@ -424,6 +456,7 @@ impl PoseEvaluations {
                 own.contributions.array(py)?,
             ],
             [own.branch.all(), own.singularity.all(), own.reason.all()],
+            own.names.clone(),
         );
         Ok((
             slf.get_type().getattr("_again")?,
@@ -433,7 +466,7 @@ impl PoseEvaluations {
 
     #[staticmethod]
     fn _again(parts: Parts<'_>) -> PoseEvaluations {
-        let (flags, worst_case, numbers, [branch, singularity, reason]) = parts;
+        let (flags, worst_case, numbers, [branch, singularity, reason], names) = parts;
         let [reachable, within_limits] = flags.map(|flags| Stored::of(&flags));
         let [
             joints,
@@ -458,6 +491,9 @@ impl PoseEvaluations {
             branch: Words::Read(branch),
             singularity: Words::Read(singularity),
             reason: Words::Read(reason),
+            names,
         }
     }
 }
+
+containers!(PoseEvaluations);

@@ -4,45 +4,27 @@
 //! compliances if several are given.
 
 use std::borrow::Cow;
-use std::slice;
 
 use armill_core::dynamics::over_joint_positions;
 use armill_core::frame::Isometry;
-use armill_core::kernel::{EvaluateError, evaluate_at_joints};
 use armill_core::nalgebra::Vector3;
+use armill_core::predict::predict;
+use armill_core::robot::PostureName;
 use armill_core::robot::inverse::posture_at;
 use armill_core::robot::jacobian::jacobian as jacobian_of;
-use armill_core::robot::{JointCompliance, PostureName};
-use armill_core::source::{Arm, ArmState, Gravity, StiffnessModel, Unstable};
-use armill_core::spatial::Wrench;
-use armill_core::watch::Watch;
+use armill_core::sampling::deviations::{SampledDeviations, compliance_terms};
+use armill_core::sampling::{SampledArm, SpringSums};
+use armill_core::source::{Gravity, Links, Unstable};
 use numpy::PyArrayDyn;
 use pyo3::prelude::*;
-use rayon::prelude::*;
 
-use crate::arrays::{Batch, place_of};
-use crate::errors::{exception, refused};
-use crate::poses::{Forces, one_pose};
-use crate::results::Output;
-use crate::robot::{Robot, Springs};
+use crate::errors::refused;
+use crate::joint_evaluation::{JointPositions, Loads, NO_LOAD, Request};
+use crate::robot::Robot;
+use crate::springs::Springs;
 use crate::threads::{Effort, ThreadCount, work};
 
 type Floats<'py> = PyResult<Bound<'py, PyArrayDyn<f64>>>;
-type Optional<'a, 'py> = Option<&'a Bound<'py, PyAny>>;
-
-/// Joint positions, and the options that all results have.
-pub(crate) struct Request<'a, 'py> {
-    /// (..., dof)
-    pub joints: &'a Bound<'py, PyAny>,
-    /// (4, 4)
-    pub tool: Optional<'a, 'py>,
-    /// (..., dof), in place of those of the robot.
-    pub compliances: Optional<'a, 'py>,
-    /// The array to write.
-    pub out: Optional<'a, 'py>,
-    /// All processors if not given.
-    pub threads: Option<ThreadCount>,
-}
 
 /// Poses of the tool.
 pub(crate) fn forward<'py>(robot: &Robot, request: &Request<'_, 'py>) -> Floats<'py> {
@@ -69,6 +51,23 @@ pub(crate) fn jacobian<'py>(robot: &Robot, request: &Request<'_, 'py>) -> Floats
 /// Compliances at the tool.
 pub(crate) fn compliance<'py>(robot: &Robot, request: &Request<'_, 'py>) -> Floats<'py> {
     let positions = JointPositions::compliant(robot, request)?;
+    if positions.is_proportional() {
+        let arm = robot.arm();
+        return positions.write_samples(&[6, 6], |sampled, out, watch| {
+            let samples: Vec<_> = sampled.arms.iter().map(|arm| (arm.compliances(), 1.0)).collect();
+            let sums = SpringSums {
+                arm: sampled.arms[0].arm(arm, sampled.tool),
+                joints: sampled.joints,
+                samples: &samples,
+                width: 36,
+            };
+            Ok(sums.write(
+                |arm_state, _, slots| compliance_terms(arm_state, slots),
+                out,
+                watch,
+            )?)
+        });
+    }
     positions.evaluate(&[6, 6], &NO_LOAD, |arm_state, _, out| {
         let compliance = arm_state.compliance().ok_or(Unstable::Buckles)?;
         out.copy_from_slice(compliance.transpose().as_slice());
@@ -80,7 +79,9 @@ pub(crate) fn compliance<'py>(robot: &Robot, request: &Request<'_, 'py>) -> Floa
 pub(crate) fn mass_matrix<'py>(robot: &Robot, request: &Request<'_, 'py>) -> Floats<'py> {
     needs_mass(robot, request, "its mass matrix")?;
     let mut positions = JointPositions::rigid(robot, request)?;
-    positions.springs.model = Cow::Borrowed(&robot.model);
+    if let Springs::Nominal(_, model) = &mut positions.springs {
+        *model = Cow::Borrowed(&robot.model);
+    }
     let dof = robot.dof();
     positions.evaluate(&[dof, dof], &NO_LOAD, |arm_state, _, out| {
         let matrix = over_joint_positions(robot.arm(), &arm_state.mass_matrix());
@@ -128,15 +129,77 @@ pub(crate) fn modes<'py>(robot: &Robot, request: &Request<'_, 'py>) -> Floats<'p
 pub(crate) fn deviation<'py>(
     robot: &Robot,
     request: &Request<'_, 'py>,
-    forces: &Bound<'py, PyAny>,
-    paired: bool,
+    loads: &Loads<'_, 'py>,
+) -> Floats<'py> {
+    let mut positions = JointPositions::compliant(robot, request)?;
+    let forces = loads.at(&positions)?;
+    let shape = [forces.result_axes(), &[3]].concat();
+    if let (Springs::Nominal(compliance, model), true) = (&positions.springs, loads.all_sources) {
+        let nominal = SampledArm::nominal(&positions.arm(compliance, model));
+        positions.springs = Springs::Samples {
+            axes: Vec::new(),
+            arms: Cow::Owned(vec![nominal]),
+        };
+    }
+    if matches!(positions.springs, Springs::Nominal(..)) {
+        return positions.evaluate(&shape, &forces, |arm_state, at, out| {
+            for (wrench, out) in at.cases.iter().zip(out.chunks_mut(3)) {
+                out.copy_from_slice(arm_state.elastic(wrench)?.linear.as_slice());
+            }
+            Ok(())
+        });
+    }
+    let (arm, all_sources) = (robot.arm(), loads.all_sources);
+    positions.write_samples(&shape, |sampled, out, watch| {
+        let deviations = SampledDeviations {
+            robot: arm,
+            flange_from_tool: sampled.tool,
+            samples: sampled.arms,
+            joints: sampled.joints,
+            cases: &forces.cases,
+            paired: forces.paired,
+            all_sources,
+        };
+        deviations.write(out, watch)
+    })
+}
+
+/// Covariance of the deviations under each load case.
+pub(crate) fn covariance<'py>(
+    robot: &Robot,
+    request: &Request<'_, 'py>,
+    loads: &Loads<'_, 'py>,
 ) -> Floats<'py> {
     let positions = JointPositions::compliant(robot, request)?;
-    let forces = Forces::of(forces, paired.then_some(&positions.joints.axes))?;
-    let shape = [forces.result_axes(), &[3]].concat();
-    positions.evaluate(&shape, &forces, |arm_state, cases, out| {
-        for (wrench, out) in cases.iter().zip(out.chunks_mut(3)) {
-            out.copy_from_slice(arm_state.elastic(wrench)?.linear.as_slice());
+    let forces = loads.at(&positions)?;
+    let (all_sources, middle) = (loads.all_sources, vec![0.0; robot.dof()]);
+    let shape = [forces.result_axes(), &[3, 3]].concat();
+    positions.evaluate(&shape, &forces, |arm_state, at, out| {
+        for (wrench, out) in at.cases.iter().zip(out.chunks_mut(9)) {
+            let covariance = if all_sources {
+                predict(arm_state, wrench, &mut Links::KeptByFriction(&middle))?.covariance
+            } else {
+                arm_state.elastic(wrench)?;
+                arm_state.covariance()
+            };
+            out.copy_from_slice(covariance.as_slice());
+        }
+        Ok(())
+    })
+}
+
+/// Screws of the tool by each drive, then each spring.
+pub(crate) fn spring_jacobian<'py>(robot: &Robot, request: &Request<'_, 'py>) -> Floats<'py> {
+    let mut positions = JointPositions::rigid(robot, request)?;
+    if let Springs::Nominal(_, model) = &mut positions.springs {
+        *model = Cow::Borrowed(&robot.model);
+    }
+    let springs = robot.dof() + robot.model.structure.springs.len();
+    positions.evaluate(&[6, springs], &NO_LOAD, |arm_state, _, out| {
+        for (k, screw) in arm_state.screws().iter().enumerate() {
+            for (row, part) in screw.to_vector().iter().enumerate() {
+                out[row * springs + k] = *part;
+            }
         }
         Ok(())
     })
@@ -146,18 +209,17 @@ pub(crate) fn deviation<'py>(
 pub(crate) fn contributions<'py>(
     robot: &Robot,
     request: &Request<'_, 'py>,
-    forces: &Bound<'py, PyAny>,
-    paired: bool,
+    loads: &Loads<'_, 'py>,
 ) -> Floats<'py> {
     let positions = JointPositions::compliant(robot, request)?;
-    let forces = Forces::of(forces, paired.then_some(&positions.joints.axes))?;
+    let forces = loads.at(&positions)?;
     let contributors = robot.model.contributors(robot.dof()).len();
     let shape = [forces.result_axes(), &[contributors, 3]].concat();
-    positions.evaluate(&shape, &forces, |arm_state, cases, out| {
-        for (wrench, out) in cases.iter().zip(out.chunks_mut(3 * contributors)) {
+    positions.evaluate(&shape, &forces, |arm_state, at, out| {
+        for (wrench, out) in at.cases.iter().zip(out.chunks_mut(3 * contributors)) {
             arm_state.elastic(wrench)?;
             for (share, out) in arm_state.shares().iter().zip(out.chunks_mut(3)) {
-                out.copy_from_slice(share.linear.as_slice());
+                out.copy_from_slice((share.linear * at.factor).as_slice());
             }
         }
         Ok(())
@@ -187,7 +249,7 @@ pub(crate) fn gravity<'py>(
         ));
     }
     let mut positions = JointPositions::compliant(robot, request)?;
-    positions.springs.model.to_mut().gravity = Some(Gravity {
+    positions.springs.set_gravity(&Gravity {
         acceleration,
         reference,
     });
@@ -211,159 +273,4 @@ pub(crate) fn branches(robot: &Robot, joints: &Bound<'_, PyAny>) -> PyResult<Vec
         Effort::Points(positions.count),
         |_| all.chunks(robot.dof()).map(name).collect(),
     )
-}
-
-/// For results that depend on no load.
-const NO_LOAD: Forces = Forces {
-    cases: Vec::new(),
-    axes: Vec::new(),
-    paired: false,
-};
-
-/// An arm and its joint positions.
-struct JointPositions<'a, 'py> {
-    py: Python<'py>,
-    robot: &'a Robot,
-    joints: Batch<'py>,
-    flange_from_tool: Isometry,
-    springs: Springs<'a>,
-    out: Option<&'a Bound<'py, PyAny>>,
-    threads: Option<ThreadCount>,
-}
-
-impl<'a, 'py> JointPositions<'a, 'py> {
-    fn of(
-        robot: &'a Robot,
-        request: &Request<'a, 'py>,
-        springs: Springs<'a>,
-    ) -> PyResult<JointPositions<'a, 'py>> {
-        Ok(JointPositions {
-            py: request.joints.py(),
-            robot,
-            joints: robot.joints(request.joints)?,
-            flange_from_tool: one_pose(request.tool, "tool")?,
-            springs,
-            out: request.out,
-            threads: request.threads,
-        })
-    }
-
-    /// For results that need no compliance.
-    fn rigid(robot: &'a Robot, request: &Request<'a, 'py>) -> PyResult<JointPositions<'a, 'py>> {
-        const STIFF: JointCompliance = JointCompliance {
-            value: 0.0,
-            standard_uncertainty: 0.0,
-        };
-        let springs = Springs {
-            axes: Vec::new(),
-            samples: vec![vec![STIFF; robot.dof()]],
-            model: Cow::Borrowed(StiffnessModel::DRIVES),
-        };
-        JointPositions::of(robot, request, springs)
-    }
-
-    /// For results that need the compliance of the arm.
-    fn compliant(robot: &'a Robot, request: &Request<'a, 'py>) -> PyResult<JointPositions<'a, 'py>> {
-        let springs = robot.springs(request.joints.py(), request.compliances)?;
-        JointPositions::of(robot, request, springs)
-    }
-
-    /// An array of `item` for each of the joint positions, written by `write` from the load cases there.
-    fn evaluate(
-        self,
-        item: &[usize],
-        forces: &Forces,
-        write: impl Fn(&mut ArmState<'_>, &[Wrench], &mut [f64]) -> Result<(), Unstable> + Sync,
-    ) -> Floats<'py> {
-        let shape = [&self.springs.axes, &self.joints.axes, item].concat();
-        let mut out = Output::of(self.py, self.out, &shape)?;
-        let numbers = out.numbers()?;
-        let (joints, samples) = (self.joints.given.values(), &*self.springs.samples);
-        let work_of = match (samples, forces.paired) {
-            ([_], false) => Effort::Points(self.joints.count),
-            _ => Effort::Long,
-        };
-        let points = Points {
-            arm: Arm {
-                robot: self.robot.arm(),
-                compliance: &[],
-                model: &self.springs.model,
-                flange_from_tool: &self.flange_from_tool,
-            },
-            joints,
-            width: item.iter().product(),
-            forces,
-            write: &write,
-        };
-        let stretch = numbers.len() / samples.len().max(1);
-        let written = work(self.py, self.threads, work_of, |watch| match samples {
-            _ if numbers.is_empty() => Ok(()),
-            [compliance] => points.write(compliance, numbers, watch),
-            _ => first_failed(
-                numbers
-                    .par_chunks_mut(stretch)
-                    .zip(samples)
-                    .map(|(numbers, compliance)| points.write(compliance, numbers, watch)),
-            ),
-        })?;
-        written.map_err(|why| match why {
-            EvaluateError::Cancelled(cancelled) => exception(self.py, &cancelled.into()),
-            EvaluateError::Unstable { point, why } => {
-                let place = place_of(&self.joints.axes, point);
-                refused(self.py, format!("joints{place}: {why}"), "check the load")
-            }
-        })?;
-        out.array(self.py, &shape)
-    }
-}
-
-/// Joint positions of an arm, and what is written at each.
-struct Points<'a, W> {
-    arm: Arm<'a>,
-    joints: &'a [f64],
-    /// Numbers that are written at each.
-    width: usize,
-    forces: &'a Forces,
-    write: &'a W,
-}
-
-impl<W: Fn(&mut ArmState<'_>, &[Wrench], &mut [f64]) -> Result<(), Unstable> + Sync> Points<'_, W> {
-    /// Writes all points for one sample of the compliances.
-    fn write(
-        &self,
-        compliance: &[JointCompliance],
-        out: &mut [f64],
-        watch: Watch<'_>,
-    ) -> Result<(), EvaluateError> {
-        let arm = Arm {
-            compliance,
-            ..self.arm
-        };
-        let at = |joints, cases: &[Wrench], out: &mut [f64]| {
-            let write = |arm_state: &mut ArmState<'_>, out: &mut [f64]| (self.write)(arm_state, cases, out);
-            evaluate_at_joints(&arm, joints, out, write, watch)
-        };
-        if !self.forces.paired {
-            return at(self.joints, &self.forces.cases, out);
-        }
-        let dof = compliance.len();
-        let points = self
-            .joints
-            .par_chunks(dof)
-            .zip(out.par_chunks_mut(self.width))
-            .zip(&self.forces.cases);
-        first_failed(points.enumerate().map(|(point, ((joints, out), case))| {
-            at(joints, slice::from_ref(case), out).map_err(|why| match why {
-                EvaluateError::Unstable { why, .. } => EvaluateError::Unstable { point, why },
-                cancelled @ EvaluateError::Cancelled(_) => cancelled,
-            })
-        }))
-    }
-}
-
-/// The first failure in the order of the items, whatever the number of threads.
-fn first_failed(
-    results: impl IndexedParallelIterator<Item = Result<(), EvaluateError>>,
-) -> Result<(), EvaluateError> {
-    results.find_map_first(Result::err).map_or(Ok(()), Err)
 }

@@ -152,6 +152,37 @@ impl Outcome {
         self.table_of(py, index)
     }
 
+    /// analysis name or None -> pandas.DataFrame: the rows of `table`. Needs pandas and pyarrow.
+    #[pyo3(signature = (analysis=None))]
+    fn to_pandas<'py>(&self, py: Python<'py>, analysis: Option<&str>) -> PyResult<Bound<'py, PyAny>> {
+        Bound::new(py, self.table(py, analysis)?)?.call_method0("to_pandas")
+    }
+
+    /// analysis name or None -> xarray.Dataset: the columns of `table`, with `units` and `long_name`. Needs xarray.
+    ///
+    /// A map is over `z` and `y` of its plane, sections with a further dimension, a volume over `z`, `y` and `x`; any other
+    /// analysis over `point`.
+    #[pyo3(signature = (analysis=None))]
+    fn to_xarray<'py>(slf: &Bound<'py, Self>, analysis: Option<String>) -> PyResult<Bound<'py, PyAny>> {
+        let helpers = slf.py().import("armill._labelled")?;
+        helpers.call_method1("result_dataset", (slf, analysis))
+    }
+
+    /// key -> the value in `answer`.
+    fn __getitem__<'py>(slf: &Bound<'py, Self>, key: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        slf.getattr("answer")?.get_item(key)
+    }
+
+    /// Whether the JSON is equal.
+    fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
+        let other = other.cast::<Outcome>();
+        other.is_ok_and(|other| other.get().json == self.json)
+    }
+
+    fn __hash__(&self) -> usize {
+        self.json.len()
+    }
+
     /// -> dict of str to str: all pictures as SVG, by name.
     #[getter]
     fn pictures(&self, py: Python<'_>) -> PyResult<BTreeMap<String, String>> {

@@ -9,7 +9,9 @@ use numpy::{PyArrayDyn, PyReadonlyArrayDyn};
 use pyo3::prelude::*;
 
 use crate::arrays::{Batch, Given, array, wrong_shape};
+use crate::containers::containers;
 use crate::errors::exception;
+use crate::html;
 use crate::results::{Stored, Words};
 use crate::threads::{Effort, ThreadCount, work};
 
@@ -173,6 +175,32 @@ impl PlacementEvaluations {
         )
     }
 
+    fn _repr_html_(&self) -> String {
+        let known = self.cost.values.iter().filter(|cost| cost.is_finite());
+        let (least, greatest) = known.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), cost| {
+            (low.min(*cost), high.max(*cost))
+        });
+        let reachable = self
+            .n_unreachable
+            .values
+            .iter()
+            .filter(|count| **count == 0)
+            .count();
+        let shown = |cost: f64| {
+            if cost.is_finite() {
+                format!("{cost:.3e}")
+            } else {
+                String::new()
+            }
+        };
+        let row = vec![reachable.to_string(), shown(least), shown(greatest)];
+        html::table(
+            &self.__repr__(),
+            &["reachable", "least cost, m", "greatest cost, m"],
+            [row],
+        )
+    }
+
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyAny>,))> {
         let (py, own) = (slf.py(), slf.get());
         let parts = (
@@ -201,3 +229,5 @@ impl PlacementEvaluations {
         }
     }
 }
+
+containers!(PlacementEvaluations);

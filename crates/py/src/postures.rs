@@ -10,7 +10,9 @@ use pyo3::prelude::*;
 use pyo3::types::{PyList, PySlice};
 
 use crate::arrays::array;
+use crate::containers::containers;
 use crate::errors::exception;
+use crate::html;
 use crate::poses::{Poses, no_pose, one_pose, pose_at};
 use crate::results::{Stored, Words, item_of};
 use crate::robot::Robot;
@@ -182,6 +184,24 @@ impl Postures {
         format!("<armill.Postures: {postures} of {poses} poses>")
     }
 
+    fn _repr_html_(&self) -> String {
+        /// Postures that a notebook shows.
+        const SHOWN: usize = 10;
+        let dof = self.joints.shape.last().copied().unwrap_or(0).max(1);
+        let rows = self
+            .joints
+            .values
+            .chunks(dof)
+            .take(SHOWN)
+            .enumerate()
+            .map(|(i, joints)| {
+                let joints: Vec<String> = joints.iter().map(|q| format!("{q:.4}")).collect();
+                let pose = self.pose_index.values[i].to_string();
+                vec![pose, self.branch.get(i).unwrap_or_default(), joints.join(", ")]
+            });
+        html::table(&self.__repr__(), &["pose", "branch", "joints, rad (m)"], rows)
+    }
+
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyAny>,))> {
         let (py, own) = (slf.py(), slf.get());
         let parts = (
@@ -211,6 +231,8 @@ impl Postures {
         }
     }
 }
+
+containers!(Postures);
 
 impl Postures {
     /// The joint positions of one pose.

@@ -2,12 +2,14 @@
 //!
 //! `source` keeps what is needed to make it again in another process; `robot_class` has its methods.
 
-use std::borrow::Cow;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use armill_core::robot::{JointCompliance, Robot as Arm};
-use armill_core::source::StiffnessModel;
+use armill_core::frame::Isometry;
+use armill_core::nalgebra::DMatrix;
+use armill_core::robot::{JointCompliance, Robot as Arm, Structure};
+use armill_core::sampling::InputSpace;
+use armill_core::source::{Arm as CoreArm, StiffnessModel, standard_uncertainties};
 use armill_formats::robot::RobotDescription;
 use numpy::PyUntypedArray;
 use pyo3::prelude::*;
@@ -15,7 +17,7 @@ use pyo3::types::PyString;
 
 use crate::arrays::{Batch, Given, wrong_shape};
 use crate::errors::{refused, wrong_type};
-use crate::source::RobotSource;
+use crate::source::{GivenCompliance, RobotSource};
 
 /// A robot: its kinematic chain, its joints and its compliances. It is immutable.
 #[pyclass(frozen, module = "armill")]
@@ -80,41 +82,64 @@ impl Robot {
         })
     }
 
-    /// The compliances of its joints, or those given in their place: (dof,) or samples (..., dof).
+    /// The same with other joint compliances.
     ///
     /// # Errors
-    /// Joint compliances that are not known; given ones of another shape, or that are not compliances.
-    pub(crate) fn springs(&self, py: Python<'_>, given: Option<&Bound<'_, PyAny>>) -> PyResult<Springs<'_>> {
-        let Some(given) = given else {
-            return Ok(Springs {
-                axes: Vec::new(),
-                samples: vec![self.compliances(py)?.to_vec()],
-                model: Cow::Borrowed(&self.model),
-            });
-        };
-        let batch = Batch::of(given, "compliances", &[self.dof()])?;
-        batch.given.finite(py, "compliances")?;
-        let mut springs = Springs {
-            axes: batch.axes,
-            samples: Vec::with_capacity(batch.count),
-            model: Cow::Borrowed(&self.model),
-        };
-        for values in batch.given.values().chunks(self.dof()) {
-            let sample: Vec<JointCompliance> = values
-                .iter()
-                .map(|value| JointCompliance {
-                    value: *value,
-                    standard_uncertainty: 0.0,
-                })
-                .collect();
-            let arm = self.arm().clone().with_other_compliance(sample.clone());
-            let arm = arm.map_err(|error| refused(py, error.to_string(), COMPLIANCE_HINT))?;
-            if springs.samples.is_empty() {
-                springs.model = Cow::Owned(model_of(&arm));
-            }
-            springs.samples.push(sample);
+    /// Numbers that are not compliances, uncertainties or covariances.
+    pub(crate) fn with(&self, py: Python<'_>, given: GivenCompliance) -> PyResult<Robot> {
+        let both = given.values.iter().zip(&given.uncertainties);
+        let compliance = both.map(|(value, uncertainty)| JointCompliance {
+            value: *value,
+            standard_uncertainty: *uncertainty,
+        });
+        let mut description = self.description.clone();
+        let robot = description.robot.with_other_compliance(compliance.collect());
+        let mut robot = robot.map_err(|error| refused(py, error.to_string(), COMPLIANCE_HINT))?;
+        if let Some(covariance) = &given.covariance {
+            let structure = Structure {
+                covariance: Some(DMatrix::from_row_slice(self.dof(), self.dof(), covariance)),
+                ..robot.structure().clone()
+            };
+            let with = robot.with_structure(structure);
+            robot = with.map_err(|error| {
+                refused(
+                    py,
+                    error.to_string(),
+                    "a symmetric matrix without negative variances",
+                )
+            })?;
         }
-        Ok(springs)
+        description.robot = robot;
+        Ok(Robot::of(self.source.with_compliance(given), description))
+    }
+
+    /// Standard uncertainties (dof,), with their covariance if (dof, dof) is given.
+    ///
+    /// # Errors
+    /// Another shape; numbers that are not finite; a negative variance.
+    pub(crate) fn uncertainty(
+        &self,
+        value: &Bound<'_, PyAny>,
+        name: &str,
+    ) -> PyResult<(Vec<f64>, Option<Vec<f64>>)> {
+        let (py, dof) = (value.py(), self.dof());
+        let expected = format!("({dof},) or ({dof}, {dof})");
+        let given = Given::of(value, name, &expected)?;
+        given.finite(py, name)?;
+        let values = given.values().to_vec();
+        match given.shape() {
+            [count] if *count == dof => Ok((values, None)),
+            [rows, columns] if *rows == dof && *columns == dof => {
+                let variances: Vec<f64> = values.iter().copied().step_by(dof + 1).collect();
+                if let Some(variance) = variances.iter().find(|variance| **variance < 0.0) {
+                    let message = format!("{name}: the variance {variance} is negative");
+                    return Err(refused(py, message, "give a covariance"));
+                }
+                let covariance = DMatrix::from_row_slice(dof, dof, &values);
+                Ok((standard_uncertainties(&covariance), Some(values)))
+            }
+            shape => Err(wrong_shape(py, name, &expected, shape)),
+        }
     }
 
     /// Joint positions (..., dof), finite; columns of a data frame in the order of the joints.
@@ -176,6 +201,32 @@ impl Robot {
         Ok(given.values().to_vec())
     }
 
+    /// What the deviation is shared out to.
+    pub(crate) fn contributor_names(&self) -> Vec<String> {
+        self.model.contributor_names(self.arm().joints())
+    }
+
+    /// `rad` of a revolute, `m` of a prismatic joint.
+    pub(crate) fn joint_units(&self) -> Vec<String> {
+        let unit = |index| if self.arm().slides(index) { "m" } else { "rad" };
+        (0..self.dof()).map(|index| unit(index).to_owned()).collect()
+    }
+
+    /// Its uncertain inputs.
+    pub(crate) fn input_space(&self) -> InputSpace {
+        InputSpace::of(&CoreArm {
+            robot: self.arm(),
+            compliance: self.arm().compliance().unwrap_or_default(),
+            model: &self.model,
+            flange_from_tool: &Isometry::identity(),
+        })
+    }
+
+    /// Names of its uncertain inputs.
+    pub(crate) fn input_names(&self) -> Vec<String> {
+        self.input_space().names(self.arm().joints())
+    }
+
     /// Number of joints.
     pub(crate) fn dof(&self) -> usize {
         self.arm().joints().len()
@@ -191,18 +242,8 @@ impl Robot {
 /// What a refused compliance should be.
 pub(crate) const COMPLIANCE_HINT: &str = "rad/(N m), one per joint, 0 or more";
 
-/// Joint compliances of one or several samples, and the other parts of the model.
-pub(crate) struct Springs<'a> {
-    /// The axes of the samples; none for a single one.
-    pub axes: Vec<usize>,
-    /// Each with one compliance per joint.
-    pub samples: Vec<Vec<JointCompliance>>,
-    /// Torque curves and covariance are those of the file only for its own compliances.
-    pub model: Cow<'a, StiffnessModel>,
-}
-
 /// The model of an arm under load only.
-fn model_of(arm: &Arm) -> StiffnessModel {
+pub(crate) fn model_of(arm: &Arm) -> StiffnessModel {
     StiffnessModel {
         structure: arm.structure().clone(),
         gravity: None,

@@ -5,9 +5,6 @@
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::PathBuf;
 
-use armill_core::nalgebra::Vector3;
-use armill_core::robot::JointCompliance;
-use armill_core::source::stiffness_model::FREE_FALL;
 use armill_formats::robot::format::Format;
 use numpy::PyArrayDyn;
 use pyo3::prelude::*;
@@ -18,30 +15,41 @@ use crate::errors::refused;
 use crate::evaluation::{self, EvaluationOptions, PoseEvaluations};
 use crate::export::{self, Word};
 use crate::html;
-use crate::joint_positions::{self, Request};
+use crate::joint_evaluation::{Loads, Request};
+use crate::joint_positions;
 use crate::postures::{self, Postures};
-use crate::robot::{COMPLIANCE_HINT, Robot};
+use crate::robot::Robot;
+use crate::samples::Samples;
 use crate::source::{self, GivenCompliance, RobotSource};
+use crate::springs::Varied;
 use crate::threads::ThreadCount;
 
 type Floats<'py> = PyResult<Bound<'py, PyArrayDyn<f64>>>;
 type Optional<'a, 'py> = Option<&'a Bound<'py, PyAny>>;
 
 /// Joint positions with tool, compliances and output.
-fn request<'a, 'py>(
+pub(crate) fn request<'a, 'py>(
     joints: &'a Bound<'py, PyAny>,
     tool: Optional<'a, 'py>,
-    compliances: Optional<'a, 'py>,
+    varied: Varied<'a, 'py>,
     out: Optional<'a, 'py>,
     threads: Option<ThreadCount>,
 ) -> Request<'a, 'py> {
     Request {
         joints,
         tool,
-        compliances,
+        varied,
         out,
         threads,
     }
+}
+
+/// Compliances or samples in place of those of the robot.
+pub(crate) fn varied<'a, 'py>(
+    compliances: Optional<'a, 'py>,
+    samples: Option<&'a Bound<'py, Samples>>,
+) -> Varied<'a, 'py> {
+    Varied { compliances, samples }
 }
 
 #[pymethods]
@@ -146,9 +154,9 @@ impl Robot {
     }
 
     /// -> list of str: names along the axis of `contributions`: the joints, then those of `base`, `flange`, `tool` with springs.
-    #[getter]
-    fn contributors(&self) -> Vec<String> {
-        self.model.contributor_names(self.arm().joints())
+    #[getter(contributors)]
+    fn contributors_of_class(&self) -> Vec<String> {
+        self.contributor_names()
     }
 
     /// -> (dof, 2) lower and upper limit, rad (m): minus and plus infinity for a joint without limits.
@@ -171,8 +179,9 @@ impl Robot {
 
     /// (dof,) compliances, (dof,) standard uncertainties -> Robot: the same with other joint compliances, rad/(N m) (m/N).
     ///
-    /// `source` states where the compliances come from, for `to_toml`; by default "given". Torque curves and covariance of
-    /// the file are dropped: they belong to the compliances that are replaced.
+    /// A covariance (dof, dof) may be given in place of the standard uncertainties. `source` states where the compliances come
+    /// from, for `to_toml`; by default "given". Torque curves and covariance of the file are dropped: they belong to the
+    /// compliances that are replaced.
     #[pyo3(signature = (compliance, standard_uncertainty=None, *, source=None))]
     fn with_compliance(
         &self,
@@ -182,26 +191,19 @@ impl Robot {
         source: Option<String>,
     ) -> PyResult<Robot> {
         let values = self.one_a_joint(compliance, "compliance")?;
-        let uncertainties = match standard_uncertainty {
-            Some(uncertainties) => self.one_a_joint(uncertainties, "standard_uncertainty")?,
-            None => vec![0.0; values.len()],
+        let (uncertainties, covariance) = match standard_uncertainty {
+            Some(given) => self.uncertainty(given, "standard_uncertainty")?,
+            None => (vec![0.0; values.len()], None),
         };
-        let given = values
-            .iter()
-            .zip(&uncertainties)
-            .map(|(value, uncertainty)| JointCompliance {
-                value: *value,
-                standard_uncertainty: *uncertainty,
-            });
-        let mut description = self.description.clone();
-        let robot = description.robot.with_other_compliance(given.collect());
-        description.robot = robot.map_err(|error| refused(py, error.to_string(), COMPLIANCE_HINT))?;
-        let source = self.source.with_compliance(GivenCompliance {
-            values,
-            uncertainties,
-            source,
-        });
-        Ok(Robot::of(source, description))
+        self.with(
+            py,
+            GivenCompliance {
+                values,
+                uncertainties,
+                covariance,
+                source,
+            },
+        )
     }
 
     /// -> str: the robot as a robot file of armill, with seven digits of each given compliance.
@@ -262,7 +264,7 @@ impl Robot {
         out: Optional<'_, 'py>,
         threads: Option<ThreadCount>,
     ) -> Floats<'py> {
-        let request = request(joints, tool, None, out, threads);
+        let request = request(joints, tool, Varied::default(), out, threads);
         joint_positions::forward(self, &request)
     }
 
@@ -275,57 +277,27 @@ impl Robot {
         out: Optional<'_, 'py>,
         threads: Option<ThreadCount>,
     ) -> Floats<'py> {
-        let request = request(joints, tool, None, out, threads);
+        let request = request(joints, tool, Varied::default(), out, threads);
         joint_positions::jacobian(self, &request)
     }
 
     /// (n, dof) joints -> (n, 6, 6) compliances at the TCP, translation first, base axes; m/N, 1/N, rad/(N m).
     ///
     /// All compliances of the robot file are included: drives, springs, torque curves and compensator. `compliances` (dof,)
-    /// or samples (s, dof), rad/(N m), are used in place of those of the joints; samples give (s, n, 6, 6).
-    #[pyo3(signature = (joints, tool=None, *, compliances=None, out=None, threads=None))]
+    /// or samples (s, dof), rad/(N m), are used in place of those of the joints; samples give (s, n, 6, 6). `samples` are those
+    /// of `Robot.sample`.
+    #[pyo3(signature = (joints, tool=None, *, compliances=None, samples=None, out=None, threads=None))]
     fn compliance<'py>(
         &self,
         joints: &Bound<'py, PyAny>,
         tool: Optional<'_, 'py>,
         compliances: Optional<'_, 'py>,
+        samples: Option<&Bound<'py, Samples>>,
         out: Optional<'_, 'py>,
         threads: Option<ThreadCount>,
     ) -> Floats<'py> {
-        let request = request(joints, tool, compliances, out, threads);
+        let request = request(joints, tool, varied(compliances, samples), out, threads);
         joint_positions::compliance(self, &request)
-    }
-
-    /// (n, dof) joints -> (n, dof, dof) mass matrices over the joint positions, kg m^2 (kg m, kg).
-    ///
-    /// From the masses and motors of the robot file, or the inertials of a URDF. Rotors turn with their joints.
-    #[pyo3(signature = (joints, *, out=None, threads=None))]
-    fn mass_matrix<'py>(
-        &self,
-        joints: &Bound<'py, PyAny>,
-        out: Optional<'_, 'py>,
-        threads: Option<ThreadCount>,
-    ) -> Floats<'py> {
-        let request = request(joints, None, None, out, threads);
-        joint_positions::mass_matrix(self, &request)
-    }
-
-    /// (n, dof) joints -> (n, modes, 8) modes of vibration, frequencies rising.
-    ///
-    /// The last axis is: frequency in Hz, damping ratio, and the shape at the TCP normalised by mass, base axes: translation in
-    /// 1/sqrt(kg), then rotation in rad/(m sqrt(kg)). There are as many rows as joints and springs; a motion without mass has
-    /// an infinite frequency and shape 0. `compliances` as for `compliance`.
-    #[pyo3(signature = (joints, tool=None, *, compliances=None, out=None, threads=None))]
-    fn modes<'py>(
-        &self,
-        joints: &Bound<'py, PyAny>,
-        tool: Optional<'_, 'py>,
-        compliances: Optional<'_, 'py>,
-        out: Optional<'_, 'py>,
-        threads: Option<ThreadCount>,
-    ) -> Floats<'py> {
-        let request = request(joints, tool, compliances, out, threads);
-        joint_positions::modes(self, &request)
     }
 
     /// (n, dof) joints, (cases, 3) forces -> (n, cases, 3) deviations of the TCP, m, base axes.
@@ -333,8 +305,15 @@ impl Robot {
     /// `forces` are forces (cases, 3) in N or wrenches (cases, 6) in N and N m on the tool at the TCP, base axes; one case
     /// (3,) or (6,) gives (n, 3). With `paired=True` there is one force for each of the joint positions, (n, 3), which gives
     /// (n, 3). `compliances` (dof,) or samples (s, dof), rad/(N m), are used in place of those of the robot; samples give
-    /// (s, n, cases, 3). `out` is the array to write.
-    #[pyo3(signature = (joints, forces, tool=None, *, paired=false, compliances=None, out=None, threads=None))]
+    /// (s, n, cases, 3). `samples` are those of `Robot.sample`. With `all_sources=True` geometry, learnt residual and backlash
+    /// are included, and the scatter of samples; the backlash is in its middle where no torque decides its side. `out` is the
+    /// array to write.
+    #[pyo3(
+        signature = (
+            joints, forces, tool=None, *, paired=false, compliances=None, samples=None, all_sources=false, out=None,
+            threads=None
+        )
+    )]
     fn deviation<'py>(
         &self,
         joints: &Bound<'py, PyAny>,
@@ -342,18 +321,30 @@ impl Robot {
         tool: Optional<'_, 'py>,
         paired: bool,
         compliances: Optional<'_, 'py>,
+        samples: Option<&Bound<'py, Samples>>,
+        all_sources: bool,
         out: Optional<'_, 'py>,
         threads: Option<ThreadCount>,
     ) -> Floats<'py> {
-        let request = request(joints, tool, compliances, out, threads);
-        joint_positions::deviation(self, &request, forces, paired)
+        let request = request(joints, tool, varied(compliances, samples), out, threads);
+        let loads = Loads {
+            forces,
+            paired,
+            all_sources,
+        };
+        joint_positions::deviation(self, &request, &loads)
     }
 
     /// (n, dof) joints, (cases, 3) forces -> (n, cases, contributors, 3) contributions to the deviation, m, base axes.
     ///
     /// They add up to the deviation. `Robot.contributors` has the names: the joints, then base, flange and tool with springs.
     /// The options are those of `deviation`.
-    #[pyo3(signature = (joints, forces, tool=None, *, paired=false, compliances=None, out=None, threads=None))]
+    #[pyo3(
+        signature = (
+            joints, forces, tool=None, *, paired=false, compliances=None, samples=None, out=None,
+            threads=None
+        )
+    )]
     fn contributions<'py>(
         &self,
         joints: &Bound<'py, PyAny>,
@@ -361,33 +352,18 @@ impl Robot {
         tool: Optional<'_, 'py>,
         paired: bool,
         compliances: Optional<'_, 'py>,
-        out: Optional<'_, 'py>,
-        threads: Option<ThreadCount>,
-    ) -> Floats<'py> {
-        let request = request(joints, tool, compliances, out, threads);
-        joint_positions::contributions(self, &request, forces, paired)
-    }
+        samples: Option<&Bound<'py, Samples>>,
 
-    /// (n, dof) joints, (dof,) reference -> (n, 3) deviations of the TCP by the weight of the arm, m, base axes.
-    ///
-    /// They are relative to the joint positions `reference`, at which the tool was measured. The robot file must give the
-    /// masses. `acceleration` (3,) is the acceleration of free fall in base axes, m/s^2.
-    #[pyo3(
-        signature = (joints, reference, tool=None, *, acceleration=[0.0, 0.0, -FREE_FALL], out=None, threads=None),
-        text_signature = "($self, joints, reference, tool=None, *, acceleration=(0.0, 0.0, -9.80665), out=None, threads=None)"
-    )]
-    fn gravity<'py>(
-        &self,
-        joints: &Bound<'py, PyAny>,
-        reference: &Bound<'py, PyAny>,
-        tool: Optional<'_, 'py>,
-        acceleration: [f64; 3],
         out: Optional<'_, 'py>,
         threads: Option<ThreadCount>,
     ) -> Floats<'py> {
-        let reference = self.one_a_joint(reference, "reference")?;
-        let request = request(joints, tool, None, out, threads);
-        joint_positions::gravity(self, &request, reference, Vector3::from(acceleration))
+        let request = request(joints, tool, varied(compliances, samples), out, threads);
+        let loads = Loads {
+            forces,
+            paired,
+            all_sources: false,
+        };
+        joint_positions::contributions(self, &request, &loads)
     }
 
     /// (n, dof) joints -> list of n str: the branch at each of the joint positions.
@@ -419,12 +395,13 @@ impl Robot {
     /// with the smallest deviation. `normal` (3,) is the outward normal of the plane into which deviations are split. By
     /// default it is opposite to the tool direction, which must then be the same at all poses. With `paired=True` there is one
     /// force for each pose. `compliances` (dof,) or samples (s, dof) are used in place of those of the robot; arrays then have
-    /// the axis of the samples first. Backlash of the robot file is included on the side that gives the largest in-plane
-    /// deviation; `Robot.deviation`, at joint positions, includes the load only.
+    /// the axis of the samples first. `samples` are those of `Robot.sample`, without their model error and scatter. Backlash of
+    /// the robot file is included on the side that gives the largest in-plane deviation; `Robot.deviation`, at joint
+    /// positions, includes the load only.
     #[pyo3(
         signature = (
             poses, forces, tool=None, *, branch="nominal", normal=None, home=None, paired=false, compliances=None,
-            threads=None
+            samples=None, threads=None
         )
     )]
     fn evaluate(
@@ -437,6 +414,7 @@ impl Robot {
         home: Optional<'_, '_>,
         paired: bool,
         compliances: Optional<'_, '_>,
+        samples: Option<&Bound<'_, Samples>>,
         threads: Option<ThreadCount>,
     ) -> PyResult<PoseEvaluations> {
         let options = EvaluationOptions {
@@ -444,7 +422,7 @@ impl Robot {
             normal,
             home,
             paired,
-            compliances,
+            varied: varied(compliances, samples),
             threads,
         };
         evaluation::evaluate(self, poses, forces, tool, &options)
@@ -482,15 +460,12 @@ impl Robot {
         py: Python<'_>,
         file: (PathBuf, String, Bound<'_, PyBytes>),
         format: (String, Option<String>),
-        compliance: Option<(Vec<f64>, Vec<f64>, Option<String>)>,
+        compliance: Option<source::GivenParts>,
     ) -> PyResult<Robot> {
         let robot = Robot::read(py, RobotSource::again(py, file, format)?)?;
-        let Some((values, uncertainties, source)) = compliance else {
-            return Ok(robot);
-        };
-        let count = [values.len()];
-        let values = array(py, &count, values)?;
-        let uncertainties = array(py, &count, uncertainties)?;
-        robot.with_compliance(py, values.as_any(), Some(uncertainties.as_any()), source)
+        match compliance {
+            Some(parts) => robot.with(py, GivenCompliance::of(parts)),
+            None => Ok(robot),
+        }
     }
 }

@@ -37,16 +37,39 @@ pub(crate) struct GivenCompliance {
     pub values: Vec<f64>,
     /// Their standard uncertainties.
     pub uncertainties: Vec<f64>,
+    /// Their covariance, row by row, if it was given.
+    pub covariance: Option<Vec<f64>>,
     /// Where they come from, in the words of the caller.
     pub source: Option<String>,
 }
 
-/// The parts that a pickle keeps: file; format with tip; compliances with their source.
+/// Given compliances in a pickle: values, uncertainties, covariance, source.
+pub(crate) type GivenParts = (Vec<f64>, Vec<f64>, Option<Vec<f64>>, Option<String>);
+
+/// The parts that a pickle keeps: file; format with tip; given compliances.
 pub(crate) type Parts<'py> = (
     (PathBuf, String, Bound<'py, PyBytes>),
     (String, Option<String>),
-    Option<(Vec<f64>, Vec<f64>, Option<String>)>,
+    Option<GivenParts>,
 );
+
+impl GivenCompliance {
+    /// Of the parts of a pickle.
+    pub(crate) fn of(parts: GivenParts) -> GivenCompliance {
+        let (values, uncertainties, covariance, source) = parts;
+        GivenCompliance {
+            values,
+            uncertainties,
+            covariance,
+            source,
+        }
+    }
+
+    fn parts(&self) -> GivenParts {
+        let given = self.clone();
+        (given.values, given.uncertainties, given.covariance, given.source)
+    }
+}
 
 impl RobotSource {
     /// The text of a robot of the library, or of a file.
@@ -190,8 +213,47 @@ impl RobotSource {
             .source
             .as_deref()
             .unwrap_or("joint compliances given without a source");
-        let written = with_given_springs(&self.path.to_string_lossy(), &text, springs.collect(), what);
+        let path = self.path.to_string_lossy();
+        let covariance = match &given.covariance {
+            Some(covariance) => self.turning(py, &found, covariance)?,
+            None => Vec::new(),
+        };
+        let written = with_given_springs(&path, &text, (springs.collect(), covariance), what);
         written.map_err(|problems| exception(py, &problems.into()))
+    }
+
+    /// The rows of a covariance of all joints that are of revolute joints.
+    ///
+    /// # Errors
+    /// A prismatic joint that is correlated with another: a robot file has covariances of one unit.
+    fn turning(
+        &self,
+        py: Python<'_>,
+        found: &RobotDescription,
+        covariance: &[f64],
+    ) -> PyResult<Vec<Vec<f64>>> {
+        let dof = found.robot.joints().len();
+        let slides = |index: &usize| found.robot.slides(*index);
+        let turning: Vec<usize> = (0..dof).filter(|index| !slides(index)).collect();
+        for index in (0..dof).filter(slides) {
+            let row = &covariance[index * dof..][..dof];
+            if row
+                .iter()
+                .enumerate()
+                .any(|(other, entry)| other != index && *entry != 0.0)
+            {
+                let name = &found.robot.joints()[index].name;
+                let message =
+                    format!("the covariance of prismatic joint {name} with other joints cannot be written");
+                return Err(refused(
+                    py,
+                    message,
+                    "robot files have covariances of revolute joints",
+                ));
+            }
+        }
+        let row = |i: &usize| turning.iter().map(|j| covariance[i * dof + j]).collect();
+        Ok(turning.iter().map(row).collect())
     }
 
     /// The parts that a pickle keeps.
@@ -203,9 +265,7 @@ impl RobotSource {
                 PyBytes::new(py, &self.bytes),
             ),
             (self.format.name().to_owned(), self.tip.clone()),
-            self.compliance
-                .clone()
-                .map(|given| (given.values, given.uncertainties, given.source)),
+            self.compliance.as_ref().map(GivenCompliance::parts),
         )
     }
 

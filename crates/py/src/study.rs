@@ -18,6 +18,7 @@ use pyo3::types::PyBytes;
 use toml_edit::{DocumentMut, value};
 
 use crate::errors::exception;
+use crate::html;
 use crate::outcome::{Outcome, output_options};
 use crate::placement_evaluations::{self, PlacementEvaluations};
 use crate::robot::Robot;
@@ -275,6 +276,44 @@ impl Study {
 
     fn __repr__(&self) -> String {
         format!("<armill.Study {}>", self.found.shown)
+    }
+
+    /// Whether text, folder and robot are equal.
+    fn __eq__(&self, other: &Bound<'_, PyAny>) -> PyResult<bool> {
+        let py = other.py();
+        let Ok(other) = other.cast::<Study>() else {
+            return Ok(false);
+        };
+        let other = other.get();
+        let same = (&self.found.folder, &self.found.bytes) == (&other.found.folder, &other.found.bytes);
+        let (own, given) = (
+            self.robot(py).into_pyobject(py)?,
+            other.robot(py).into_pyobject(py)?,
+        );
+        Ok(same && own.eq(given)?)
+    }
+
+    fn __hash__(&self) -> usize {
+        self.found.bytes.len()
+    }
+
+    fn _repr_html_(&self, py: Python<'_>) -> String {
+        let (header, rows) = match self.checked(py) {
+            Ok(study) => (
+                "analysis",
+                study
+                    .analyses
+                    .iter()
+                    .map(|analysis| analysis.name.clone())
+                    .collect(),
+            ),
+            Err(error) => ("problems", vec![error.to_string()]),
+        };
+        html::table(
+            &self.found.shown,
+            &[header],
+            rows.into_iter().map(|row: String| vec![row]),
+        )
     }
 
     /// How to make it again, from the bytes that were read.

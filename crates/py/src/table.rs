@@ -16,6 +16,7 @@ use pyo3::exceptions::{PyKeyError, PyModuleNotFoundError};
 use pyo3::prelude::*;
 use pyo3::types::{PyCapsule, PyDict, PyIterator, PyList};
 
+use crate::containers::helper;
 use crate::html;
 use crate::table_columns::{self, StoredColumn, array_of, broken};
 
@@ -83,6 +84,41 @@ impl Table {
     fn columns(&self) -> Vec<String> {
         let schema = self.rows.schema();
         schema.fields().iter().map(|field| field.name().clone()).collect()
+    }
+
+    /// -> dict of str to str: the unit of each column that has one, such as `um`.
+    #[getter]
+    fn units(&self) -> HashMap<String, String> {
+        self.metadata("unit")
+    }
+
+    /// -> dict of str to str: the meaning of each column.
+    #[getter]
+    fn descriptions(&self) -> HashMap<String, String> {
+        self.metadata("description")
+    }
+
+    /// -> dict: every column by name, as an array.
+    fn to_dict<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        helper(slf.as_any(), "to_dict", None)
+    }
+
+    /// -> xarray.Dataset: every column over `row`, with `units` and `long_name`. Needs xarray.
+    ///
+    /// `dims` is another name of the axis.
+    #[pyo3(signature = (dims=None))]
+    fn to_xarray<'py>(slf: &Bound<'py, Self>, dims: Option<Vec<String>>) -> PyResult<Bound<'py, PyAny>> {
+        helper(slf.as_any(), "to_xarray", dims)
+    }
+
+    /// Whether name, columns and rows are equal.
+    fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
+        let other = other.cast::<Table>();
+        other.is_ok_and(|other| other.get().name == self.name && other.get().rows == self.rows)
+    }
+
+    fn __hash__(&self) -> usize {
+        self.rows.num_rows()
     }
 
     /// -> int: number of rows.
@@ -214,6 +250,17 @@ impl Table {
             arrays.push(array);
         }
         Table::of_arrays(name, fields, arrays)
+    }
+}
+
+impl Table {
+    /// What the fields say of this key.
+    fn metadata(&self, key: &str) -> HashMap<String, String> {
+        let schema = self.rows.schema();
+        let fields = schema.fields().iter();
+        fields
+            .filter_map(|field| Some((field.name().clone(), field.metadata().get(key)?.clone())))
+            .collect()
     }
 }
 

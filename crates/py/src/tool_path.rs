@@ -1,6 +1,6 @@
 //! The class `ToolPath`: the moves of a tool path program, as arrays.
 
-use std::io::BufReader;
+use std::io::Read;
 use std::path::PathBuf;
 
 use armill_core::nalgebra::{Unit, Vector3};
@@ -11,10 +11,12 @@ use armill_formats::toolpath::format::{ToolpathReadOptions, read};
 use armill_formats::toolpath::{LengthUnit, Summary};
 use numpy::{Element, PyArrayDyn};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyBytes, PyDict};
 
 use crate::arrays::array;
+use crate::containers::containers;
 use crate::errors::{exception, refused};
+use crate::html;
 use crate::threads::{Effort, ThreadCount, work};
 
 /// The n moves of a program, m and m/s in the frame of the program; a move is given by its end point.
@@ -25,6 +27,16 @@ pub(crate) struct ToolPath {
     operation: Vec<i64>,
     operations: Vec<Operation>,
     summary: Summary,
+    source: ProgramSource,
+}
+
+/// The file of a program, and the options of the call: what a pickle keeps.
+#[derive(Clone, Debug)]
+struct ProgramSource {
+    path: PathBuf,
+    bytes: Vec<u8>,
+    unit: Option<String>,
+    dialect: Option<String>,
 }
 
 /// file -> ToolPath: the moves of G-code, cutter locations (APT-CL, CLSF) or a CSV of points.
@@ -36,10 +48,35 @@ pub(crate) struct ToolPath {
 pub(crate) fn read_path(
     py: Python<'_>,
     file: PathBuf,
-    unit: Option<&str>,
-    dialect: Option<&str>,
+    unit: Option<String>,
+    dialect: Option<String>,
 ) -> PyResult<ToolPath> {
-    let unit = match unit {
+    let shown = file.display().to_string();
+    let bytes = py.detach(|| {
+        Inputs::naming([&*file]).during(|| {
+            let mut bytes = Vec::new();
+            input::open(&file)?.read_to_end(&mut bytes).map(|_| bytes)
+        })
+    });
+    let bytes =
+        bytes.map_err(|error| refused(py, format!("cannot read {shown}: {error}"), "check the path"))?;
+    parsed(
+        py,
+        ProgramSource {
+            path: file,
+            bytes,
+            unit,
+            dialect,
+        },
+    )
+}
+
+/// The moves of a program that was read.
+///
+/// # Errors
+/// Unknown options; the problems of the program.
+fn parsed(py: Python<'_>, source: ProgramSource) -> PyResult<ToolPath> {
+    let unit = match source.unit.as_deref() {
         None => None,
         Some("mm") => Some(LengthUnit::Millimetre),
         Some("inch") => Some(LengthUnit::Inch),
@@ -51,7 +88,7 @@ pub(crate) fn read_path(
             ));
         }
     };
-    let dialect = match dialect {
+    let dialect = match source.dialect.as_deref() {
         None => None,
         Some("nx") => Some(Dialect::Nx),
         Some("solidworks") => Some(Dialect::SolidWorks),
@@ -60,10 +97,7 @@ pub(crate) fn read_path(
             return Err(refused(py, message, "`nx` or `solidworks`"));
         }
     };
-    let shown = file.display().to_string();
-    let opened = Inputs::naming([&*file])
-        .during(|| input::open(&file))
-        .map_err(|error| refused(py, format!("cannot read {shown}: {error}"), "check the path"))?;
+    let shown = source.path.display().to_string();
     let found = work(py, Some(ThreadCount::ONE), Effort::Long, |_| {
         let (mut moves, mut operation, mut operations) = (Vec::new(), Vec::new(), Vec::new());
         let requested = ToolpathReadOptions {
@@ -71,24 +105,20 @@ pub(crate) fn read_path(
             dialect,
             ..ToolpathReadOptions::default()
         };
-        let summary = read(
-            &shown,
-            BufReader::new(opened),
-            &requested,
-            &mut |step| match step {
-                Step::Operation(begun) => operations.push(begun),
-                Step::Command(_) => {}
-                Step::Move(given) => {
-                    moves.push(given);
-                    operation.push(operations.len() as i64 - 1);
-                }
-            },
-        )?;
+        let summary = read(&shown, &*source.bytes, &requested, &mut |step| match step {
+            Step::Operation(begun) => operations.push(begun),
+            Step::Command(_) => {}
+            Step::Move(given) => {
+                moves.push(given);
+                operation.push(operations.len() as i64 - 1);
+            }
+        })?;
         Ok(ToolPath {
             moves,
             operation,
             operations,
             summary,
+            source,
         })
     })?;
     found.map_err(|problems: armill_formats::document::Problems| exception(py, &problems.into()))
@@ -226,4 +256,46 @@ impl ToolPath {
             self.summary.arcs
         )
     }
+
+    fn _repr_html_(&self) -> String {
+        let rows = self.operations.iter().map(|operation| {
+            let diameter = operation
+                .diameter
+                .map_or_else(String::new, |diameter| format!("{diameter:.4}"));
+            let name = operation.name.clone().unwrap_or_default();
+            vec![operation.line.to_string(), name, diameter]
+        });
+        html::table(&self.__repr__(), &["line", "operation", "diameter, m"], rows)
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, SourceParts<'py>)> {
+        let source = slf.get().source.clone();
+        let bytes = PyBytes::new(slf.py(), &source.bytes);
+        let again = slf.get_type().getattr("_again")?;
+        Ok((again, (source.path, bytes, source.unit, source.dialect)))
+    }
+
+    #[staticmethod]
+    fn _again(
+        py: Python<'_>,
+        path: PathBuf,
+        bytes: Vec<u8>,
+        unit: Option<String>,
+        dialect: Option<String>,
+    ) -> PyResult<ToolPath> {
+        parsed(
+            py,
+            ProgramSource {
+                path,
+                bytes,
+                unit,
+                dialect,
+            },
+        )
+    }
 }
+
+containers!(ToolPath);
+
+/// The parts that a pickle keeps.
+type SourceParts<'py> = (PathBuf, Bound<'py, PyBytes>, Option<String>, Option<String>);

@@ -8,6 +8,7 @@ m, rad, N, N m. A single item is given without the first axis; its result has no
 ``Study``             a study file: check it, run it, read its results
 ``pose``, ...         each command as a function, with the options of the command
 ``read_path``         the moves of a tool path
+``sobol_indices``     what each uncertain input explains of the variance; ``variance_shares``: by the law of propagation
 ``armill.scale``      sweeps over many machines (``armill[scale]``)
 ====================  =====================================================================
 """
@@ -22,10 +23,12 @@ from armill._armill import (
     Postures,
     Result,
     Robot,
+    Samples,
     Study,
     Table,
     ToolPath,
     __version__,
+    normal_draws,
     read_path,
 )
 from armill._commands import (
@@ -58,6 +61,7 @@ from armill._commands import (
     tracker,
     stability,
 )
+from armill._sensitivity import VarianceShares, sobol_indices, variance_shares
 
 __all__ = [
     "Answer",
@@ -69,9 +73,11 @@ __all__ = [
     "Postures",
     "Result",
     "Robot",
+    "Samples",
     "Study",
     "Table",
     "ToolPath",
+    "VarianceShares",
     "__version__",
     "advise",
     "backlash",
@@ -91,6 +97,7 @@ __all__ = [
     "materials",
     "modes",
     "motion",
+    "normal_draws",
     "path_accuracy",
     "place",
     "pose",
@@ -100,6 +107,8 @@ __all__ = [
     "receptance",
     "robots",
     "roundness",
-    "tracker",
+    "sobol_indices",
     "stability",
+    "tracker",
+    "variance_shares",
 ]

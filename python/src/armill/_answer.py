@@ -5,7 +5,9 @@ from __future__ import annotations
 import json as _json
 from collections.abc import ItemsView, Iterator, KeysView, ValuesView
 from html import escape as _escape
-from typing import Any, cast
+from typing import Any, Literal, cast
+
+from armill._armill import Robot, Samples
 
 #: Characters of a value that a notebook shows.
 _SHOWN = 200
@@ -19,13 +21,14 @@ class Answer:
 
     ``json`` is the text that the command prints with ``--json``, final newline included; ``data`` the same as values;
     ``messages`` the lines that the command prints on stderr; ``within_tolerance`` is False if ``strict=True`` is given and
-    the tolerance is exceeded.
+    the tolerance is exceeded; ``robot_file`` is the path of the robot file that the command wrote, if it wrote one.
     """
 
-    def __init__(self, json: str, messages: list[str], within_tolerance: bool) -> None:
+    def __init__(self, json: str, messages: list[str], within_tolerance: bool, robot_file: str | None = None) -> None:
         self.json = json
         self.messages = messages
         self.within_tolerance = within_tolerance
+        self.robot_file = robot_file
         self._data: Any = None
 
     @property
@@ -68,6 +71,19 @@ class Answer:
     def get(self, key: str, default: Any = None) -> Any:
         """key -> its value, or ``default`` where there is none."""
         return self._dict().get(key, default)
+
+    def updated_robot(self) -> Robot:
+        """-> Robot: with what was found, read from the file that the command wrote: give ``out=`` in the call."""
+        if self.robot_file is None:
+            raise ValueError('the command wrote no robot file: give out="robot.toml" to identify, calibrate, learn, journal, drives or motion')
+        return Robot.load(self.robot_file)
+
+    def samples(self, n: int, method: Literal["sobol", "random"] = "sobol", *, seed: int = 0) -> Samples:
+        """n -> Samples: robots as probable as the measurements make them, of the values found and their covariance.
+
+        Those of ``updated_robot().sample(n)``: compliances, geometry, backlash and model error, as far as the command finds them.
+        """
+        return self.updated_robot().sample(n, method, seed=seed)
 
     def _dict(self) -> dict[str, Any]:
         return cast("dict[str, Any]", self.data) if isinstance(self.data, dict) else {}

@@ -19,6 +19,7 @@ __all__ = [
     "Postures",
     "Result",
     "Robot",
+    "Samples",
     "Study",
     "Table",
     "ToolPath",
@@ -26,6 +27,7 @@ __all__ = [
     "arithmetic",
     "call",
     "command",
+    "normal_draws",
     "options",
     "read_path",
 ]
@@ -122,13 +124,54 @@ class Robot:
     @property
     def joint_compliance(self) -> _Floats | None:
         """-> (dof,) compliance of each joint, rad/(N m) (prismatic: m/N); None if not known."""
+    @property
+    def standard_uncertainty(self) -> _Floats | None:
+        """-> (dof,) standard uncertainty of each joint compliance, rad/(N m) (m/N); None if the compliances are not known."""
+    @property
+    def spring_names(self) -> list[str]:
+        """-> list of str: names of all springs, the joints first, as in `spring_jacobian` and `spring_compliance`."""
+    @property
+    def spring_compliance(self) -> _Floats | None:
+        """-> (springs,) compliance of each joint, then of each further spring, rad/(N m) (m/N); None if not known."""
+    @property
+    def compliance_covariance(self) -> _Floats | None:
+        """-> (springs, springs) covariance of `spring_compliance`, rad^2/(N m)^2; None if the compliances are not known."""
+    @property
+    def geometry_motions(self) -> list[str]:
+        """-> list of str: names of the uncertain small motions of the geometry; none if their covariance is not known."""
+    @property
+    def geometry_covariance(self) -> _Floats:
+        """-> (motions, motions) covariance of `geometry_motions`, m and rad."""
+    @property
+    def uncertain_inputs(self) -> list[dict[str, Any]]:
+        """-> list of dict: the independent uncertain inputs, in the order of `Samples.z`.
+
+        `name`; `source`: `compliance`, `backlash`, `backlash side`, `mass`, `geometry`, `learnt`, `model error` or `repeatability`;
+        `contributors`: the joints, `base`, `flange`, `tool`, `geometry` or `learnt` that it changes. Inputs of correlated
+        compliances are the axes of their covariance.
+        """
     def with_compliance(
         self, compliance: _Numbers, standard_uncertainty: _Numbers | None = None, *, source: str | None = None
     ) -> Robot:
         """(dof,) compliances, (dof,) standard uncertainties -> Robot: the same with other joint compliances, rad/(N m) (m/N).
 
-        `source` states where the compliances come from, for `to_toml`; by default "given". Torque curves and covariance of
-        the file are dropped: they belong to the compliances that are replaced.
+        A covariance (dof, dof) may be given in place of the standard uncertainties. `source` states where the compliances come
+        from, for `to_toml`; by default "given". Torque curves and covariance of the file are dropped: they belong to the
+        compliances that are replaced.
+        """
+    def sample(
+        self, n: int, method: Literal["sobol", "random"] = "sobol", *, seed: int = 0, first: int = 0
+    ) -> Samples:
+        """n -> Samples: n samples of all uncertain inputs of the robot file.
+
+        `method` is `sobol`, a scrambled Sobol sequence (best with a power of two), or `random`. Sample i depends on
+        `seed` and i alone: `first` is the index of the first one, for samples in parts. Inputs have normal distributions
+        with the standard uncertainties and covariances of the file; negative compliances, backlashes and masses become 0.
+        """
+    def samples_at(self, z: _Numbers) -> Samples:
+        """(n, inputs) standard normal numbers -> Samples: the values of the robot for numbers of your own.
+
+        One column for each of `uncertain_inputs`: 1 is one standard uncertainty above the value of the file.
         """
     def to_toml(self) -> str:
         """-> str: the robot as a robot file of armill, with seven digits of each given compliance."""
@@ -175,13 +218,23 @@ class Robot:
         tool: Poses | None = None,
         *,
         compliances: _Numbers | None = None,
+        samples: Samples | None = None,
         out: _Floats | None = None,
         threads: int | None = None,
     ) -> _Floats:
         """(n, dof) joints -> (n, 6, 6) compliances at the TCP, translation first, base axes; m/N, 1/N, rad/(N m).
 
         All compliances of the robot file are included: drives, springs, torque curves and compensator. `compliances` (dof,)
-        or samples (s, dof), rad/(N m), are used in place of those of the joints; samples give (s, n, 6, 6).
+        or samples (s, dof), rad/(N m), are used in place of those of the joints; samples give (s, n, 6, 6). `samples` are those
+        of `Robot.sample`.
+        """
+    def spring_jacobian(
+        self, joints: _Numbers, tool: Poses | None = None, *, out: _Floats | None = None, threads: int | None = None
+    ) -> _Floats:
+        """(n, dof) joints -> (n, 6, springs) Jacobians: twist of the TCP per unit of deflection of each spring, base axes.
+
+        Translation first; `spring_names` has the columns. Joints deflect in the chain: of coupled arms the columns differ from
+        those of `jacobian`. Without torque curves and compensator, `compliance` is `J @ diag(spring_compliance) @ J.T`.
         """
     def mass_matrix(
         self, joints: _Numbers, *, out: _Floats | None = None, threads: int | None = None
@@ -196,6 +249,7 @@ class Robot:
         tool: Poses | None = None,
         *,
         compliances: _Numbers | None = None,
+        samples: Samples | None = None,
         out: _Floats | None = None,
         threads: int | None = None,
     ) -> _Floats:
@@ -203,7 +257,7 @@ class Robot:
 
         The last axis is: frequency in Hz, damping ratio, and the shape at the TCP normalised by mass, base axes: translation in
         1/sqrt(kg), then rotation in rad/(m sqrt(kg)). There are as many rows as joints and springs; a motion without mass has
-        an infinite frequency and shape 0. `compliances` as for `compliance`.
+        an infinite frequency and shape 0. `compliances` and `samples` as for `compliance`.
         """
     def deviation(
         self,
@@ -213,6 +267,8 @@ class Robot:
         *,
         paired: bool = False,
         compliances: _Numbers | None = None,
+        samples: Samples | None = None,
+        all_sources: bool = False,
         out: _Floats | None = None,
         threads: int | None = None,
     ) -> _Floats:
@@ -221,7 +277,25 @@ class Robot:
         `forces` are forces (cases, 3) in N or wrenches (cases, 6) in N and N m on the tool at the TCP, base axes; one case
         (3,) or (6,) gives (n, 3). With `paired=True` there is one force for each of the joint positions, (n, 3), which gives
         (n, 3). `compliances` (dof,) or samples (s, dof), rad/(N m), are used in place of those of the robot; samples give
-        (s, n, cases, 3). `out` is the array to write.
+        (s, n, cases, 3). `samples` are those of `Robot.sample`. With `all_sources=True` geometry, learnt residual and backlash
+        are included, and the scatter of samples; the backlash is in its middle where no torque decides its side. `out` is the
+        array to write.
+        """
+    def deviation_covariance(
+        self,
+        joints: _Numbers,
+        forces: _Numbers,
+        tool: Poses | None = None,
+        *,
+        paired: bool = False,
+        all_sources: bool = False,
+        out: _Floats | None = None,
+        threads: int | None = None,
+    ) -> _Floats:
+        """(n, dof) joints, (cases, 3) forces -> (n, cases, 3, 3) covariance of the deviation, m^2, base axes.
+
+        By the law of propagation of uncertainty, from all inputs that have one. `forces`, `paired` and `all_sources` are those
+        of `deviation`: without `all_sources` the compliances and their model error alone.
         """
     def contributions(
         self,
@@ -231,6 +305,7 @@ class Robot:
         *,
         paired: bool = False,
         compliances: _Numbers | None = None,
+        samples: Samples | None = None,
         out: _Floats | None = None,
         threads: int | None = None,
     ) -> _Floats:
@@ -246,13 +321,14 @@ class Robot:
         tool: Poses | None = None,
         *,
         acceleration: Sequence[float] = (0.0, 0.0, -9.80665),
+        samples: Samples | None = None,
         out: _Floats | None = None,
         threads: int | None = None,
     ) -> _Floats:
         """(n, dof) joints, (dof,) reference -> (n, 3) deviations of the TCP by the weight of the arm, m, base axes.
 
         They are relative to the joint positions `reference`, at which the tool was measured. The robot file must give the
-        masses. `acceleration` (3,) is the acceleration of free fall in base axes, m/s^2.
+        masses. `acceleration` (3,) is the acceleration of free fall in base axes, m/s^2; `samples` are those of `Robot.sample`.
         """
     def branch_of(self, joints: _Numbers) -> list[str]:
         """(n, dof) joints -> list of n str: the branch at each of the joint positions.
@@ -283,6 +359,7 @@ class Robot:
         home: _Numbers | None = None,
         paired: bool = False,
         compliances: _Numbers | None = None,
+        samples: Samples | None = None,
         threads: int | None = None,
     ) -> Evaluation:
         """(n, 4, 4) poses, (cases, 3) forces -> Evaluation: one posture for each pose, and the deviation of the tool there.
@@ -291,9 +368,67 @@ class Robot:
         with the smallest deviation. `normal` (3,) is the outward normal of the plane into which deviations are split. By
         default it is opposite to the tool direction, which must then be the same at all poses. With `paired=True` there is one
         force for each pose. `compliances` (dof,) or samples (s, dof) are used in place of those of the robot; arrays then have
-        the axis of the samples first. Backlash of the robot file is included on the side that gives the largest in-plane
-        deviation; `Robot.deviation`, at joint positions, includes the load only.
+        the axis of the samples first. `samples` are those of `Robot.sample`, without their model error and scatter. Backlash of
+        the robot file is included on the side that gives the largest in-plane deviation; `Robot.deviation`, at joint
+        positions, includes the load only.
         """
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def _repr_html_(self) -> str: ...
+    def __reduce__(self) -> tuple[Any, ...]: ...
+
+@final
+class Samples:
+    """n samples of the uncertain inputs of a robot: `samples=` of `Robot.deviation`, `compliance`, `evaluate`, ...
+
+    Each input is a standard normal number `z`; the values of the robot are those of its file plus `z` times the standard
+    uncertainty, along the axes of the covariance where inputs are correlated. `samples[10:20]` are samples again.
+    """
+
+    @property
+    def robot(self) -> Robot:
+        """-> Robot: the robot that they are of."""
+    @property
+    def z(self) -> _Floats:
+        """-> (n, inputs) standard normal number of each input; `Robot.uncertain_inputs` has their names."""
+    @property
+    def compliances(self) -> _Floats:
+        """-> (n, dof) compliance of each joint, rad/(N m) (m/N)."""
+    @property
+    def spring_compliances(self) -> _Floats:
+        """-> (n, springs) compliance of each spring in addition to the joints, rad/(N m) (m/N)."""
+    @property
+    def backlash(self) -> _Floats:
+        """-> (n, dof) backlash of each joint, rad (m); 0 for a joint without backlash."""
+    @property
+    def backlash_side(self) -> _Floats:
+        """-> (n, dof) side of the backlash where no torque decides it: -1 or 1; 0 for all other joints."""
+    @property
+    def masses(self) -> _Floats:
+        """-> (n, masses) masses of the robot file, kg."""
+    @property
+    def geometry(self) -> _Floats:
+        """-> (n, motions) small motions of the geometry, m and rad; `Robot.geometry_motions` has their names."""
+    @property
+    def model_error(self) -> _Floats:
+        """-> (n,) relative error of the deviation under load that no compliance explains."""
+    @property
+    def scatter(self) -> _Floats:
+        """-> (n, 3) displacement of the TCP by scatter between repetitions, m, base axes."""
+    @property
+    def cut(self) -> _Integers:
+        """-> (n,) int: number of compliances, backlashes and masses that are 0 because the sample would be negative."""
+    def to_dict(self) -> dict[str, Any]:
+        """-> dict: every array and list by name."""
+    def to_pandas(self) -> Any:
+        """-> pandas.DataFrame: a row per item, a column per number, with the unit in `attrs`. Needs pandas."""
+    def to_xarray(self, dims: Sequence[str] | None = None) -> Any:
+        """-> xarray.Dataset: every array by name, with `units` and `long_name`. Needs xarray.
+
+        `dims` are names of the leading axes, such as those of samples or of a grid of poses.
+        """
+    def __len__(self) -> int: ...
+    def __getitem__(self, part: slice, /) -> Samples: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
     def _repr_html_(self) -> str: ...
@@ -327,7 +462,19 @@ class Postures:
     def __getitem__(self, i: slice, /) -> list[_Floats]: ...
     def reason(self, i: _Index | None = None) -> str | None:
         """i -> str or None: why pose i is unreachable, and by how much."""
+    def to_dict(self) -> dict[str, Any]:
+        """-> dict: every array and list by name."""
+    def to_pandas(self) -> Any:
+        """-> pandas.DataFrame: a row per item, a column per number, with the unit in `attrs`. Needs pandas."""
+    def to_xarray(self, dims: Sequence[str] | None = None) -> Any:
+        """-> xarray.Dataset: every array by name, with `units` and `long_name`. Needs xarray.
+
+        `dims` are names of the leading axes, such as those of samples or of a grid of poses.
+        """
     def __len__(self) -> int: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def _repr_html_(self) -> str: ...
     def __reduce__(self) -> tuple[Any, ...]: ...
 
 @final
@@ -376,6 +523,15 @@ class Evaluation:
         NaN where unreachable. `Robot.contributors` has the names.
         """
     @property
+    def joint_names(self) -> list[str]:
+        """-> list of str: names along the last axis of `joints`."""
+    @property
+    def contributors(self) -> list[str]:
+        """-> list of str: names along the last axis of `contributions`."""
+    @property
+    def joint_units(self) -> list[str]:
+        """-> list of str: unit of each joint, `rad` or `m`."""
+    @property
     def branch(self) -> list[str]:
         """-> list of n str: the branch used at each pose; empty where unreachable."""
     @property
@@ -383,7 +539,18 @@ class Evaluation:
         """-> list of n str: the singularity that the arm is near, one word; empty where it is near none."""
     def reason(self, i: _Index | None = None) -> str | None:
         """i -> str or None: why the arm does not reach pose i, and by how much; i has an index for each axis if there are several."""
+    def to_dict(self) -> dict[str, Any]:
+        """-> dict: every array and list by name."""
+    def to_pandas(self) -> Any:
+        """-> pandas.DataFrame: a row per item, a column per number, with the unit in `attrs`. Needs pandas."""
+    def to_xarray(self, dims: Sequence[str] | None = None) -> Any:
+        """-> xarray.Dataset: every array by name, with `units` and `long_name`. Needs xarray.
+
+        `dims` are names of the leading axes, such as those of samples or of a grid of poses.
+        """
     def __len__(self) -> int: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
     def _repr_html_(self) -> str: ...
     def __reduce__(self) -> tuple[Any, ...]: ...
 
@@ -412,7 +579,19 @@ class PlacementEvaluations:
     @property
     def case_count(self) -> int:
         """-> int: load cases at each point."""
+    def to_dict(self) -> dict[str, Any]:
+        """-> dict: every array and list by name."""
+    def to_pandas(self) -> Any:
+        """-> pandas.DataFrame: a row per item, a column per number, with the unit in `attrs`. Needs pandas."""
+    def to_xarray(self, dims: Sequence[str] | None = None) -> Any:
+        """-> xarray.Dataset: every array by name, with `units` and `long_name`. Needs xarray.
+
+        `dims` are names of the leading axes, such as those of samples or of a grid of poses.
+        """
     def __len__(self) -> int: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def _repr_html_(self) -> str: ...
     def __reduce__(self) -> tuple[Any, ...]: ...
 
 @final
@@ -481,6 +660,9 @@ class Study:
         `progress` is called repeatedly with the number of points finished, of `point_count`.
         Files in `out` that armill did not make, or that were changed since, are replaced only with `force=True`.
         """
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def _repr_html_(self) -> str: ...
     def __reduce__(self) -> tuple[Any, ...]: ...
 
 @final
@@ -507,6 +689,14 @@ class Result:
     @property
     def pictures(self) -> dict[str, str]:
         """-> dict of str to str: all pictures as SVG, by name."""
+    def to_pandas(self, analysis: str | None = None) -> Any:
+        """analysis name or None -> pandas.DataFrame: the rows of `table`. Needs pandas and pyarrow."""
+    def to_xarray(self, analysis: str | None = None) -> Any:
+        """analysis name or None -> xarray.Dataset: the columns of `table`, with `units` and `long_name`. Needs xarray.
+
+        A map is over `z` and `y` of its plane, sections with a further dimension, a volume over `z`, `y` and `x`; any other
+        analysis over `point`.
+        """
     def write(
         self, folder: _Path, *, pictures: bool = True, csv: bool = False, force: bool = False
     ) -> list[PathLike[str]]:
@@ -515,6 +705,9 @@ class Result:
         Files in `folder` that armill did not make, or that were changed since, are replaced only with `force=True`.
         A result that was pickled has its JSON, tables and pictures, but cannot be written.
         """
+    def __getitem__(self, key: str, /) -> Any: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
     def _repr_html_(self) -> str: ...
     def __reduce__(self) -> tuple[Any, ...]: ...
 
@@ -531,11 +724,26 @@ class Table:
     @property
     def columns(self) -> list[str]:
         """-> list of str: the names of its columns, each ending in its unit."""
+    @property
+    def units(self) -> dict[str, str]:
+        """-> dict of str to str: the unit of each column that has one, such as `um`."""
+    @property
+    def descriptions(self) -> dict[str, str]:
+        """-> dict of str to str: the meaning of each column."""
     def __len__(self) -> int: ...
     def __getitem__(self, name: str, /) -> npt.NDArray[Any]: ...
     def __iter__(self) -> Iterator[dict[str, float | int | bool | str | None]]: ...
+    def to_dict(self) -> dict[str, npt.NDArray[Any]]:
+        """-> dict: every column by name, as an array."""
+    def to_xarray(self, dims: Sequence[str] | None = None) -> Any:
+        """-> xarray.Dataset: every column over `row`, with `units` and `long_name`. Needs xarray.
+
+        `dims` is another name of the axis.
+        """
     def to_pandas(self) -> Any:
         """-> pandas.DataFrame: the columns; integers with missing values as `Int64`. Needs pandas and pyarrow."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
     def _repr_html_(self) -> str: ...
     def __reduce__(self) -> tuple[Any, ...]: ...
     def __arrow_c_schema__(self) -> object: ...
@@ -581,8 +789,29 @@ class ToolPath:
     @property
     def notes(self) -> list[str]:
         """-> list of str: words of the program that were ignored, and assumptions."""
-    def __len__(self) -> int: ...
+    def to_dict(self) -> dict[str, Any]:
+        """-> dict: every array and list by name."""
+    def to_pandas(self) -> Any:
+        """-> pandas.DataFrame: a row per item, a column per number, with the unit in `attrs`. Needs pandas."""
+    def to_xarray(self, dims: Sequence[str] | None = None) -> Any:
+        """-> xarray.Dataset: every array by name, with `units` and `long_name`. Needs xarray.
 
+        `dims` are names of the leading axes, such as those of samples or of a grid of poses.
+        """
+    def __len__(self) -> int: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def _repr_html_(self) -> str: ...
+    def __reduce__(self) -> tuple[Any, ...]: ...
+
+def normal_draws(
+    n: int, inputs: int, method: Literal["sobol", "random"] = "sobol", *, seed: int = 0, first: int = 0
+) -> _Floats:
+    """n, inputs -> (n, inputs) independent standard normal numbers.
+
+    `method` is `sobol`, a scrambled Sobol sequence (best with a power of two), or `random`. A number depends on `seed`,
+    row and column alone; `first` is the index of the first row. `Robot.samples_at` gives the samples of a robot for them.
+    """
 def read_path(
     file: _Path, *, unit: Literal["mm", "inch"] | None = None, dialect: Literal["nx", "solidworks"] | None = None
 ) -> ToolPath:

@@ -177,7 +177,7 @@ def test_reports_a_folder_without_access_for_workers(tmp_path: Path, client: Any
 
     def elsewhere(*given: Any) -> Any:
         made = real(*given)
-        return dataclasses.replace(made, folder="/nowhere")
+        return dataclasses.replace(made, folder=Path("/nowhere"), home=Path("/nowhere"))
 
     monkeypatch.setattr("armill.scale.running.task", elsewhere)
     with pytest.raises(scale.SweepFailed, match="has no access to /nowhere: use a folder that all machines share"):

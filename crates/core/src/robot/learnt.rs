@@ -230,6 +230,14 @@ impl Learnt {
         }
     }
 
+    /// This residual with its mean shifted by these numbers of standard uncertainties along its axes, in every posture.
+    pub fn shifted_by(&self, by: &Vector3<f64>) -> Learnt {
+        Learnt {
+            shift: self.shift + by,
+            ..self.clone()
+        }
+    }
+
     /// The mean residual (m, base) at the joint positions `q`, rad (m).
     pub fn mean(&self, q: &[f64]) -> Vector3<f64> {
         if self.shift != Vector3::zeros() {

@@ -138,6 +138,23 @@ impl UncertainGeometry {
         shifted
     }
 
+    /// This geometry with its small motions changed by these numbers of standard uncertainties, one for each independent input.
+    ///
+    /// # Panics
+    /// If there is another number of them.
+    #[must_use]
+    pub fn shifted_by(&self, inputs: &[f64]) -> UncertainGeometry {
+        assert_eq!(inputs.len(), self.inputs(), "one number for each input");
+        let mut shifted = self.clone();
+        shifted.shift += DVector::from_column_slice(inputs);
+        shifted
+    }
+
+    /// The small motions of the shift, m and rad: zeros but for an uncertain input.
+    pub fn shift_of_motions(&self) -> DVector<f64> {
+        &self.inputs * &self.shift
+    }
+
     /// The same of an arm whose joints follow `joints` others.
     #[must_use]
     pub fn behind(&self, joints: usize) -> UncertainGeometry {

@@ -32,7 +32,7 @@ pub use deviation::Deviation;
 pub use equilibrium::Unstable;
 pub use known_uncertainty::InputWithoutUncertainty;
 pub use motion_displacement::MotionDisplacement;
-pub use stiffness_model::{Arm, Gravity, StiffnessModel};
+pub use stiffness_model::{Arm, Gravity, StiffnessModel, standard_uncertainties};
 pub use thermal::ThermalGrowth;
 pub(crate) use uncertain_input::compliance_changes;
 pub use uncertain_input::{ChangedArm, UncertainInput};

@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use nalgebra::Vector3;
+use nalgebra::{DMatrix, Vector3};
 
 use super::contributor::Contributor;
 use super::thermal::ThermalGrowth;
@@ -134,6 +134,19 @@ impl Arm<'_> {
         self.compliance.iter().copied().chain(springs).collect()
     }
 
+    /// Covariance of the compliances of all drives, then of all springs, rad^2/(N m)^2, m^2/N^2; those outside the covariance of
+    /// the structure are independent.
+    pub fn compliance_covariance(&self) -> DMatrix<f64> {
+        let own: Vec<f64> = (self.compliances().iter())
+            .map(|compliance| compliance.standard_uncertainty.powi(2))
+            .collect();
+        let mut covariance = DMatrix::from_diagonal(&own.into());
+        if let Some(known) = &self.model.structure.covariance {
+            covariance.view_mut((0, 0), known.shape()).copy_from(known);
+        }
+        covariance
+    }
+
     /// What each drive, then each spring, moves.
     pub(super) fn moved_by(&self) -> Vec<MovedBy> {
         let (ground, joints) = (self.robot.chain().ground(), self.robot.joints().len());
@@ -145,7 +158,7 @@ impl Arm<'_> {
     }
 
     /// Attachment of each drive, then of each spring.
-    pub(super) fn attachments(&self) -> Vec<Attachment> {
+    pub fn attachments(&self) -> Vec<Attachment> {
         let springs = self
             .model
             .structure
@@ -159,13 +172,22 @@ impl Arm<'_> {
     }
 }
 
+/// The standard uncertainties of a covariance: the roots of its diagonal, 0 where rounding made that negative.
+pub fn standard_uncertainties(covariance: &DMatrix<f64>) -> Vec<f64> {
+    let variances = covariance.diagonal();
+    variances
+        .iter()
+        .map(|variance| variance.max(0.0).sqrt())
+        .collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::arms;
     use crate::robot::{Compensator, JointCurve, Mass, Spring, TorqueCurve};
     use crate::spatial::Wrench;
-    use nalgebra::{DMatrix, Point3};
+    use nalgebra::Point3;
 
     type Part = (&'static str, fn(&mut StiffnessModel));
 
@@ -297,6 +319,29 @@ mod tests {
         let compliances = arm.compliances();
         assert_eq!(&compliances[..6], robot.compliance().unwrap());
         assert_eq!(compliances[6..], [compliance(); 3]);
+        let u: Vec<f64> = compliances
+            .iter()
+            .map(|compliance| compliance.standard_uncertainty)
+            .collect();
+        let found = standard_uncertainties(&arm.compliance_covariance());
+        assert!(
+            found
+                .iter()
+                .zip(&u)
+                .all(|(found, u)| (found - u).abs() <= 1e-15 * u),
+            "{found:?} {u:?}"
+        );
+        let correlated = with(&["springs", "covariance"]);
+        let covariance = Arm {
+            model: &correlated,
+            ..arm
+        }
+        .compliance_covariance();
+        assert_eq!(
+            (covariance.nrows(), covariance[(0, 0)], covariance[(5, 5)]),
+            (9, 1e-16, 1e-16)
+        );
+        assert_eq!(covariance[(6, 6)], 1e-8_f64.powi(2));
         assert_eq!(
             arm.attachments()[5..],
             [

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypeVar, cast
 
 from armill import _armill
 from armill._answer import Answer
 from armill._commands._tables import TableFiles
+
+#: Commands whose `out` is a robot file.
+ROBOT_FILES = ("identify", "calibrate", "learn", "journal", "drives", "motion")
 
 F = TypeVar("F", bound=Callable[..., Answer])
 
@@ -50,7 +54,10 @@ def call(command: str, operands: Sequence[Any], given: Mapping[str, Any]) -> Ans
             error.args = (files.without_folder(str(error)),)
             error.problems = [{key: files.without_folder(value) for key, value in each.items()} for each in error.problems]
             raise
-        return Answer(files.without_folder(json), [files.without_folder(line) for line in messages], within_tolerance)
+        text, lines = files.without_folder(json), [files.without_folder(line) for line in messages]
+    out = given.get("out")
+    robot_file = os.path.abspath(out) if command in ROBOT_FILES and out is not None else None
+    return Answer(text, lines, within_tolerance, robot_file)
 
 
 def _option(value: Any) -> Any:

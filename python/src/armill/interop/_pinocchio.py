@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -38,7 +39,8 @@ def to_pinocchio(robot: armill.Robot) -> Any:
 def from_pinocchio(model: Any, frame: str | None = None, *, name: str | None = None) -> armill.Robot:
     """pinocchio.Model -> Robot: a chain of revolute or prismatic joints, up to the frame `frame`.
 
-    By default the flange is the frame `tool0`, else `flange`, else the last frame of the model.
+    By default the flange is the frame `tool0`, else `flange`, else the last frame of the model. Masses and inertias are converted;
+    those of rotors (`armature`) are not.
     """
     pin = _package()
     if not isinstance(model, pin.Model):
@@ -58,6 +60,7 @@ def from_pinocchio(model: Any, frame: str | None = None, *, name: str | None = N
     where = (model, data, flange)
     at_zero = (_forward(pin, where, zero), _jacobian(pin, where, zero))
     found = _screws.screws(name or model.name or "model", list(model.names)[1:], limits, at_zero)
+    found = replace(found, bodies=tuple(_bodies(pin, model, data)))
     robot = _screws.to_robot(found, f"a model of pinocchio, {model.name}")
     _screws.compared("from_pinocchio", count, robot.forward, lambda q: _forward(pin, where, q))
     return robot
@@ -70,6 +73,18 @@ def _joint(pin: Any, joint: _screws.Joint) -> Any:
         return getattr(pin, f"JointModel{kind}{axis[0].upper()}")()
     general = pin.JointModelPrismaticUnaligned if joint.slides else pin.JointModelRevoluteUnaligned
     return general(np.array(joint.direction))
+
+
+def _bodies(pin: Any, model: Any, data: Any) -> list[_screws.Body]:
+    """The links with masses, at zero joint positions."""
+    pin.forwardKinematics(model, data, _configuration(pin, model, np.zeros(model.nv)))
+    bodies: list[_screws.Body] = []
+    for joint in range(1, model.njoints):
+        inertia, place = model.inertias[joint], data.oMi[joint]
+        if inertia.mass > 0:
+            turned = place.rotation @ inertia.inertia @ place.rotation.T
+            bodies.append(_screws.Body(joint - 1, float(inertia.mass), place.act(inertia.lever), turned))
+    return bodies
 
 
 def _limits(model: Any, joint: int) -> tuple[float, float] | None:

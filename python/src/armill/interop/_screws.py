@@ -39,12 +39,23 @@ class Joint:
 
 
 @dataclass(frozen=True)
+class Body:
+    """A link at zero: the index of its joint, its mass, its centre of mass in base, and its inertia about that in base axes."""
+
+    joint: int
+    mass: float
+    centre: Floats
+    inertia: Floats
+
+
+@dataclass(frozen=True)
 class Screws:
-    """Joints from base to flange, and the pose of the flange at zero joint positions."""
+    """Joints from base to flange, the pose of the flange at zero joint positions, and the links with masses."""
 
     name: str
     joints: list[Joint]
     base_from_flange: Floats
+    bodies: tuple[Body, ...] = ()
 
     def steps(self) -> list[Floats]:
         """From the point of each axis to that of the next, and last to the flange, m, base axes."""
@@ -152,7 +163,22 @@ def _toml(found: Screws, source: str) -> str:
     listed = "".join(f"  {motion},\n" for motion in motions)
     place = f'what = "chain and joint limits"\nwhere = {_text(source)}\nlicence = "that of the model"\n'
     head = f"format = 1\nname = {_text(found.name)}\n\n[chain]\nsource = \"given\"\nmotions = [\n{listed}]\n"
-    return f"{head}\n{''.join(joints)}[sources.given]\n{place}"
+    masses = "".join(_mass(found.joints[body.joint], body) for body in found.bodies)
+    return f"{head}\n{''.join(joints)}{masses}[sources.given]\n{place}"
+
+
+def _mass(joint: Joint, body: Body) -> str:
+    """The table of a link, in the frame right after the motion of its joint."""
+    axes = np.eye(3)
+    if coordinate_axis(joint.direction) is None:
+        about_z, about_y = turned_to(joint.direction)
+        (c, s), (d, t) = ((np.cos(angle), np.sin(angle)) for angle in (about_z, about_y))
+        axes = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]) @ np.array([[d, 0, t], [0, 1, 0], [-t, 0, d]])
+    centre = [1e3 * float(part) for part in axes.T @ (body.centre - joint.point)]
+    inertia = axes.T @ body.inertia @ axes
+    rows = [[float(part) for part in row] for row in (inertia + inertia.T) / 2]
+    numbers = f"mass_kg = {body.mass!r}\ncentre_mm = {centre!r}\ninertia_kg_m2 = {rows!r}\n"
+    return f'[[mass]]\nat = {_text(joint.name)}\n{numbers}source = "given"\n\n'
 
 
 def _along(step: Floats) -> list[str]:

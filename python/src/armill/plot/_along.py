@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 
 from armill.plot._answers import Source
 from armill.plot._setting import breaks, words
-from armill.plot._style import BLUE, GREEN, HALO, INK, TOLERANCE, ORANGE, PINK, legend_below, one, picture, title
+from armill.plot._style import BLUE, GREEN, HALO, INK, ORANGE, PINK, TOLERANCE, legend_below, letters, one, picture, set_title
 
 _PARTS = (
     ("in_plane_um", "in-plane, across the tool", INK, "-", 1.9),
@@ -20,7 +20,15 @@ _PARTS = (
 
 
 @picture
-def along(source: Any, analysis: str | None = None, *, table: Any = None, ax: Axes | None = None) -> Axes:
+def along(
+    source: Any,
+    analysis: str | None = None,
+    *,
+    table: Any = None,
+    ax: Axes | None = None,
+    title: str | bool = True,
+    legend: bool = True,
+) -> Axes:
     """Result, name of a path -> axes: the deviation and its components along the path, µm over mm.
 
     The worst points are numbered, the worst first. Components are those of the worst load case.
@@ -48,8 +56,8 @@ def along(source: Any, analysis: str | None = None, *, table: Any = None, ax: Ax
     ax.margins(y=0.12)
     ax.set_xlabel("along the path (mm)")
     ax.set_ylabel("deviation (µm)")
-    title(ax, f"{answer['name']}: deviation along the path", words(answer))
-    legend_below(ax, columns=2, drop=-0.15)
+    set_title(ax, f"{answer['name']}: deviation along the path", words(answer))
+    legend_below(ax, columns=2)
     return ax
 
 
@@ -59,5 +67,5 @@ def _mark_worst(ax: Axes, worst: list[Any]) -> None:
         label = f"worst points: 1 by {point['cause']}" if i == 1 else None
         ax.plot(*place, "o", markersize=5, markerfacecolor="white", markeredgecolor=INK, zorder=4, clip_on=False, label=label)
         ax.annotate(
-            str(i), place, xytext=(0, 7), textcoords="offset points", fontsize=9, fontweight="bold", ha="center", path_effects=HALO
+            str(i), place, xytext=(0, 7), textcoords="offset points", fontsize=letters(9), fontweight="bold", ha="center", path_effects=HALO
         )

@@ -9,11 +9,18 @@ from matplotlib.axes import Axes
 
 from armill.plot._answers import Json, Missing, Source
 from armill.plot._setting import words
-from armill.plot._style import COLOURS, INK, legend_below, number, one, picture, title
+from armill.plot._style import COLOURS, INK, is_narrow, legend_below, letters, number, one, picture, set_title
 
 
 @picture
-def contributions(source: Any, analysis: str | None = None, *, ax: Axes | None = None) -> Axes:
+def contributions(
+    source: Any,
+    analysis: str | None = None,
+    *,
+    ax: Axes | None = None,
+    title: str | bool = True,
+    legend: bool = True,
+) -> Axes:
     """Result, name of a map or path -> axes: stacked bars, the contribution of each joint to the in-plane deviation, µm.
 
     For a map at the largest and smallest deviation, for a path at its worst points. Contributions that reduce the deviation are
@@ -41,17 +48,17 @@ def contributions(source: Any, analysis: str | None = None, *, ax: Axes | None =
         ax.plot([point["in_plane_um"]] * 2, [row - 0.4, row + 0.4], color=INK, linewidth=1.6, label=label, zorder=3)
         ax.annotate(
             f"{number(point['in_plane_um'])} µm", (max(beyond[row], point["in_plane_um"]), row), xytext=(5, 0),
-            textcoords="offset points", va="center", fontsize=9, fontweight="bold",
+            textcoords="offset points", va="center", fontsize=letters(9), fontweight="bold",
         )
     ax.set_yticks(rows, [label for label, _ in points])
     ax.invert_yaxis()
     ax.axvline(0.0, color=INK, linewidth=0.8)
     ax.set_xlim(min(0.0, 1.08 * float(before.min())), 1.16 * float(beyond.max()))
-    ax.set_xlabel("contribution to the in-plane deviation (µm)")
+    ax.set_xlabel("contribution (µm)" if is_narrow(ax) else "contribution to the in-plane deviation (µm)")
     ax.tick_params(axis="y", length=0)
     ax.spines[["top", "right"]].set_visible(False)
-    title(ax, f"{answer['name']}: contribution of each joint", words(answer))
-    legend_below(ax, columns=min(8, len(names) + 1), drop=-0.55 / (1.0 + 0.5 * len(points)))
+    set_title(ax, f"{answer['name']}: contribution of each joint", words(answer))
+    legend_below(ax, columns=min(8, len(names) + 1))
     return ax
 
 

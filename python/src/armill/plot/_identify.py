@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from armill.plot._answers import Json, Source
-from armill.plot._style import BLUE, FAINT, HALO, INK, ORANGE, legend_below, number, picture, several, title
+from armill.plot._style import BLUE, FAINT, HALO, INK, ORANGE, legend_below, number, picture, several, set_title
 
 # (value, uncertainty, factor to the unit of the axis, its label) of springs that turn and springs that slide.
 _KINDS = (
@@ -17,7 +17,13 @@ _KINDS = (
     ("compliance_um_per_n", "compliance_u_um_per_n", 1.0, "compliance (µm/N)"),
 )
 @picture
-def identify(source: Any, *, ax: Sequence[Axes] | None = None) -> list[Axes]:
+def identify(
+    source: Any,
+    *,
+    ax: Sequence[Axes] | None = None,
+    title: str | bool = True,
+    legend: bool = True,
+) -> list[Axes]:
     """Answer of identify -> [springs, residuals]: compliances with intervals of ± 2 u, and the residual of each test, µm.
 
     Hollow symbols: springs that the tests determine by less than half; their values are mostly prior knowledge. Prismatic
@@ -71,8 +77,8 @@ def _springs(ax: Axes, answer: Json, kind: tuple[str, str, float, str], springs:
     ax.grid(True, axis="x", color=FAINT, linewidth=0.6)
     ax.set_xlabel(label)
     counts = f"{answer['tests']} tests, {answer['readings']} readings"
-    title(ax, f"{answer['robot']}: springs", f"{counts}; intervals from the left edge include zero")
-    legend_below(ax, columns=2, drop=-0.62 / (0.6 + 0.24 * len(springs)))
+    set_title(ax, f"{answer['robot']}: springs", f"{counts}; intervals from the left edge include zero")
+    legend_below(ax, columns=2)
 
 
 def _residuals(ax: Axes, answer: Json) -> None:
@@ -97,8 +103,8 @@ def _residuals(ax: Axes, answer: Json) -> None:
     ax.set_ylim(bottom=0.0)
     ax.set_xlabel("test, in the order of the table")
     ax.set_ylabel("distance from the\nprediction (µm)")
-    title(ax, "Residuals", f"mean {means}")
-    legend_below(ax, columns=2, drop=-0.24)
+    set_title(ax, "Residuals", f"mean {means}")
+    legend_below(ax, columns=2)
 
 
 def _size(residual: list[float | None] | None) -> float:

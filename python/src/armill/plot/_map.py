@@ -12,7 +12,7 @@ from matplotlib.lines import Line2D
 from armill.plot import _plane
 from armill.plot._answers import Source
 from armill.plot._setting import words
-from armill.plot._style import AMBER, INK, TOLERANCE, number, one, picture, rounded, title
+from armill.plot._style import AMBER, INK, TOLERANCE, colour_bar, legend_below, number, one, picture, rounded, set_title
 
 
 @picture
@@ -23,6 +23,10 @@ def map(
     value: str = "in_plane_um",
     levels: Sequence[float] | None = None,
     ax: Axes | None = None,
+    title: str | bool = True,
+    legend: bool = True,
+    cmap: Any = None,
+    cbar: bool = True,
 ) -> Axes:
     """Result, name of a map -> axes: contours of the deviation over a plane, µm.
 
@@ -37,12 +41,13 @@ def map(
     ax = one(ax, (6.4, 6.6))
     filled = _plane.fill(ax, answer, value, steps)
     _plane.name_axes(ax)
-    title(ax, answer["name"], words(answer))
+    set_title(ax, answer["name"], words(answer))
     handles: list[Any] = []
-    bar = ax.figure.colorbar(filled, ax=ax, label=_plane.VALUES[value], shrink=0.8) if reached else None
-    if bar is not None and value == "in_plane_um":
+    bar = colour_bar(filled, ax, _plane.VALUES[value], shrink=0.8) if reached else None
+    if reached and value == "in_plane_um":
         tolerance = answer["setting"]["tolerance_um"]
-        _plane.mark_tolerance(bar.ax, tolerance)
+        if bar is not None:
+            _plane.mark_tolerance(bar.ax, tolerance)
         beyond = "" if _plane.tolerance_line(ax, answer) else ", not crossed"
         handles.append(Line2D([], [], color=TOLERANCE, linewidth=2.6, label=f"tolerance {tolerance:g} µm{beyond}"))
         for key, label, marker, face in (("best", "smallest", "D", AMBER), ("worst", "largest", "o", "white")):
@@ -56,11 +61,7 @@ def map(
                 )
             )
     handles += _plane.reason_handles([answer])
-    if handles:
-        ax.legend(
-            handles=handles, loc="upper left", bbox_to_anchor=(0.0, -0.12), ncols=2,
-            borderaxespad=0.0, columnspacing=1.4, handlelength=2.4,
-        )
+    legend_below(ax, 2, handles)
     # Last, when the axes have their size: labels are kept apart in it.
     _plane.lines(ax, answer, value, steps, labelled=True)
     return ax

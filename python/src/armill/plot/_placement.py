@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from numpy.typing import ArrayLike
 
 from armill.plot._answers import Json, Missing, Source
-from armill.plot._style import AMBER, BLUE, FAINT, GREY, INK, TOLERANCE, legend_below, number, picture, several, title
+from armill.plot._style import AMBER, BLUE, FAINT, GREY, INK, TOLERANCE, is_narrow, legend_below, number, picture, several, set_title
 
 _NAMES = {
     "x_mm": "x of the part (mm)",
@@ -32,6 +32,8 @@ def placement(
     *,
     tolerance_um: float | None = None,
     ax: Sequence[Axes] | None = None,
+    title: str | bool = True,
+    legend: bool = True,
 ) -> list[Axes]:
     """`placement.json`, costs over free coordinates -> [front, one axes per coordinate]: cost of placements, µm.
 
@@ -75,12 +77,12 @@ def _front(ax: Axes, answer: Json, by_margin: list[Json], tolerance_um: float | 
     _tolerance(ax, tolerance_um)
     ax.set_ylim(bottom=0.0)
     ax.margins(y=0.1)
-    ax.set_xlabel("margin to joint limits and singularities (deg)")
+    ax.set_xlabel("margin (deg)" if is_narrow(ax) else "margin to joint limits and singularities (deg)")
     ax.set_ylabel(_what(answer))
     x, y, z = answer["place"]["centre_mm"]
     place = f"({x:.0f}, {y:.0f}, {z:.0f}) mm"
-    title(ax, f"{answer['analysis']}: cost of the margin", f"{number(recommended['cost_um'])} µm at {place}, {recommended['branch'] or 'best branch'}")
-    legend_below(ax, columns=2, drop=-0.2)
+    set_title(ax, f"{answer['analysis']}: cost of the margin", f"{number(recommended['cost_um'])} µm at {place}, {recommended['branch'] or 'best branch'}")
+    legend_below(ax, columns=2)
 
 
 def _degree(ax: Axes, answer: Json, degree: str, curve: tuple[Any, Any], tolerance_um: float | None) -> None:
@@ -103,8 +105,8 @@ def _degree(ax: Axes, answer: Json, degree: str, curve: tuple[Any, Any], toleran
     ax.grid(True, color=FAINT, linewidth=0.6)
     ax.set_xlabel(_NAMES[degree])
     ax.set_ylabel(_what(answer))
-    title(ax, f"Over {_NAMES[degree].split(' (')[0]}", "all other coordinates as recommended")
-    legend_below(ax, columns=2, drop=-0.2)
+    set_title(ax, f"Over {_NAMES[degree].split(' (')[0]}", "all other coordinates as recommended")
+    legend_below(ax, columns=2)
 
 
 def _tolerance(ax: Axes, tolerance_um: float | None) -> None:

@@ -18,7 +18,7 @@ from matplotlib.transforms import Bbox
 from numpy.typing import NDArray
 
 from armill.plot._answers import Json, Missing
-from armill.plot._style import COLOUR_MAP, HALO, INK, TOLERANCE
+from armill.plot._style import HALO, INK, TOLERANCE, colour_map, is_narrow, letters
 
 Floats = NDArray[np.float64]
 
@@ -61,7 +61,7 @@ def fill(ax: Axes, answer: Json, value: str, levels: Floats) -> QuadContourSet:
     with warnings.catch_warnings():
         # A plane that is unreachable as a whole has only hatches.
         warnings.simplefilter("ignore", UserWarning)
-        filled = ax.contourf(y, z, masked, levels=levels, cmap=COLOUR_MAP, norm=norm, zorder=1)
+        filled = ax.contourf(y, z, masked, levels=levels, cmap=colour_map(), norm=norm, zorder=1)
     # Seen from the tool side.
     ax.set_xlim(y.max(), y.min())
     ax.set_ylim(z.min(), z.max())
@@ -77,7 +77,7 @@ def lines(ax: Axes, answer: Json, value: str, levels: Floats, labelled: bool) ->
     inner = [level for level in levels if np.nanmin(values) < level < np.nanmax(values)]
     drawn = ax.contour(y, z, np.ma.masked_invalid(values), levels=inner, colors=INK, linewidths=0.5, zorder=2)
     if labelled:
-        texts = ax.clabel(drawn, inline=False, fontsize=8, fmt=lambda level: f"{level:g}", colors=INK)
+        texts = ax.clabel(drawn, inline=False, fontsize=letters(8), fmt=lambda level: f"{level:g}", colors=INK)
         for text in texts:
             text.set_path_effects(HALO)
             text.set_zorder(5)
@@ -157,8 +157,9 @@ def thin(ax: Axes, texts: Iterable[Text], marked: Iterable[Any]) -> None:
 
 def name_axes(ax: Axes) -> None:
     """Axes of the plane, seen from the tool side."""
-    ax.set_xlabel("across, y′ (mm)")
-    ax.set_ylabel("along the plane, z′ (mm)")
+    narrow = is_narrow(ax)
+    ax.set_xlabel("y′ (mm)" if narrow else "across, y′ (mm)")
+    ax.set_ylabel("z′ (mm)" if narrow else "along the plane, z′ (mm)")
 
 
 def mark_tolerance(bar_ax: Axes, tolerance: float) -> None:

@@ -10,14 +10,22 @@ from matplotlib.axes import Axes
 from armill.plot import _rings
 from armill.plot._answers import Columns, Json, Missing, Source
 from armill.plot._setting import in_plane, plane_axes, words
-from armill.plot._style import BLUE, COLOURS, GREEN, number, one, picture, title
+from armill.plot._style import BLUE, COLOURS, GREEN, number, one, picture, set_title
 
 # Largest difference of radial deviations of a table and of the answer, by rounding.
 _DIGITS_UM = 0.01
 
 
 @picture
-def polar(source: Any, analysis: str | None = None, *, table: Any = None, ax: Axes | None = None) -> Axes:
+def polar(
+    source: Any,
+    analysis: str | None = None,
+    *,
+    table: Any = None,
+    ax: Axes | None = None,
+    title: str | bool = True,
+    legend: bool = True,
+) -> Axes:
     """Result and name of a circle, or Answer of ballbar -> polar axes: radial deviation around the circle, magnified, µm.
 
     For a predicted circle one curve per load case, seen from the tool side, angles from +y' towards z'. For a ball-bar one curve
@@ -56,7 +64,7 @@ def _cases(ax: Axes, found: Source, analysis: str | None) -> None:
         label = f"case {case['case']}{force}"
         ax.plot(*_rings.closed(angles, values), color=COLOURS[i % len(COLOURS)], label=label)
     roundness = number(answer["roundness_um"])
-    title(ax, answer["name"], f"out of round by {roundness} µm at most; {words(answer)}", _rings.LIFT)
+    set_title(ax, answer["name"], f"out of round by {roundness} µm at most; {words(answer)}", _rings.LIFT)
     _rings.legend(ax, columns=2)
 
 
@@ -94,7 +102,7 @@ def _runs(ax: Axes, found: Source) -> None:
     parts = [f"G(b) {number(found.data['circular_bidirectional_um'])} µm"] if found.data["circular_bidirectional_um"] else []
     parts += [f"{each['direction']} G {number(each['circular_um'])} µm" for each in found.data["directions"]]
     parts.append(f"centre {found.data['centring']['centre']}")
-    title(ax, f"Circular test, radius {found.data['radius_mm']:g} mm", "; ".join(parts), _rings.LIFT)
+    set_title(ax, f"Circular test, radius {found.data['radius_mm']:g} mm", "; ".join(parts), _rings.LIFT)
     _rings.legend(ax)
 
 

@@ -12,13 +12,20 @@ from matplotlib.path import Path
 from armill.plot import _plane
 from armill.plot._answers import Json, Source
 from armill.plot._setting import words
-from armill.plot._style import BLUE, INK, ORANGE, SKY, one, picture, title
+from armill.plot._style import BLUE, INK, ORANGE, SKY, legend_below, one, picture, set_title
 
 _POSSIBLY, _ROBUSTLY = "#d3e8f5", "#4a9fcf"
 
 
 @picture
-def region(source: Any, analysis: str | None = None, *, ax: Axes | None = None) -> Axes:
+def region(
+    source: Any,
+    analysis: str | None = None,
+    *,
+    ax: Axes | None = None,
+    title: str | bool = True,
+    legend: bool = True,
+) -> Axes:
     """Result, name of a map -> axes: the region within the tolerance, its uncertainty, and inscribed shapes.
 
     Robustly and possibly within are with twice the standard uncertainty added and subtracted.
@@ -58,9 +65,9 @@ def region(source: Any, analysis: str | None = None, *, ax: Axes | None = None) 
     _plane.name_axes(ax)
     tolerance = answer["setting"]["tolerance_um"]
     share = f"{100 * answer['fraction_within']:.1f} % of the points within {tolerance:g} µm"
-    title(ax, f"{answer['name']}: region within {tolerance:g} µm", f"{share}; {words(answer)}")
+    set_title(ax, f"{answer['name']}: region within {tolerance:g} µm", f"{share}; {words(answer)}")
     handles += _plane.reason_handles([answer])
-    ax.legend(handles=handles, loc="upper left", bbox_to_anchor=(0.0, -0.12), ncols=2, borderaxespad=0.0, columnspacing=1.4)
+    legend_below(ax, 2, handles)
     return ax
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
-from armill.plot._style import FAINT, HALO, INK, SOFT, rounded
+from armill.plot._style import FAINT, HALO, INK, SOFT, legend_below, letters, rounded
 
 Floats = NDArray[np.float64]
 
@@ -26,7 +26,7 @@ def draw(ax: Axes, low: float, high: float, directions: tuple[str, str, str, str
     for label in ax.get_yticklabels():
         label.set_path_effects(HALO)
         label.set_zorder(6)
-    ax.tick_params(axis="y", labelsize=8, labelcolor=INK)
+    ax.tick_params(axis="y", labelsize=letters(8), labelcolor=INK)
     turns = np.arange(0, 360, 30)
     names = [directions[turn // 90] if turn % 90 == 0 else f"{turn}°" for turn in turns]
     ax.set_xticks(np.radians(turns), names)
@@ -63,4 +63,4 @@ def closed(angles: Floats, values: Floats) -> tuple[Floats, Floats]:
 
 def legend(ax: Axes, columns: int = 3) -> None:
     """The legend under the picture."""
-    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.09), ncols=columns, borderaxespad=0.0, columnspacing=1.4)
+    legend_below(ax, columns, centred=True)

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import ArrayLike, NDArray
 
-from armill.plot._style import BLUE, GREEN, GREY, INK, ORANGE, legend_below, one, picture, title
+from armill.plot._style import BLUE, GREEN, GREY, INK, ORANGE, legend_below, letters, one, picture, set_title
 
 Floats = NDArray[np.float64]
 
@@ -17,7 +17,15 @@ _PARALLEL = 1e-6
 
 
 @picture
-def robot(arm: Any, joints: ArrayLike, tool: ArrayLike | None = None, *, ax: Any = None) -> Axes:
+def robot(
+    arm: Any,
+    joints: ArrayLike,
+    tool: ArrayLike | None = None,
+    *,
+    ax: Any = None,
+    title: str | bool = True,
+    legend: bool = True,
+) -> Axes:
     """Robot, (dof,) or (n, dof) joints -> 3-D axes: the arm in each posture, mm, counted from base.
 
     Dots are where one axis passes nearest to the next, which need not be where the castings bend. The last posture is drawn
@@ -43,8 +51,8 @@ def robot(arm: Any, joints: ArrayLike, tool: ArrayLike | None = None, *, ax: Any
             _axes_of_tool(ax, pose, 0.12 * float(np.ptp(np.vstack(every), axis=0).max()))
     _shadow(ax, every[-1])
     _box(ax, np.vstack(every))
-    title(ax, arm.name, f"TCP at {_place(every[-1][-1])} mm")
-    legend_below(ax, columns=5, drop=-0.03)
+    set_title(ax, arm.name, f"TCP at {_place(every[-1][-1])} mm")
+    legend_below(ax, columns=5)
     return drawn
 
 
@@ -121,7 +129,7 @@ def _box(ax: Any, points: Floats) -> None:
     for name, centre in zip("xyz", middle):
         getattr(ax, f"set_{name}lim")(centre - half, centre + half)
         getattr(ax, f"set_{name}label")(f"{name} (mm)", labelpad=6)
-        ax.tick_params(axis=name, labelsize=8)
+        ax.tick_params(axis=name, labelsize=letters(8))
     ax.set_box_aspect((1, 1, 1))
     ax.view_init(elev=22, azim=-62)
 

@@ -10,11 +10,18 @@ from numpy.typing import NDArray
 
 from armill.plot import _rings
 from armill.plot._answers import Json, Source
-from armill.plot._style import BLUE, GREEN, ORANGE, PINK, number, one, picture, title
+from armill.plot._style import BLUE, GREEN, ORANGE, PINK, number, one, picture, set_title
 
 
 @picture
-def roundness(source: Any, *, table: Any = None, ax: Axes | None = None) -> Axes:
+def roundness(
+    source: Any,
+    *,
+    table: Any = None,
+    ax: Axes | None = None,
+    title: str | bool = True,
+    legend: bool = True,
+) -> Axes:
     """Answer of roundness -> polar axes: the profile magnified, with the four reference circles, µm.
 
     The points are from `roundness.csv` that the command writes (``out=folder``), given as `table`, or from the folder; without
@@ -43,7 +50,7 @@ def roundness(source: Any, *, table: Any = None, ax: Axes | None = None) -> Axes
     upr = found.data["filter_upr"]
     filtered = f"filtered at {upr:g} UPR" if upr is not None else "not filtered"
     conditions = f"{found.data['points']} points, radius {radius:.4f} mm, {filtered}"
-    title(ax, f"Roundness of {found.data['file']}", conditions, _rings.LIFT)
+    set_title(ax, f"Roundness of {found.data['file']}", conditions, _rings.LIFT)
     _rings.legend(ax, columns=2)
     return ax
 

@@ -12,7 +12,7 @@ from matplotlib.lines import Line2D
 from armill.plot import _plane
 from armill.plot._answers import Json, Missing, Source
 from armill.plot._setting import words
-from armill.plot._style import TOLERANCE, picture, rounded, several
+from armill.plot._style import TOLERANCE, colour_bar, legend_below, letters, picture, rounded, several
 
 
 @picture
@@ -22,6 +22,10 @@ def sections(
     *,
     levels: Sequence[float] | None = None,
     ax: Sequence[Axes] | None = None,
+    title: str | bool = True,
+    legend: bool = True,
+    cmap: Any = None,
+    cbar: bool = True,
 ) -> list[Axes]:
     """Result, name of an analysis for sections -> list of axes, one per plane: deviation over distances or tilts, µm.
 
@@ -46,9 +50,9 @@ def sections(
         _plane.tolerance_line(each, plane)
         label = plane["name"].removeprefix(f"{name}: ")
         share = 100 * plane["fraction_within"]
-        each.set_title(f"{label}\n{share:.0f} % within", loc="left", fontsize=9)
+        each.set_title(f"{label}\n{share:.0f} % within", loc="left", fontsize=letters(9))
         each.label_outer()
-    figure = axes[0].figure
+    figure: Any = axes[0].get_figure(root=True)
     for i, each in enumerate(axes):
         if i % columns == 0:
             each.set_ylabel("z′ (mm)")
@@ -56,14 +60,18 @@ def sections(
             each.set_xlabel("y′ (mm)")
             each.tick_params(labelbottom=True)
     tolerance = planes[0]["setting"]["tolerance_um"]
-    bar = figure.colorbar(bands[0], ax=axes, label=_plane.VALUES["in_plane_um"], shrink=0.8, aspect=28)
-    _plane.mark_tolerance(bar.ax, tolerance)
+    bar = colour_bar(bands[0], axes, _plane.VALUES["in_plane_um"], shrink=0.8, aspect=28)
+    if bar is not None:
+        _plane.mark_tolerance(bar.ax, tolerance)
     handles = [Line2D([], [], color=TOLERANCE, linewidth=2.6, label=f"tolerance {tolerance:g} µm"), *_plane.reason_handles(planes)]
-    if ax is None:
-        figure.suptitle(f"{name}: {_shared(planes[0])}", x=0.01, ha="left", fontsize=11, fontweight="bold")
-        figure.legend(handles=handles, loc="outside lower left", ncols=min(3, len(handles)), handlelength=2.4)
-    else:
-        axes[0].legend(handles=handles, loc="best")
+    if title and (ax is None or isinstance(title, str)):
+        heading = title if isinstance(title, str) else f"{name}: {_shared(planes[0])}"
+        figure.suptitle(heading, x=0.01, ha="left", fontsize=letters(11), fontweight="bold")
+    if figure.get_layout_engine() is None:
+        legend_below(axes[columns * (rows - 1)], 3, handles)
+    elif legend:
+        fits = max(1, min(3, len(handles), int(figure.get_size_inches()[0] / 2.2)))
+        figure.legend(handles=handles, loc="outside lower left", ncols=fits, handlelength=2.4)
     return axes
 
 

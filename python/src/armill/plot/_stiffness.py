@@ -8,11 +8,19 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import ArrayLike
 
-from armill.plot._style import BLUE, GREEN, ORANGE, SKY, legend_below, number, one, picture, title
+from armill.plot._style import BLUE, GREEN, ORANGE, SKY, legend_below, letters, number, one, picture, set_title
 
 
 @picture
-def stiffness(arm: Any, joints: ArrayLike, tool: ArrayLike | None = None, *, ax: Any = None) -> Axes:
+def stiffness(
+    arm: Any,
+    joints: ArrayLike,
+    tool: ArrayLike | None = None,
+    *,
+    ax: Any = None,
+    title: str | bool = True,
+    legend: bool = True,
+) -> Axes:
     """Robot, (dof,) joints -> 3-D axes: the deviation of the tool under 1 N in all directions, µm/N, base axes.
 
     The forces form a sphere, the deviations an ellipsoid. Its half axes are the principal compliances; the legend gives the
@@ -41,10 +49,10 @@ def stiffness(arm: Any, joints: ArrayLike, tool: ArrayLike | None = None, *, ax:
     for axis_name in "xyz":
         getattr(ax, f"set_{axis_name}lim")(-half, half)
         getattr(ax, f"set_{axis_name}label")(f"{axis_name} (µm/N)", labelpad=6)
-        ax.tick_params(axis=axis_name, labelsize=8)
+        ax.tick_params(axis=axis_name, labelsize=letters(8))
     ax.set_box_aspect((1, 1, 1))
     ax.view_init(elev=22, azim=-62)
     place = ", ".join(f"{part + 0.0:.0f}" for part in np.round(1e3 * np.asarray(arm.forward(posture, tool))[:3, 3]))
-    title(ax, f"{arm.name}: compliance at the tool", f"TCP at ({place}) mm; deviation under 1 N, base axes")
-    legend_below(ax, columns=1, drop=-0.03)
+    set_title(ax, f"{arm.name}: compliance at the tool", f"TCP at ({place}) mm; deviation under 1 N, base axes")
+    legend_below(ax, columns=1)
     return drawn

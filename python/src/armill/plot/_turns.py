@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from armill.plot._answers import Columns, Json, Missing, Source
 from armill.plot._setting import words
-from armill.plot._style import COLOUR_MAP, INK, legend_below, one, picture, rounded, title
+from armill.plot._style import INK, colour_bar, colour_map, legend_below, one, picture, rounded, set_title
 
 _SLIDES = "_mm"
 
@@ -27,6 +27,10 @@ def turns(
     turn_count: int = 73,
     table: Any = None,
     ax: Axes | None = None,
+    title: str | bool = True,
+    legend: bool = True,
+    cmap: Any = None,
+    cbar: bool = True,
 ) -> Axes:
     """Result and name of a path with a search -> axes: the chosen spin of the tool, deg over mm.
 
@@ -59,8 +63,8 @@ def turns(
     ax.set_xlabel("along the path (mm)")
     ax.set_ylabel("spin of the tool (deg)")
     better = f"largest {answer['max_in_plane_um']:.1f} µm, without search {answer['search']['without']['max_in_plane_um']:.1f} µm"
-    title(ax, f"{answer['name']}: spin of the tool", f"{better}; {words(answer)}")
-    legend_below(ax, drop=-0.15)
+    set_title(ax, f"{answer['name']}: spin of the tool", f"{better}; {words(answer)}")
+    legend_below(ax)
     return ax
 
 
@@ -101,10 +105,10 @@ def _lattice(ax: Axes, answer: Json, columns: Columns, arm: tuple[Any, Any], tur
         raise Missing("turns: the arm reaches none of these spins in the branch of the path: check the arm and the tool")
     steps = rounded(float(finite.min()), float(finite.max()))
     mesh = ax.pcolormesh(
-        distance, all_turns, np.ma.masked_invalid(values), cmap=COLOUR_MAP, norm=BoundaryNorm(steps, 256), shading="nearest",
+        distance, all_turns, np.ma.masked_invalid(values), cmap=colour_map(), norm=BoundaryNorm(steps, 256), shading="nearest",
         rasterized=True,
     )
-    ax.figure.colorbar(mesh, ax=ax, label="in-plane deviation (µm)")
+    colour_bar(mesh, ax, "in-plane deviation (µm)")
     if not valid.all():
         unreachable = np.isnan(values).astype(float)
         ax.contourf(distance, all_turns, unreachable, levels=[0.5, 1.5], colors="none", hatches=["///"])

@@ -17,7 +17,7 @@ parts have the same bytes on any machine and in any order of execution.
 
 from armill.scale.errors import MissingExtra, SweepFailed
 from armill.scale.planning import Plan, plan
-from armill.scale.reading import read
+from armill.scale.reading import read, read_xarray
 from armill.scale.running import Finished, run
 from armill.scale.sweep import Block, Sweep
 from armill.scale.sweeps.deviations import deviations
@@ -35,6 +35,7 @@ __all__ = [
     "placements",
     "plan",
     "read",
+    "read_xarray",
     "run",
     "studies",
 ]

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import IO
 
 from armill.scale.errors import refused
+from armill.scale.remote import Folder, RemotePath
 
 #: Suffix of unfinished files.
 UNFINISHED = ".unfinished"
@@ -19,11 +20,15 @@ UNFINISHED = ".unfinished"
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 
-def write_whole(path: Path, data: bytes | memoryview, run: str = "") -> None:
+def write_whole(path: Folder, data: bytes | memoryview, run: str = "") -> None:
     """Writes a temporary file, flushes it to the disk, and renames it: readers see all of it or nothing.
 
-    The temporary file is locked while it is written; its name contains ``run``.
+    The temporary file is locked while it is written; its name contains ``run``. A file that is not on a disk is written by
+    one call.
     """
+    if isinstance(path, RemotePath):
+        path.write_bytes(data)
+        return
     temporary = path.with_name(f".{path.name}.{run}-{uuid.uuid4().hex}{UNFINISHED}")
     try:
         with temporary.open("xb") as file:
@@ -37,8 +42,10 @@ def write_whole(path: Path, data: bytes | memoryview, run: str = "") -> None:
         raise
 
 
-def sha256_of(path: Path) -> str:
+def sha256_of(path: Folder) -> str:
     """path -> SHA-256 of the file in hexadecimal digits."""
+    if isinstance(path, RemotePath):
+        return hashlib.sha256(path.read_bytes()).hexdigest()
     whole = hashlib.sha256()
     with path.open("rb") as file:
         while piece := file.read(2**20):
@@ -46,24 +53,26 @@ def sha256_of(path: Path) -> str:
     return whole.hexdigest()
 
 
-def made(folder: Path) -> None:
+def made(folder: Folder) -> None:
     """Creates the folder and its parents. Raises InputError if that is not possible, or the folder is not writable."""
     hint = "give a writable folder"
     try:
         folder.mkdir(parents=True, exist_ok=True)
         probe = folder / f".{uuid.uuid4().hex}{UNFINISHED}"
-        probe.touch()
+        probe.write_bytes(b"")
         probe.unlink()
     except OSError as error:
-        raise refused(f"cannot write into {folder}: {error.strerror}", hint) from error
+        raise refused(f"cannot write into {folder}: {error.strerror or error}", hint) from error
 
 
-def remove_unfinished(folder: Path, run: str | None = None) -> None:
+def remove_unfinished(folder: Folder, run: str | None = None) -> None:
     """Removes files of killed writers: unfinished files of ``run``, which has ended, and those of other runs without a writer.
 
     A file of another run is kept if it is locked, or if locks are not supported. A process of ``run`` that is still writing
-    only repeats a finished part.
+    only repeats a finished part. There are none in a folder that is not on a disk.
     """
+    if isinstance(folder, RemotePath):
+        return
     for left in folder.glob(f".*{UNFINISHED}"):
         is_ours = run is not None and f".{run}-" in left.name
         with contextlib.suppress(OSError):
@@ -95,11 +104,14 @@ def _locked(file: IO[bytes]) -> bool | None:
 
 
 @contextlib.contextmanager
-def alone_in(folder: Path) -> Generator[None]:
+def alone_in(folder: Folder) -> Generator[None]:
     """Locks the folder for one run. The system releases the lock when the process ends.
 
-    Some shared disks have no locks; two runs there would write the same bytes.
+    Some shared disks, and folders that are not on a disk, have no locks; two runs there would write the same bytes.
     """
+    if isinstance(folder, RemotePath):
+        yield
+        return
     with (folder / ".lock").open("ab") as file:
         if _locked(file) is False:
             raise refused(f"another run uses {folder}", "wait for it, or stop it first")

@@ -1,18 +1,24 @@
 """The request of a sweep as text for the manifest: two sweeps are the same if these texts are equal.
 
 Short values are written as they are, everything else as the SHA-256 of its bytes: arrays with type and shape, functions with
-source and closure, other objects with the contents of their pickle. Not included: what a function reads from a file or a
-global value.
+source, closure and the global values that their code names, other objects with the contents of their pickle. Not included:
+what a function reads from a file, and the contents of other packages.
 """
 
 from __future__ import annotations
 
 import dataclasses
+import dis
+import functools
 import hashlib
 import inspect
 import os
+import sys
+import sysconfig
 import types
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextvars import ContextVar
+from pathlib import Path
 from typing import Any, cast
 
 import numpy as np
@@ -26,6 +32,8 @@ from armill.scale.sweep import Sweep
 SHORT = 60
 #: Largest depth of nested objects.
 DEEPEST = 20
+#: Functions whose words are being written: one that calls itself is named only.
+_OPEN: ContextVar[tuple[types.FunctionType, ...]] = ContextVar("_OPEN", default=())
 
 
 def request_of(sweep: Sweep) -> dict[str, str]:
@@ -94,24 +102,83 @@ def _array_words(array: np.ndarray[Any, Any], depth: int) -> str:
 
 
 def _function_words(function: types.FunctionType, depth: int) -> str:
-    enclosed = [cell.cell_contents for cell in function.__closure__ or ()]
-    content = _words([enclosed, function.__defaults__, function.__kwdefaults__], depth + 1)
-    return f"{function.__module__}.{function.__qualname__}, {_hashed(_source(function), content)}"
+    name = f"{function.__module__}.{function.__qualname__}"
+    if function in _OPEN.get() or _is_installed(function.__module__):
+        return name
+    token = _OPEN.set((*_OPEN.get(), function))
+    try:
+        enclosed = [cell.cell_contents for cell in function.__closure__ or ()]
+        content = _words([enclosed, function.__defaults__, function.__kwdefaults__], depth + 1)
+        used = _hashed(*(part for pair in _globals(function) for part in (pair[0], _global_words(*pair, depth + 1))))
+    finally:
+        _OPEN.reset(token)
+    return f"{name}, {_hashed(_source(function), content, used)}"
+
+
+def _globals(function: types.FunctionType) -> list[tuple[str, Any]]:
+    """Name and value of each global that the code of a function names, and the code in it."""
+    known = function.__globals__
+    return [(name, known[name]) for name in sorted(set(_global_names(function.__code__))) if name in known]
+
+
+def _global_names(code: types.CodeType) -> Iterator[str]:
+    yield from (str(step.argval) for step in dis.get_instructions(code) if step.opname in ("LOAD_GLOBAL", "LOAD_NAME"))
+    for part in code.co_consts:
+        if isinstance(part, types.CodeType):
+            yield from _global_names(part)
+
+
+def _global_words(name: str, value: Any, depth: int) -> str:
+    """The words of a global; of a module its name."""
+    if isinstance(value, types.ModuleType):
+        return value.__name__
+    try:
+        return _words(value, depth)
+    except Exception as error:
+        hint = "pass what it reads as an argument, or use a work object with it"
+        raise refused(f"work: the global `{name}` that it uses cannot be identified: {error}", hint) from error
 
 
 def _named(value: Any) -> str:
     name = f"{value.__module__}.{value.__qualname__}"
-    # The version of armill identifies all of its source.
-    own = name.startswith(("armill.", "builtins."))
-    return name if own or not isinstance(value, type) else f"{name}, {_hashed(_source(value))}"
+    if not isinstance(value, type) or _is_installed(value.__module__):
+        return name
+    members: list[Any] = list(vars(value).values())
+    methods = [method for method in members if isinstance(method, types.FunctionType) and method not in _OPEN.get()]
+    token = _OPEN.set((*_OPEN.get(), *methods))
+    try:
+        used = {name: each for method in methods for name, each in _globals(method) if each is not value}
+        words = [part for pair in sorted(used.items()) for part in (pair[0], _global_words(*pair, 1))]
+    finally:
+        _OPEN.reset(token)
+    return f"{name}, {_hashed(_source(value), *words)}"
+
+
+@functools.cache
+def _is_installed(module: str | None) -> bool:
+    """Whether a module is part of Python or of an installed package, which their versions identify."""
+    # Code that was executed without a module is not.
+    if module is None:
+        return False
+    if module.partition(".")[0] in ("armill", "builtins"):
+        return True
+    file = getattr(sys.modules.get(module), "__file__", None)
+    if file is None:
+        return module != "__main__" and module in sys.builtin_module_names
+    places = {sysconfig.get_path(name) for name in ("stdlib", "platstdlib", "purelib", "platlib")}
+    return any(Path(file).resolve().is_relative_to(Path(place).resolve()) for place in places if place)
 
 
 def _source(value: Any) -> str | bytes:
+    code = getattr(value, "__code__", None)
     try:
-        return inspect.getsource(value)
+        source = inspect.getsource(value)
     except (OSError, TypeError):
-        code = getattr(value, "__code__", None)
         return b"" if code is None else _code_words(code)
+    # The source of a lambda is that of its line, which may have others.
+    if code is not None and source.count("lambda") > 1 and value.__name__ == "<lambda>":
+        return source.encode() + _code_words(code)
+    return source
 
 
 def _code_words(code: types.CodeType) -> bytes:

@@ -9,6 +9,7 @@
 ``evaluation_count``
 ``columns``           name and type of each; empty before the first part is finished
 ``complete``          whether all parts are finished
+``shard``             of a job of an array: its number from 0, and the number of jobs
 ``parts``             of each finished part: number, rows, size in bytes, SHA-256 of the file
 ====================  ==================================================================================
 """
@@ -17,21 +18,23 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 
 from armill.scale.errors import refused
 from armill.scale.files import write_whole
 from armill.scale.fingerprint import fingerprint, request_of
 from armill.scale.planning import Plan
+from armill.scale.remote import Folder, is_missing
 
 NAME = "manifest.json"
 FORMAT = 1
 #: The folder of the parts.
 PARTS = "parts"
+#: The folder of the jobs of an array, each with a folder and a manifest.
+JOBS = "jobs"
 
 
-def part_path(folder: Path, part: int) -> Path:
+def part_path(folder: Folder, part: int) -> Folder:
     """The file of a part. Names of equal length sort like numbers."""
     return folder / PARTS / f"part-{part:06d}.parquet"
 
@@ -58,12 +61,13 @@ class Manifest:
     evaluation_count: int
     columns: tuple[tuple[str, str], ...] = ()
     done: dict[int, Done] = field(default_factory=dict[int, Done])
+    shard: tuple[int, int] | None = None
 
     @staticmethod
-    def of(plan: Plan) -> Manifest:
+    def of(plan: Plan, shard: tuple[int, int] | None = None) -> Manifest:
         """Of a plan without finished parts."""
         sweep = plan.sweep
-        return Manifest(request_of(sweep), sweep.item_count, plan.items_per_part, sweep.evaluation_count)
+        return Manifest(request_of(sweep), sweep.item_count, plan.items_per_part, sweep.evaluation_count, shard=shard)
 
     @property
     def fingerprint(self) -> str:
@@ -76,11 +80,17 @@ class Manifest:
         return -(-self.item_count // self.items_per_part)
 
     @property
-    def is_complete(self) -> bool:
-        """Whether all parts are finished."""
-        return len(self.done) == self.part_count
+    def parts(self) -> range:
+        """The numbers of its parts: all, or those of its job."""
+        job, jobs = self.shard or (0, 1)
+        return range(job, self.part_count, jobs)
 
-    def write(self, folder: Path) -> None:
+    @property
+    def is_complete(self) -> bool:
+        """Whether all its parts are finished."""
+        return len(self.done) == len(self.parts)
+
+    def write(self, folder: Folder) -> None:
         """Writes it into the folder, atomically."""
         head: dict[str, Any] = {
             "format": FORMAT,
@@ -92,6 +102,8 @@ class Manifest:
             "columns": [list(column) for column in self.columns],
             "complete": self.is_complete,
         }
+        if self.shard:
+            head["shard"] = list(self.shard)
         rows = [
             json.dumps({"part": done.part, "rows": done.rows, "size": done.size, "sha256": done.sha256})
             for _, done in sorted(self.done.items())
@@ -101,15 +113,15 @@ class Manifest:
         write_whole(folder / NAME, text.encode())
 
     @staticmethod
-    def read(folder: Path) -> Manifest | None:
+    def read(folder: Folder) -> Manifest | None:
         """The manifest of the folder; None if there is none. Raises InputError if it cannot be read."""
         path = folder / NAME
         try:
             data = path.read_bytes()
-        except FileNotFoundError:
-            return None
         except OSError as error:
-            raise refused(f"cannot read {path}: {error.strerror}", "give the folder of a sweep") from error
+            if is_missing(error):
+                return None
+            raise refused(f"cannot read {path}: {error.strerror or error}", "give the folder of a sweep") from error
         try:
             return _manifest(json.loads(data))
         except (ValueError, KeyError, TypeError, AttributeError) as error:
@@ -127,19 +139,24 @@ def _manifest(data: dict[str, Any]) -> Manifest:
         int(data["evaluation_count"]),
         tuple((str(name), str(kind)) for name, kind in data["columns"]),
     )
+    if "shard" in data:
+        job, jobs = (int(number) for number in data["shard"])
+        if not 0 <= job < jobs:
+            raise ValueError(f"job {job} of {jobs} does not exist")
+        manifest.shard = (job, jobs)
     if min(manifest.item_count, manifest.items_per_part) < 1:
         raise ValueError("a sweep and a part have at least one item")
     if manifest.fingerprint != data["fingerprint"]:
         raise ValueError("`request` and `fingerprint` do not match")
     for row in data["parts"]:
         done = Done(int(row["part"]), int(row["rows"]), int(row["size"]), str(row["sha256"]))
-        if not 0 <= done.part < manifest.part_count:
+        if done.part not in manifest.parts:
             raise ValueError(f"part {done.part} does not exist")
         manifest.done[done.part] = done
     return manifest
 
 
-def same_sweep(there: Manifest, here: dict[str, str], folder: Path) -> None:
+def same_sweep(there: Manifest, here: dict[str, str], folder: Folder) -> None:
     """Raises InputError with the differences if the manifest is of another sweep."""
     if there.request == here:
         return

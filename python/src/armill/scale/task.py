@@ -12,7 +12,6 @@ import importlib
 import pickle
 import time
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import armill
@@ -21,6 +20,7 @@ from armill.scale.errors import needed
 from armill.scale.files import FULL, write_whole
 from armill.scale.manifest import Done, part_path
 from armill.scale.planning import Plan
+from armill.scale.remote import Folder
 from armill.scale.table import table_of
 
 
@@ -36,7 +36,8 @@ class Failed:
 class Task:
     """Computes a part when called with its number."""
 
-    folder: str
+    folder: Folder
+    home: Folder
     pickle_name: str
     fingerprint: str
     version: str
@@ -64,7 +65,7 @@ class Task:
         return f" (items {first} to {last - 1})"
 
     def _plan(self) -> Plan:
-        return _plan(self.folder, self.pickle_name)
+        return _plan(self.home, self.pickle_name)
 
     def _done(self, part: int) -> Done:
         if armill.__version__ != self.version:
@@ -76,7 +77,7 @@ class Task:
         table = table_of(plan.sweep, *plan.span(part), self.threads)
         table = table.replace_schema_metadata({"armill.sweep": self.fingerprint})
         data = _parquet(table)
-        write_whole(part_path(Path(self.folder), part), data, self.run)
+        write_whole(part_path(self.folder, part), data, self.run)
         columns = tuple((column.name, str(column.type)) for column in table.schema)
         took = time.perf_counter() - before
         return Done(part, table.num_rows, len(data), hashlib.sha256(data).hexdigest(), columns, took)
@@ -90,10 +91,10 @@ def _parquet(table: Any) -> memoryview:
 
 
 @functools.lru_cache(maxsize=2)
-def _plan(folder: str, name: str) -> Plan:
+def _plan(folder: Folder, name: str) -> Plan:
     """The plan in this file, whose name is the hash of its contents."""
     try:
-        data = (Path(folder) / name).read_bytes()
+        data = (folder / name).read_bytes()
     except FileNotFoundError as error:
         raise RuntimeError(f"this worker has no access to {folder}: use a folder that all machines share") from error
     if pickle_name(data) != name:
@@ -107,16 +108,20 @@ def pickle_name(data: bytes) -> str:
     return f".sweep-{hashlib.sha256(data).hexdigest()[:32]}.pickle"
 
 
-def task(plan: Plan, folder: Path, fingerprint: str, threads: int, run: str) -> Task:
-    """The task that makes the parts of this plan in this folder for this run, and writes the pickle that it reads."""
+def task(plan: Plan, folders: tuple[Folder, Folder], fingerprint: str, threads: int, run: str) -> Task:
+    """The task that makes the parts of this plan for this run, and writes the pickle that it reads.
+
+    `folders` are those of the sweep and of the pickle, which differ for a job of an array.
+    """
+    folder, home = folders
     data = _pickled(plan)
     name = pickle_name(data)
-    forgotten(folder)
-    write_whole(folder / name, data)
-    return Task(str(folder), name, fingerprint, armill.__version__, _armill.arithmetic(), threads, run)
+    forgotten(home)
+    write_whole(home / name, data)
+    return Task(folder, home, name, fingerprint, armill.__version__, _armill.arithmetic(), threads, run)
 
 
-def forgotten(folder: Path) -> None:
+def forgotten(folder: Folder) -> None:
     """Removes the pickle after the run."""
     for old in folder.glob(".sweep-*.pickle"):
         old.unlink(missing_ok=True)

@@ -231,19 +231,21 @@ fn number(of: f64) -> Value {
     text.parse().unwrap_or_else(|_| Value::from(of))
 }
 
-/// [`with_springs`] for compliances given by a user: their source is `given`, with `what` in the words of the user.
+/// [`with_springs`] for compliances given by a user, with the covariance of those that turn, which may be empty: their source is `given`, with
+/// `what` in the words of the user.
 ///
 /// # Errors
 /// As [`with_springs`].
 pub fn with_given_springs(
     path: &str,
     text: &str,
-    springs: Vec<IdentifiedSpring>,
+    given: (Vec<IdentifiedSpring>, Vec<Vec<f64>>),
     what: &str,
 ) -> Result<String, Problems> {
+    let (springs, covariance) = given;
     let identified = Identified {
         springs,
-        covariance: Vec::new(),
+        covariance,
         model_error: None,
         what: what.to_owned(),
         place: NOT_STATED.to_owned(),
@@ -264,6 +266,9 @@ pub fn with_given_springs(
                 joint.insert("compliance_source", value(GIVEN_KEY));
             }
         }
+    }
+    if let Some(covariance) = document.get_mut("covariance").and_then(Item::as_table_like_mut) {
+        covariance.insert("source", value(GIVEN_KEY));
     }
     if let Some(sources) = document.get_mut("sources").and_then(Item::as_table_like_mut)
         && let Some(mut entry) = sources.remove(KEY)
