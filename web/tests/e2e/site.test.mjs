@@ -6,8 +6,14 @@ import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { client, EXAMPLES, launch, open, serve, settled, site, STUDY } from "./setup.mjs";
 
-/** Largest relative difference from the command; numbers below 1 (um, mm, deg) are compared as those of 1. */
+/** Largest relative difference from the command; numbers below 1 (um, mm, deg) are compared as those of 1. Circles and waves are
+ * fitted in steps, to a residual; coordinates of boundaries are rounded to 1e-10 mm. */
 const SAME = 1e-12;
+const SAME_FIT = 1e-10;
+const FITTED = /^\/paths\/\d+\/circle|^\/measured\//;
+const ROUNDED = /\/boundary_\w*mm\//;
+/** Of load cases, or points of a path, with equal deviations either may be named: what differs between them is not compared. */
+const CHOSEN = /worst_case$|\/worst_points\//;
 const NAMES = ["mh12-groove", "kr120-groove", "kr210-rivets", "mh12-ballbar", "r2000ic-measured", "r2000ic-pocket"];
 const URDF = `<robot name="two"><link name="base_link"/><link name="a"/><link name="b"/><link name="c"/><link name="d"/><link name="e"/><link name="f"/>
 ${[
@@ -36,7 +42,11 @@ const request = (page, method, path, body) => page.evaluate(([method, path, body
 
 /** Where two answers differ. */
 function differences(a, b, at = "") {
-  if (typeof a === "number" && typeof b === "number") return Math.abs(a - b) <= SAME * Math.max(Math.abs(a), Math.abs(b), 1) ? [] : [`${at}: ${a} and ${b}`];
+  if (CHOSEN.test(at)) return [];
+  if (typeof a === "number" && typeof b === "number") {
+    const same = FITTED.test(at) || ROUNDED.test(at) ? SAME_FIT : SAME;
+    return Math.abs(a - b) <= same * Math.max(Math.abs(a), Math.abs(b), 1) ? [] : [`${at}: ${a} and ${b}`];
+  }
   if (a && b && typeof a === "object" && typeof b === "object") {
     const keys = new Set([...Object.keys(a), ...Object.keys(b)]);
     return [...keys].flatMap((key) => differences(a[key], b[key], `${at}/${key}`));
