@@ -157,11 +157,13 @@ async function start(): Promise<void> {
     banner.hidden = error === null || error.status === 0 || error.status === 401 || (current?.id === "study" && error.problems.length > 0);
     if (!error || banner.hidden) return;
     const { problems } = error;
-    const line = ({ message, hint }: { message: string; hint: string | null }) => [problemSentence(message), offerClass(message, live, robots) ?? (hint ? h("span", { class: "hint" }, hint) : null)];
+    // A problem in another file than the study is named with its place.
+    const place = (file = "", at = 0) => (file === "" || file === live.study?.file ? "" : `${file.split("/").at(-1)}, line ${at}: `);
+    const line = ({ message, hint, file, line: at }: { message: string; hint: string | null; file?: string; line?: number }) => [place(file, at) + problemSentence(message), offerClass(message, live, robots) ?? (hint ? h("span", { class: "hint" }, hint) : null)];
     const more = problems.length > 3 ? [h("li", {}, `and ${problems.length - 3} more`)] : [];
     fill(
       banner,
-      problems.length > 1 ? [h("b", {}, `${problems.length} problems`), h("ul", {}, problems.slice(0, 3).map((p) => h("li", {}, line(p))), more)] : h("p", {}, h("b", {}, "Error: "), line(error)),
+      problems.length > 1 ? [h("b", {}, `${problems.length} problems`), h("ul", {}, problems.slice(0, 3).map((p) => h("li", {}, line(p))), more)] : h("p", {}, h("b", {}, "Error: "), line(problems[0] ?? error)),
       h("p", { class: "note" }, live.answer ? "The page shows the last valid answer. " : "", problems.length > 0 ? h("button", { type: "button", class: "link", "data-key": "study", onclick: () => go("study") }, "Open in Study") : null),
     );
   };

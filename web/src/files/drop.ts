@@ -23,6 +23,12 @@ export function takeDrops({ live, notices, asStudy }: Drop): void {
     const files = [...(event.dataTransfer?.files ?? [])];
     void take(files).catch((error: unknown) => say(error));
   });
+  // A robot that cannot be evaluated does not become that of the study: the error says why.
+  let robot: string | null = null;
+  live.listen(["answer", "error"], () => {
+    if (robot !== null && live.error === null && live.settled) notices.show("dropped", `${robot} is now the robot of the study.`, [{ text: "Undo", run: () => (live.undo(), notices.hide("dropped")) }], true);
+    robot = null;
+  });
   const say = (error: unknown) => notices.show("dropped", error instanceof Error ? error.message : String(error), [], true);
 
   async function take(files: File[]): Promise<void> {
@@ -35,8 +41,9 @@ export function takeDrops({ live, notices, asStudy }: Drop): void {
     try {
       const { name, kind, hint } = await api.put(file.name, file, replace);
       if (kind !== "robot") return notices.show("dropped", `${name} is in the folder of the study: ${kind === "unknown" ? hint : `${kind}. In the study: ${hint}`}`, [], true);
+      notices.show("dropped", `${name} is in the folder of the study.`, [], true);
+      robot = name;
       live.changeTogether({ robot: name }, true);
-      notices.show("dropped", `${name} is now the robot of the study.`, [{ text: "Undo", run: () => (live.undo(), notices.hide("dropped")) }], true);
     } catch (error) {
       const exists = error instanceof Refused && error.kind === "conflict";
       notices.show("dropped", `${file.name}: ${error instanceof Error ? error.message : String(error)}`, exists ? [{ text: "Replace it", run: () => bring(file, true) }] : [], true);

@@ -106,7 +106,7 @@ const drop = (page, files) =>
 test("a dropped URDF becomes the robot; its compliances are assumed on request, and marked", async () => {
   const page = await open(browser, pages.url);
   await drop(page, [["two.urdf", URDF]]);
-  await page.locator("[data-notice=dropped]", { hasText: "two.urdf is now the robot" }).waitFor();
+  await page.locator("[data-notice=dropped]", { hasText: "two.urdf is in the folder" }).waitFor();
   await page.locator(".banner", { hasText: "no joint compliance is known for robot" }).waitFor();
   await page.click("[data-key='assume medium']");
   await settled(page);
@@ -119,10 +119,10 @@ test("a dropped URDF becomes the robot; its compliances are assumed on request, 
 test("a dropped file that is no robot file is refused with its line, and the study stays as it is", async () => {
   const page = await open(browser, pages.url);
   await drop(page, [["broken.urdf", "<robot name='x'>\n<joint</robot>"]]);
-  await page.locator(".banner", { hasText: "broken.urdf" }).waitFor();
-  await page.locator("[data-notice=dropped] button", { hasText: "Undo" }).click();
-  await settled(page);
-  assert.equal(await page.locator(".banner").isVisible(), false);
+  await page.locator(".banner", { hasText: "broken.urdf, line 2" }).waitFor();
+  assert.match(await page.locator("[data-notice=dropped]").innerText(), /broken\.urdf is in the folder of the study/);
+  assert.equal(await page.locator(".changed").isVisible(), false);
+  assert.equal(await page.inputValue("#field-robot"), "yaskawa/mh12");
   await page.context().close();
 });
 
@@ -161,6 +161,7 @@ test("files without a study are not opened, and the page says why", async () => 
 test("an example is opened from the list", async () => {
   const page = await open(browser, pages.url);
   await page.click(".open-study");
+  await page.locator("[data-example=mh12-groove]").waitFor();
   assert.deepEqual((await page.locator("[data-example]").evaluateAll((all) => all.map((one) => one.dataset.example))).sort(), [...NAMES].sort());
   await Promise.all([page.waitForNavigation(), page.click("[data-example=kr120-groove]")]);
   await settled(page);

@@ -190,7 +190,8 @@ fn write_temporary(
         write(&mut File::options().write(true).open(path)?)?;
         return Ok(None);
     }
-    if old.as_ref().is_some_and(|old| old.permissions().readonly()) {
+    // WASI has no permissions, and would seem to forbid everything.
+    if !cfg!(target_os = "wasi") && old.as_ref().is_some_and(|old| old.permissions().readonly()) {
         // Renaming would replace it all the same: the folder alone decides about that.
         return Err(Failure::Named(FileError::WriteProtected {
             path: path.to_owned(),

@@ -15,7 +15,9 @@ const QUEUE: usize = 64;
 /// A folder that accepts files from any thread.
 pub struct Folder<'a> {
     out: &'a ResultFolder,
-    queue: SyncSender<(String, PartFile)>,
+    /// To the threads that name files; `None` on WASI, where the program has no threads for them and no disk to wait for.
+    queue: Option<SyncSender<(String, PartFile)>>,
+    note: &'a (dyn Fn(&str) + Sync),
 }
 
 impl Folder<'_> {
@@ -25,8 +27,14 @@ impl Folder<'_> {
     /// The file cannot be written; one that cannot be renamed is reported when all are written.
     pub fn save(&self, name: &str, bytes: &[u8]) -> Result<(), StudyError> {
         let part = self.out.part(name, bytes)?;
-        // The other end is open as long as this one.
-        let _ = self.queue.send((name.to_owned(), part));
+        match &self.queue {
+            // The other end is open as long as this one.
+            Some(queue) => drop(queue.send((name.to_owned(), part))),
+            None => {
+                part.take_name()?;
+                (self.note)(name);
+            }
+        }
         Ok(())
     }
 }
@@ -40,13 +48,18 @@ pub(super) fn write_together(
     note: &(dyn Fn(&str) + Sync),
     work: impl FnOnce(&Folder<'_>) -> Result<(), StudyError>,
 ) -> Result<(), StudyError> {
+    if cfg!(target_os = "wasi") {
+        let queue = None;
+        return work(&Folder { out, queue, note });
+    }
     let (queue, waiting) = sync_channel(QUEUE);
     let waiting = Mutex::new(waiting);
     let (worked, refused) = std::thread::scope(|scope| {
         let threads: Vec<_> = (0..WAITING)
             .map(|_| scope.spawn(|| name_all(&waiting, note)))
             .collect();
-        let worked = work(&Folder { out, queue });
+        let queue = Some(queue);
+        let worked = work(&Folder { out, queue, note });
         let refused = threads
             .into_iter()
             .flat_map(|thread| thread.join().unwrap_or_default());
@@ -90,8 +103,9 @@ mod tests {
         let (b, a) = (said("b"), said("a"));
         let out = Writer::new("run", false).folder(folder.path()).unwrap();
         let error = write_together(&out, &|_| (), |files| {
-            let _ = files.queue.send(("b".to_owned(), b));
-            let _ = files.queue.send(("a".to_owned(), a));
+            let queue = files.queue.as_ref().unwrap();
+            queue.send(("b".to_owned(), b)).unwrap();
+            queue.send(("a".to_owned(), a)).unwrap();
             files.save("c", b"whole")
         });
         let error = error.unwrap_err().to_string();

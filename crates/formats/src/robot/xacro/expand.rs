@@ -61,19 +61,26 @@ pub(super) fn expand(main: &Source, path: &Path, flat: &Flat) -> Result<String, 
     let (head, rest) = xml.split_once('>').unwrap_or((xml, ""));
     let xml = format!("{head}>{properties}{rest}");
     let folder = path.parent().unwrap_or(Path::new(".")).to_owned();
-    // A thread of its own has the stack that the evaluator needs, and keeps a fault of it from ending the program.
-    let worker = std::thread::Builder::new()
-        .name(EXPANDER.to_owned())
-        .stack_size(STACK_BYTES)
-        .spawn(move || {
-            let processor = XacroProcessor::builder()
-                .clear_extensions()
-                .with_extension(Box::new(Find(folder)))
-                .with_compat_all()
-                .build();
-            processor.run_from_string(&xml).map_err(|error| reported(&error))
-        });
-    match worker.map(std::thread::JoinHandle::join) {
+    let expand = move || {
+        let processor = XacroProcessor::builder()
+            .clear_extensions()
+            .with_extension(Box::new(Find(folder)))
+            .with_compat_all()
+            .build();
+        processor.run_from_string(&xml).map_err(|error| reported(&error))
+    };
+    // A thread of its own has the stack that the evaluator needs, and keeps a fault of it from ending the program. On WASI
+    // there is none: the page begins the program anew.
+    let expanded = if cfg!(target_os = "wasi") {
+        Ok(Ok(expand()))
+    } else {
+        std::thread::Builder::new()
+            .name(EXPANDER.to_owned())
+            .stack_size(STACK_BYTES)
+            .spawn(expand)
+            .map(std::thread::JoinHandle::join)
+    };
+    match expanded {
         Ok(Ok(Ok(expanded))) => Ok(expanded),
         Ok(Ok(Err(message))) => Err(placed(main, included, &message).into()),
         _ => {
