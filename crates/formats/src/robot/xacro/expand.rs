@@ -70,7 +70,7 @@ pub(super) fn expand(main: &Source, path: &Path, flat: &Flat) -> Result<String, 
         processor.run_from_string(&xml).map_err(|error| reported(&error))
     };
     // A thread of its own has the stack that the evaluator needs, and keeps a fault of it from ending the program. On WASI
-    // there is none: the page begins the program anew.
+    // there is none: the page starts the program again.
     let expanded = if cfg!(target_os = "wasi") {
         Ok(Ok(expand()))
     } else {
