@@ -31,7 +31,7 @@ pub(crate) fn run(arguments: &ExportArguments) -> Result<Outcome, StudyError> {
         arguments.compliance_class.as_deref(),
         &mut found,
     )?;
-    let beside = arguments.out.as_deref().map(arguments_path);
+    let poses_file = arguments.out.as_deref().map(arguments_path);
     let options = ExportOptions {
         coupling: arguments.coupling.map(|coupling| match coupling {
             CouplingArgument::Own => CoupledJoints::Own,
@@ -47,13 +47,13 @@ pub(crate) fn run(arguments: &ExportArguments) -> Result<Outcome, StudyError> {
         convention: arguments.convention.unwrap_or_default(),
         caution: caution.map(|caution| caution.trim_end_matches('.').to_owned()),
         meshes: Vec::new(),
-        arguments_file: beside
+        arguments_file: poses_file
             .as_deref()
             .and_then(Path::file_name)
             .map(|name| name.to_string_lossy().into_owned()),
     };
     let exported = exported(&arguments.robot, &found, format, options)?;
-    let files = write(arguments, &exported, beside)?;
+    let files = write(arguments, &exported, poses_file)?;
     if arguments.json {
         let answer = ExportedRobotAnswer::of(&found, format, &exported, files.clone());
         print(&serde_json::to_string(&answer)?)?;
@@ -122,9 +122,9 @@ fn arguments_path(out: &Path) -> PathBuf {
 fn write(
     arguments: &ExportArguments,
     exported: &Exported,
-    beside: Option<PathBuf>,
+    poses_file: Option<PathBuf>,
 ) -> Result<Vec<String>, StudyError> {
-    let (Some(out), Some(beside)) = (&arguments.out, beside) else {
+    let (Some(out), Some(poses_file)) = (&arguments.out, poses_file) else {
         if exported.arguments.is_some() && !arguments.json {
             let message = "a xacro has two files, which cannot be printed as one";
             return Err(StudyError::value(message, "--out FILE names the first one"));
@@ -135,7 +135,7 @@ fn write(
     let mut files = vec![(out.clone(), exported.text.as_bytes())];
     if let Some(text) = &exported.arguments {
         // First, so that the file that names it is never without it.
-        files.insert(0, (beside, text.as_bytes()));
+        files.insert(0, (poses_file, text.as_bytes()));
     }
     writer.write_all(&files)?;
     Ok(files
