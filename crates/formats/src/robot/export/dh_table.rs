@@ -18,7 +18,7 @@ use super::convention::DhConvention;
 use super::dh_rows::{AlongX, AlongZ, Screws, screws};
 use super::error::ExportError;
 use super::options::{ExportOptions, Exported};
-use super::spelling::line;
+use super::spelling::{comment_line, line, on_one_line};
 use crate::robot::RobotDescription;
 
 /// A normal of two axes farther than this is reported, m.
@@ -66,7 +66,7 @@ pub(super) fn write(
         "Lengths in mm, angles in degrees; a revolute joint adds its position to theta, a prismatic one to d.".to_owned(),
         format!("One row is {}.", convention.product()),
     ]) {
-        line(&mut text, &format!("# {}", on_one_line(content)));
+        comment_line(&mut text, content);
     }
     line(&mut text, &format!("name = {}", on_one_line(&found.title)));
     line(&mut text, &format!("convention = {}", convention.name()));
@@ -181,10 +181,4 @@ fn decimal(text: String) -> String {
 fn cell_of(name: &str) -> String {
     let separates = |c: char| matches!(c, ',' | ';' | '#' | '"') || c.is_control();
     name.chars().map(|c| if separates(c) { '_' } else { c }).collect()
-}
-
-fn on_one_line(text: &str) -> String {
-    text.chars()
-        .map(|c| if c.is_control() { ' ' } else { c })
-        .collect()
 }

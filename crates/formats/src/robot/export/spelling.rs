@@ -9,6 +9,18 @@ pub(super) fn line(text: &mut String, content: &str) {
     text.push('\n');
 }
 
+/// Adds a comment of YAML or CSV, on one line.
+pub(super) fn comment_line(text: &mut String, content: &str) {
+    line(text, &format!("# {}", on_one_line(content)));
+}
+
+/// A text with blanks in place of line ends and other control characters.
+pub(super) fn on_one_line(text: &str) -> String {
+    text.chars()
+        .map(|c| if c.is_control() { ' ' } else { c })
+        .collect()
+}
+
 /// A length, an angle or a part of a unit vector: within 1e-15 (m, rad).
 pub(super) fn number(value: f64) -> String {
     let text = format!("{value:.15}");
@@ -72,12 +84,8 @@ pub(super) fn attribute(text: &str) -> String {
 
 /// A text inside an XML comment, on one line.
 pub(super) fn comment(text: &str) -> String {
-    let text: String = text
-        .chars()
-        .map(|c| if c.is_control() { ' ' } else { c })
-        .collect();
     // Two hyphens end a comment.
-    let text = text.replace("--", "- -");
+    let text = on_one_line(text).replace("--", "- -");
     match text.ends_with('-') {
         true => text + " ",
         false => text,

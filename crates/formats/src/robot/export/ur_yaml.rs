@@ -24,7 +24,7 @@ use sha2::{Digest, Sha256};
 
 use super::error::ExportError;
 use super::options::Exported;
-use super::spelling::{line, number};
+use super::spelling::{comment_line, line, number};
 use crate::robot::RobotDescription;
 
 /// Links of the file, in order.
@@ -104,11 +104,7 @@ pub(super) fn write(found: &RobotDescription, about: &[String]) -> Result<Export
     }
     let mut text = String::new();
     for content in about.iter().chain(&warnings) {
-        let content: String = content
-            .chars()
-            .map(|c| if c.is_control() { ' ' } else { c })
-            .collect();
-        line(&mut text, &format!("# {content}"));
+        comment_line(&mut text, content);
     }
     line(
         &mut text,

@@ -21,7 +21,7 @@ use armill_core::units::{to_deg, to_mm};
 use super::bodies::{Body, JointKind, Linkage};
 use super::error::ExportError;
 use super::options::{ExportOptions, Exported};
-use super::spelling::{attribute, head, line, number};
+use super::spelling::{attribute, comment_line, head, line, number};
 use super::urdf;
 use crate::robot::RobotDescription;
 use crate::robot::armill::CALIBRATED;
@@ -118,11 +118,7 @@ fn first_drive(body: &Body) -> Option<String> {
 fn arguments(found: &RobotDescription, linkage: &Linkage, about: &[String]) -> String {
     let mut text = String::new();
     for content in about {
-        let content: String = content
-            .chars()
-            .map(|c| if c.is_control() { ' ' } else { c })
-            .collect();
-        line(&mut text, &format!("# {content}"));
+        comment_line(&mut text, content);
     }
     line(
         &mut text,
