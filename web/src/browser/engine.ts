@@ -11,6 +11,9 @@ export interface Reply {
   bytes: Uint8Array<ArrayBuffer>;
 }
 
+export const encode = (value: unknown): Uint8Array => new TextEncoder().encode(JSON.stringify(value));
+export const decode = (bytes: Uint8Array): unknown => JSON.parse(new TextDecoder().decode(bytes));
+
 interface Ask {
   method: string;
   path: string;

@@ -21,6 +21,8 @@ export class Folder {
   private readonly files = new Map<string, Entry>();
   /** Identifies the study: another one after each opening. */
   identity = "";
+  /** Whether it stays when the page is closed. */
+  keeps = true;
   private storing: Promise<void> = Promise.resolve();
 
   /** The folder as it was left; null where there is none. */
@@ -52,6 +54,7 @@ export class Folder {
 
   /** Stores the folder; without room or permission it lasts as long as the page. */
   keep(): Promise<void> {
+    if (!this.keeps) return Promise.resolve();
     const stored: Stored = { identity: this.identity, files: this.entries };
     const write = () => inStore("readwrite", (store) => store.put(stored, KEY)).then(() => undefined, () => undefined);
     return (this.storing = this.storing.then(write));

@@ -1,11 +1,8 @@
 // Long work in this browser: in a worker of its own, one job after the other, as the server of the command does it.
 
 import type { Job } from "../types";
-import type { Engine, Reply } from "./engine";
-
-const encode = (value: unknown): Uint8Array => new TextEncoder().encode(JSON.stringify(value));
-const decode = (bytes: Uint8Array): unknown => JSON.parse(new TextDecoder().decode(bytes));
-const isOver = ({ state }: Job): boolean => state !== "waiting" && state !== "running";
+import { isOver } from "../jobs/kinds";
+import { decode, encode, type Engine, type Reply } from "./engine";
 
 interface Entry {
   job: Job;
@@ -16,6 +13,9 @@ interface Entry {
 
 export class BrowserJobs {
   private readonly all = new Map<string, Entry>();
+  /** The program that does the jobs. */
+  private worker: Engine | null = null;
+  private begun = 0;
   private running = false;
   private stopped: string | null = null;
 
@@ -25,11 +25,10 @@ export class BrowserJobs {
     /** Makes the one that works; made at the first job. */
     private readonly make: () => Engine,
   ) {}
-  private worker: Engine | null = null;
 
   /** Begins a job; the reply of the program where it refuses it. */
   async begin(task: unknown): Promise<Reply | { id: string }> {
-    const id = String(this.all.size + 1);
+    const id = String(++this.begun);
     const reply = await this.answers.ask("POST", "/api/job", encode({ id, task }));
     if (reply.status !== 200) return reply;
     this.all.set(id, { job: decode(reply.bytes) as Job, task, listeners: new Set() });

@@ -1,7 +1,7 @@
 // The server in the page: answers the requests that `armill serve` answers, with the program and a folder of this browser.
 
 import type { Job, Picture } from "../types";
-import { Engine, type Reply } from "./engine";
+import { decode, encode, Engine, type Reply } from "./engine";
 import { Folder } from "./folder";
 import { BrowserJobs } from "./jobs";
 import { pixels } from "./pixels";
@@ -45,7 +45,7 @@ export class Local {
     const named = url.searchParams.get("example");
     const left = named === null ? await Folder.left() : null;
     const local = new Local(await loading, left ?? new Folder());
-    if (!left) await local.takeExample(named ?? FIRST_EXAMPLE, named !== null);
+    if (!left) await local.takeExample(named ?? FIRST_EXAMPLE, named === null);
     return local;
   }
 
@@ -53,12 +53,14 @@ export class Local {
     return (await read(await this.engine.ask("GET", "/api/examples"))) as Example[];
   }
 
-  /** Replaces the folder by that of an example, which is kept until it is changed only if `passing` is not set. */
-  async takeExample(name: string, passing = false): Promise<void> {
+  /** Replaces the folder by that of an example. One that an address names is not kept before it is saved: the study that
+   * this browser keeps stays. */
+  async takeExample(name: string, keeps = true): Promise<void> {
+    this.folder.keeps = keeps;
     this.folder.take(this.folder.entries.map(([file]) => [file, null]));
-    this.folder.identity = `example ${name}${passing ? " (from its address)" : ""}`;
+    this.folder.identity = `example ${name}${keeps ? "" : " (from its address)"}`;
     await read(await this.engine.ask("POST", "/api/example", encode({ name }), { writes: true }));
-    if (!passing) await this.folder.keep();
+    await this.folder.keep();
   }
 
   /** Replaces the folder by these files, one of which is the study. */
@@ -67,6 +69,7 @@ export class Local {
     const files = await Promise.all(others.map(async (file) => [file.name, await bytes(file)] as [string, Uint8Array]));
     const text = await bytes(study);
     this.folder.take(this.folder.entries.map(([name]) => [name, null]));
+    this.folder.keeps = true;
     this.folder.identity = `${study.name} opened ${new Date().toISOString()}`;
     this.folder.take([...files, ["study.toml", text]]);
     await this.folder.keep();
@@ -81,8 +84,18 @@ export class Local {
     if (path === "/api/tickets") return json({ address: this.address((body as { path: string }).path) });
     if (path === "/api/picture.png") return this.png(body as { name: string }, signal);
     const reply = await this.engine.ask(method, path, body === undefined ? undefined : encode(body), { writes: method === "PUT", signal });
+    if (method === "PUT" && reply.status === 200) await this.saved();
     if (path === "/api/study" && reply.status === 200) return json({ ...((await read(reply)) as object), identity: this.folder.identity, folder: "this browser" });
     return response(reply);
+  }
+
+  /** The study is saved by the user: from now on the folder is kept, and a reload shows it. */
+  private async saved(): Promise<void> {
+    this.folder.keeps = true;
+    await this.folder.keep();
+    const url = new URL(location.href);
+    url.searchParams.delete("example");
+    history.replaceState(null, "", url);
   }
 
   private async files(method: string, name: string, body: unknown, replace: boolean): Promise<Response> {
@@ -140,14 +153,13 @@ export class Local {
   }
 }
 
-const encode = (value: unknown): Uint8Array => new TextEncoder().encode(JSON.stringify(value));
 const json = (value: unknown): Response => new Response(JSON.stringify(value), { headers: { "Content-Type": "application/json" } });
 const response = ({ status, type, bytes }: Reply): Response => new Response(bytes, { status, headers: { "Content-Type": type } });
 const refused = (status: number, kind: string, message: string): Response => new Response(JSON.stringify({ error: { kind, message, hint: null, problems: [] } }), { status });
 
 /** The value of a reply that must not fail. */
 async function read(reply: Reply): Promise<unknown> {
-  const value: unknown = JSON.parse(new TextDecoder().decode(reply.bytes));
+  const value = decode(reply.bytes);
   if (reply.status === 200) return value;
   throw new Error((value as { error: { message: string } }).error.message);
 }

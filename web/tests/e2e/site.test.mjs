@@ -142,11 +142,31 @@ test("a study is opened from files, saved, kept over a reload, and downloaded", 
   await settled(page);
   assert.equal(await page.inputValue("#field-x"), "950");
   assert.equal(await page.locator(".changed").isVisible(), false);
+  // An example at its own address does not replace what is kept.
+  await page.goto(`${pages.url}?example=kr120-groove`);
+  await settled(page);
+  assert.match(await page.locator(".study-title").innerText(), /KR ?120/);
+  await page.goto(pages.url);
+  await settled(page);
+  assert.equal(await page.locator(".study-title").innerText(), "My own groove");
   const [download] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "Download", exact: true }).click()]);
   const saved = readFileSync(await download.path(), "utf8");
   assert.match(saved, /centre_mm = \[950/);
   assert.match(saved, /My own groove/);
   assert.deepEqual(page.complaints, []);
+  await page.context().close();
+});
+
+test("an example at its own address is kept once it is saved", async () => {
+  const page = await open(browser, `${pages.url}?example=kr120-groove`);
+  await page.fill("#field-x", "1111");
+  await settled(page);
+  await page.click(".keep");
+  await page.locator(".changed").waitFor({ state: "hidden" });
+  assert.equal(new URL(page.url()).search, "");
+  await page.reload();
+  await settled(page);
+  assert.equal(await page.inputValue("#field-x"), "1111");
   await page.context().close();
 });
 
