@@ -89,7 +89,7 @@ fn refuses_what_cannot_be_written_and_writes_nothing() {
         ),
         (
             &["yaskawa/mh12", "--out", "made.ur.yaml"],
-            "cannot describe this robot",
+            "cannot describe this robot: axes 2 and 3 turn in opposite directions",
         ),
         (&["fanuc/r2000ic", "--out", "made.urdf"], "--coupling own"),
         (

@@ -139,10 +139,12 @@ fn values(pose: &Isometry) -> [String; 6] {
 /// What of an arm is not as in arms of Universal Robots.
 fn unlike(lines: &[Line; 6]) -> Option<String> {
     for (a, b) in [(1, 2), (2, 3)] {
-        if lines[a].along.cross(&lines[b].along).norm() > ALIKE_RAD
-            || lines[a].along.dot(&lines[b].along) < 0.0
-        {
-            return Some(format!("axes {} and {} are not parallel", a + 1, b + 1));
+        let names = format!("axes {} and {}", a + 1, b + 1);
+        if lines[a].along.cross(&lines[b].along).norm() > ALIKE_RAD {
+            return Some(format!("{names} are not parallel"));
+        }
+        if lines[a].along.dot(&lines[b].along) < 0.0 {
+            return Some(format!("{names} turn in opposite directions"));
         }
     }
     for (a, b) in [(0, 1), (3, 4), (4, 5)] {
