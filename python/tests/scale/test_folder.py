@@ -11,6 +11,7 @@ import time
 from collections.abc import Container
 from functools import partial
 from pathlib import Path
+from typing import IO
 
 import pytest
 
@@ -135,6 +136,40 @@ def test_unfinished_files_of_others_are_kept_while_they_are_written(tmp_path: Pa
     assert part.read_bytes() == b"whole"
     assert not dead.exists() and other.exists()
     assert [len(names) for names in seen] == [2, 2] and seen[0][0].startswith(".part-000002.parquet.mine-")
+
+
+@pytest.mark.skipif(os.name != "posix", reason="elsewhere the system keeps files that are open")
+@pytest.mark.parametrize("locks", [True, False], ids=["removed before the lock", "being removed"])
+def test_a_file_that_another_run_removes_before_it_is_locked_is_written_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, *, locks: bool
+) -> None:
+    part, real, calls = tmp_path / "part-000001.parquet", files._locked, []
+
+    def locked(file: IO[bytes]) -> bool | None:
+        calls.append(file.name)
+        if len(calls) > 1:
+            return real(file)
+        # Another run begins between the creation of the file and its lock.
+        os.unlink(file.name)
+        return real(file) if locks else False
+
+    monkeypatch.setattr(files, "_locked", locked)
+    files.write_whole(part, b"whole", "mine")
+    assert (part.read_bytes(), len(set(calls))) == (b"whole", 2)
+    assert list(tmp_path.iterdir()) == [part]
+
+
+def test_folders_are_made_while_another_run_removes_unfinished_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    real = Path.write_bytes
+
+    def write_bytes(path: Path, data: bytes) -> int:
+        written = real(path, data)
+        files.remove_unfinished(tmp_path)
+        return written
+
+    monkeypatch.setattr(Path, "write_bytes", write_bytes)
+    files.made(tmp_path)
+    assert not list(tmp_path.iterdir())
 
 
 def test_unfinished_files_of_a_run_are_removed_when_it_ends(tmp_path: Path) -> None:

@@ -29,17 +29,30 @@ def write_whole(path: Folder, data: bytes | memoryview, run: str = "") -> None:
     if isinstance(path, RemotePath):
         path.write_bytes(data)
         return
+    while not _written(path, data, run):
+        pass
+
+
+def _written(path: Path, data: bytes | memoryview, run: str) -> bool:
+    """Whether it is written: False if another run removed the temporary file before it was locked."""
     temporary = path.with_name(f".{path.name}.{run}-{uuid.uuid4().hex}{UNFINISHED}")
     try:
         with temporary.open("xb") as file:
-            _locked(file)
+            if _locked(file) is False or os.fstat(file.fileno()).st_nlink == 0:
+                temporary.unlink(missing_ok=True)
+                return False
             file.write(data)
             file.flush()
             os.fsync(file.fileno())
-        temporary.replace(path)
+            if os.name == "posix":
+                # While it is locked: another run takes an unlocked file for one without a writer.
+                temporary.replace(path)
+        if os.name != "posix":
+            temporary.replace(path)
     except BaseException:
         temporary.unlink(missing_ok=True)
         raise
+    return True
 
 
 def sha256_of(path: Folder) -> str:
@@ -58,9 +71,10 @@ def made(folder: Folder) -> None:
     hint = "give a writable folder"
     try:
         folder.mkdir(parents=True, exist_ok=True)
+        # Another run may remove it first.
         probe = folder / f".{uuid.uuid4().hex}{UNFINISHED}"
         probe.write_bytes(b"")
-        probe.unlink()
+        probe.unlink(missing_ok=True)
     except OSError as error:
         raise refused(f"cannot write into {folder}: {error.strerror or error}", hint) from error
 
@@ -76,16 +90,13 @@ def remove_unfinished(folder: Folder, run: str | None = None) -> None:
     for left in folder.glob(f".*{UNFINISHED}"):
         is_ours = run is not None and f".{run}-" in left.name
         with contextlib.suppress(OSError):
-            if is_ours or _is_abandoned(left):
+            if is_ours or os.name != "posix":
+                # An open file cannot be removed where there are no locks.
                 left.unlink()
-
-
-def _is_abandoned(path: Path) -> bool:
-    if os.name != "posix":
-        # An open file cannot be removed there.
-        return True
-    with path.open("r+b") as file:
-        return _locked(file) is True
+            else:
+                with left.open("r+b") as file:
+                    if _locked(file) is True:
+                        left.unlink()
 
 
 def _locked(file: IO[bytes]) -> bool | None:
