@@ -9,6 +9,7 @@ import sys
 import time
 from collections.abc import Iterable
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -197,6 +198,29 @@ def test_reports_a_worker_with_other_rounding(tmp_path: Path, client: Any, monke
     monkeypatch.setattr(_armill, "arithmetic", lambda: "otherwise")
     with pytest.raises(scale.SweepFailed, match=r"this worker rounds \w+, the sweep was started on one that rounds otherwise"):
         scale.run(works.waves(), tmp_path, client, items_per_part=50)
+
+
+@pytest.mark.parametrize(
+    ("backend", "address", "joined"),
+    [("ray", None, {"num_cpus": 2, "include_dashboard": False}), ("ray", "head:6379", {"address": "auto"}), ("ray://head:10001", None, {"address": "ray://head:10001"})],
+    ids=["processes of this machine", "the cluster of the environment", "an address"],
+)
+def test_ray_joins_the_cluster_that_is_given(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, backend: str, address: str | None, joined: dict[str, Any]
+) -> None:
+    calls: list[dict[str, Any]] = []
+
+    def init(**options: Any) -> None:
+        calls.append({name: value for name, value in options.items() if not name.startswith("log")})
+        raise ConnectionError("nothing there")
+
+    monkeypatch.delenv("RAY_ADDRESS", raising=False)
+    if address:
+        monkeypatch.setenv("RAY_ADDRESS", address)
+    monkeypatch.setitem(sys.modules, "ray", SimpleNamespace(init=init, is_initialized=lambda: False))
+    with pytest.raises(scale.SweepFailed, match="cannot be reached: nothing there"):
+        scale.run(works.waves(), tmp_path, backend, workers=2, items_per_part=50)
+    assert calls == [joined]
 
 
 @pytest.mark.parametrize(("backend", "package", "extra"), [("dask", "distributed", "scale"), ("ray", "ray", "ray")])

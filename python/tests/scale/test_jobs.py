@@ -24,6 +24,7 @@ def test_jobs_together_give_the_same_files(tmp_path: Path) -> None:
     with ThreadPoolExecutor(3) as pool:
         found = list(pool.map(lambda number: job(tmp_path / "jobs", number), range(3)))
     assert [each.part_count for each in found] == [7, 7, 6] and sum(each.rows for each in found) == 1000
+    assert [each.evaluation_count for each in found] == [1050, 1050, 900]
     with pytest.raises(armill.InputError, match="contains no sweep"):
         scale.read(tmp_path / "jobs")
     last = scale.run(works.waves(), tmp_path / "jobs")

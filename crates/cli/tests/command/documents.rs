@@ -114,6 +114,8 @@ guide! {
     guide_your_robot: "your-robot",
     guide_measure_stiffness: "measure-stiffness",
     guide_export: "export",
+    guide_urdf: "urdf",
+    guide_integrations: "integrations",
     guide_learn: "learn",
     guide_journal: "journal",
     guide_study_file: "study-file",

@@ -18,7 +18,7 @@ pub struct Numbers<'a> {
     pub fill: Fill<'a>,
 }
 
-/// Accepts a series, a range of its points, and the list to append to: `None` for a point without posture.
+/// Accepts a series, a range of its points, and the list to append to: `None` where the value is not known.
 pub type Fill<'a> = Box<dyn Fn(&Rows<'_>, Range<usize>, &mut Vec<Option<f64>>) + Send + Sync + 'a>;
 
 impl<'a> Numbers<'a> {
@@ -32,6 +32,18 @@ impl<'a> Numbers<'a> {
             quantity,
             name: quantity.key.to_owned(),
             fill: Box::new(move |rows, points, values| values.extend(of_reached(rows, points, &value))),
+        }
+    }
+
+    /// The column of an input: `value` gives it at every point, with or without a posture; none where it is not given.
+    pub fn given<V: Into<Option<f64>>>(
+        quantity: &'static Quantity,
+        value: impl Fn(usize) -> V + Send + Sync + 'a,
+    ) -> Numbers<'a> {
+        Numbers {
+            quantity,
+            name: quantity.key.to_owned(),
+            fill: Box::new(move |_, points, values| values.extend(points.map(|index| value(index).into()))),
         }
     }
 

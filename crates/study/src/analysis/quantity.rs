@@ -42,6 +42,16 @@ const fn input(key: &'static str, unit: Option<&'static str>, decimals: u8, word
     }
 }
 
+/// A coordinate of a point of a path.
+const fn path_point(key: &'static str) -> Quantity {
+    input(
+        key,
+        Some("mm"),
+        6,
+        "point in the coordinates of the program or shape",
+    )
+}
+
 const SUM: Origin = Origin {
     file: "core/src/predict.rs",
     function: "predict",
@@ -214,6 +224,12 @@ pub const LINE: Quantity = input(
     0,
     "line of the program or file, or piece of the shape",
 );
+/// Point of the path.
+pub const PATH_X: Quantity = path_point("path_x_mm");
+/// Point of the path.
+pub const PATH_Y: Quantity = path_point("path_y_mm");
+/// Point of the path.
+pub const PATH_Z: Quantity = path_point("path_z_mm");
 /// Distance along a path.
 pub const DISTANCE: Quantity = input("distance_mm", Some("mm"), 6, "distance along all cuts before");
 /// Speed of the tip.
@@ -372,8 +388,11 @@ pub const HOLE_Y: Quantity = deviation(
 pub const DEPTH: Quantity = deviation("depth_um", "deviation out of the part: too shallow", IN_HOLE);
 
 /// All quantities, in the order of the tables: of a path, of holes, of every analysis.
-pub const ALL: [&Quantity; 46] = [
+pub const ALL: [&Quantity; 49] = [
     &LINE,
+    &PATH_X,
+    &PATH_Y,
+    &PATH_Z,
     &DISTANCE,
     &FEED,
     &ALONG,

@@ -14,6 +14,7 @@ import functools
 import os
 import time
 import uuid
+from collections.abc import Iterable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any
@@ -43,7 +44,7 @@ CHECKERS = 4
 class Finished:
     """A finished sweep: its folder, its contents, and the work of this run.
 
-    ``done_before`` is the number of parts that were valid before; ``redone`` are the damaged parts that were repeated.
+    Of a job of an array they are its own. ``done_before`` is the number of parts that were valid before; ``redone`` are the damaged parts that were repeated.
     ``seconds`` is the duration of this run, ``task_seconds`` the total duration of its tasks.
     """
 
@@ -77,8 +78,8 @@ def run(
     """sweep, folder -> Finished: computes the missing parts of the folder.
 
     ``backend`` is ``"local"`` (threads of this process), ``"dask"`` (processes of this machine), the address of a scheduler
-    of Dask (``"tcp://HOST:8786"``), a ``dask.distributed.Client``, ``"ray"``, or the address of a cluster of Ray
-    (``"ray://HOST:10001"``). ``workers`` are started here, or waited for where they run elsewhere; without it as many as
+    of Dask (``"tcp://HOST:8786"``), a ``dask.distributed.Client``, ``"ray"`` (processes of this machine, or the cluster of
+    ``RAY_ADDRESS``), or the address of a cluster of Ray (``"ray://HOST:10001"``). ``workers`` are started here, or waited for where they run elsewhere; without it as many as
     there are processors, or as come. Each has ``threads_per_worker``. ``items_per_part`` fixes the parts, which are else
     planned by what some items take here. ``progress`` shows a bar always or never; without it where stderr is a terminal.
     ``shard`` is the number of this job, from 0, and the number of jobs, for arrays of jobs of a batch system: it computes its part
@@ -107,7 +108,7 @@ def run(
         files.remove_unfinished(place / PARTS)
         task_seconds = 0.0
         if not manifest.is_complete:
-            shown = Progress(progress, manifest.evaluation_count, _evaluations(ready, manifest))
+            shown = Progress(progress, _evaluations(ready, manifest.parts), _evaluations(ready, manifest.done))
             if damaged:
                 shown.note(f"{len(damaged)} parts are not as they were written and are repeated")
             options = BackendOptions(backend, workers, threads_per_worker, timeout)
@@ -116,7 +117,7 @@ def run(
             place,
             sum(done.rows for done in manifest.done.values()),
             len(manifest.parts),
-            manifest.evaluation_count,
+            _evaluations(ready, manifest.done),
             before - len(damaged),
             tuple(damaged),
             time.monotonic() - began,
@@ -190,8 +191,8 @@ def _damaged(place: Folder, manifest: Manifest) -> list[int]:
         return [part for part, good in zip(parts, whole, strict=True) if not good]
 
 
-def _evaluations(ready: Plan, manifest: Manifest) -> int:
-    spans = (ready.span(part) for part in manifest.done)
+def _evaluations(ready: Plan, parts: Iterable[int]) -> int:
+    spans = (ready.span(part) for part in parts)
     return sum(last - first for first, last in spans) * ready.sweep.evaluations_per_item
 
 

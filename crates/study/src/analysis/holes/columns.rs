@@ -21,8 +21,8 @@ pub fn columns<'a>(robot: &'a Robot, analysis: &'a HolesAnalysis, found: &'a Hol
         })
     };
     let mut columns = vec![
-        Numbers::of(&quantity::HOLE, |_, index, _| index as f64 + 1.0),
-        Numbers::of(&quantity::LINE, move |_, index, _| f64::from(points[index].line)),
+        Numbers::given(&quantity::HOLE, |index| index as f64 + 1.0),
+        Numbers::given(&quantity::LINE, |index| f64::from(points[index].line)),
         Numbers::of(&quantity::TURN, move |_, index, _| to_deg(found.spins[index])),
         Numbers::of(&quantity::WRIST_BEND, move |rows, index, _| {
             let bend = wrist_bend(robot, rows.answers.joints_at(index));

@@ -1,4 +1,4 @@
-//! Columns that only a path has: line, distance and feed, the spin of a search or a curve, the lean of a search, and the components of the
+//! Columns that only a path has: line, point of the program, distance and feed, the spin of a search or a curve, the lean of a search, and the components of the
 //! deviation of the worst case relative to the track, with their part due to backlash and geometry; force, torque, chip and removal rate of a cut.
 
 use armill_core::path::{Pace, Parts, Track, scallop};
@@ -22,11 +22,14 @@ pub fn columns<'a>(analysis: &'a PathAnalysis, found: &'a PathResult) -> Vec<Num
         })
     };
     let mut columns = vec![
-        Numbers::of(&quantity::LINE, move |_, index, _| f64::from(points[index].line)),
-        Numbers::of(&quantity::DISTANCE, move |_, index, _| to_mm(points[index].along)),
-        Numbers::of(&quantity::FEED, move |_, index, _| match points[index].pace {
-            Pace::Feed(speed) => to_mm(speed),
-            _ => f64::NAN,
+        Numbers::given(&quantity::LINE, |index| f64::from(points[index].line)),
+        Numbers::given(&quantity::PATH_X, |index| to_mm(points[index].at.x)),
+        Numbers::given(&quantity::PATH_Y, |index| to_mm(points[index].at.y)),
+        Numbers::given(&quantity::PATH_Z, |index| to_mm(points[index].at.z)),
+        Numbers::given(&quantity::DISTANCE, |index| to_mm(points[index].along)),
+        Numbers::given(&quantity::FEED, |index| match points[index].pace {
+            Pace::Feed(speed) => Some(to_mm(speed)),
+            _ => None,
         }),
         part(&quantity::ALONG, |parts| parts.along),
         part(&quantity::CROSS, |parts| parts.cross),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Iterable
 from typing import Any
@@ -33,7 +34,9 @@ class Ray:
     def _start(self, options: BackendOptions) -> None:
         quiet: dict[str, Any] = {"logging_level": "error", "log_to_driver": False}
         try:
-            if options.backend == "ray":
+            if options.backend == "ray" and os.environ.get("RAY_ADDRESS"):
+                self._ray.init(address="auto", **quiet)
+            elif options.backend == "ray":
                 workers = options.workers and options.workers * self._threads
                 self._ray.init(num_cpus=workers, include_dashboard=False, **quiet)
             else:
