@@ -122,7 +122,7 @@ pub fn read_changed(
     bytes: &[u8],
     change: impl FnOnce(&mut StudyFile),
 ) -> Result<Study, StudyError> {
-    let mut parsed = Parsed::of(shown, bytes)?;
+    let mut parsed = Parsed::in_folder(shown, folder, bytes)?;
     change(&mut parsed.file);
     parsed.resolve(folder, None)
 }
@@ -144,6 +144,22 @@ impl Parsed {
         let document = Document::from_bytes(shown, bytes)?;
         let file = document.read()?;
         Ok(Parsed { document, file })
+    }
+
+    /// [`Parsed::of`], where an unknown robot is also reported if fields have problems.
+    ///
+    /// # Errors
+    /// As of [`Parsed::of`]; the robot, relative to `folder`.
+    pub fn in_folder(shown: &str, folder: &Path, bytes: &[u8]) -> Result<Parsed, StudyError> {
+        let document = Document::from_bytes(shown, bytes)?;
+        match document.read() {
+            Ok(file) => Ok(Parsed { document, file }),
+            Err(problems) => {
+                let of_robot = unknown_robot(&document, folder);
+                let problems = problems.as_slice().iter().cloned().chain(of_robot);
+                Err(StudyError::Problems(Problems::from(problems.collect::<Vec<_>>())))
+            }
+        }
     }
 
     /// The tables of its analyses; of a study without any, the table of its implied map.
@@ -367,6 +383,15 @@ fn without_repeats(problems: Vec<Problem>) -> Vec<Problem> {
         }
     }
     kept
+}
+
+/// The problem of `robot` in a document that is not a study yet, if it names one that is not found.
+fn unknown_robot(document: &Document, folder: &Path) -> Option<Problem> {
+    let values = document.to_json();
+    match robots::find(values.get("robot")?.as_str()?, folder) {
+        Err(StudyError::Value { message, hint }) => Some(document.problem("robot", message, Some(&hint))),
+        _ => None,
+    }
 }
 
 /// The robot of the study, with the compliances of the study, if given; `None` if it is not found, reported at its key.

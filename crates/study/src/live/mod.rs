@@ -118,12 +118,12 @@ impl<'a> StudyText<'a> {
     /// # Errors
     /// Every problem of the text that concerns the analysis; no analysis of that name.
     pub fn study(&self, analysis: Option<&str>) -> Result<Study, StudyError> {
-        Parsed::of(self.shown, self.bytes)?.resolve(self.folder, analysis)
+        Parsed::in_folder(self.shown, self.folder, self.bytes)?.resolve(self.folder, analysis)
     }
 
     /// This analysis of the text, or the first.
     fn one_analysis(self, analysis: Option<&str>) -> Result<EditedAnalysis<'a>, StudyError> {
-        let parsed = Parsed::of(self.shown, self.bytes)?;
+        let parsed = Parsed::in_folder(self.shown, self.folder, self.bytes)?;
         // A study without analyses means one map.
         let first = || parsed.analysis_names().first().cloned().unwrap_or_default();
         let name = analysis.map_or_else(first, str::to_owned);

@@ -59,7 +59,7 @@ pub struct ChangedValue {
 
 /// The contents of this text.
 pub fn outline(text: StudyText<'_>) -> OutlineAnswer {
-    let parsed = match Parsed::of(text.shown, text.bytes) {
+    let parsed = match Parsed::in_folder(text.shown, text.folder, text.bytes) {
         Ok(parsed) => parsed,
         Err(error) => {
             return OutlineAnswer {
