@@ -6,6 +6,8 @@ Order of events: `on_config` completes the navigation, `on_files` collects the p
 
 import logging
 
+from mkdocs.plugins import event_priority
+
 from making import checked, live, pages, policy, published, sources, text
 
 log = logging.getLogger("mkdocs.hooks.armill")
@@ -35,15 +37,19 @@ def on_page_markdown(markdown, page, config, files):
     path = page.file.src_uri
     if path in ("CHANGELOG.md", "ARCHITECTURE.md"):
         page.meta["search"] = {"boost": 0.5}
+    if path == "validation/TABLE.md":
+        page.meta["hide"] = ["toc"]  # A wide table, and nothing else.
     markdown = sources.linked(text.nested(markdown), path)
     return live.embedded(markdown, path, page.url)
 
 
 def on_post_page(output, page, config):
-    """The page with its policy."""
-    return policy.added(output)
+    """The page with its policy; the search has a name for readers who cannot see it."""
+    dialog = 'data-md-component="search" role="dialog"'
+    return policy.added(output.replace(dialog, f'{dialog} aria-label="Search"', 1))
 
 
+@event_priority(-200)  # After the plugin that writes the index of the search.
 def on_post_build(config):
     """Reports each broken link as a warning, which fails a strict build; without one the pages are moved to the site."""
     problems = checked.problems(config.site_dir, published.SITE)

@@ -2,6 +2,7 @@
 // site are run.
 {
   const page = parent;
+  globalThis.parent = {}; // The script reads it, which browsers forbid in a frame from a disk.
   globalThis.postMessage = (message) => page.postMessage(message, "*");
   const address = new URL(decodeURIComponent(location.search.slice(1)));
   const script = document.createElement("script");

@@ -7,7 +7,7 @@ from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 # What the browser requests by itself: never from another server.
-REQUESTED = {("img", "src"), ("script", "src"), ("iframe", "src"), ("link", "href"), ("source", "src"), ("object", "data")}
+REQUESTED = {("img", "src"), ("script", "src"), ("iframe", "src"), ("iframe", "data-src"), ("link", "href"), ("source", "src"), ("object", "data")}
 LINKS = REQUESTED | {("a", "href")}
 IN_STYLE = re.compile(r"url\(\s*['\"]?(https?:)?//|@import\s+['\"]?(https?:)?//")
 

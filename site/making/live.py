@@ -14,12 +14,14 @@ OF_STUDY = re.compile(r"^studies/([\w-]+)/README\.md$")
 CHOICE = "<!-- live examples -->"
 
 
-def frame(name: str, url: str) -> str:
-    """The live page with a study, and a link to it alone; nothing is loaded before it is in view."""
+def frame(name: str, url: str, source: str = "src") -> str:
+    """The live page with a study, and a link to it alone; nothing is loaded before it is in view, and with the attribute
+    `data-src` nothing before the block around it is opened (`assets/live.js`).
+    """
     address = posixpath.relpath("live/index.html", posixpath.dirname(url) or ".") + f"?example={name}"
     title = html.escape(studies.study(name)["title"])
     return (
-        f'<div class="live"><iframe src="{address}" title="Live page: {title}" loading="lazy"></iframe>\n'
+        f'<div class="live"><iframe {source}="{address}" title="Live page: {title}" loading="lazy"></iframe>\n'
         f'<p><a class="md-button" href="{address}" target="_blank">Open in full</a> '
         "Change a value: map, posture and shares follow. The page calculates in this browser; nothing is sent.</p></div>"
     )
@@ -28,7 +30,7 @@ def frame(name: str, url: str) -> str:
 def folded(name: str, url: str, is_open: bool = False) -> str:
     """The same, opened by the reader."""
     title = html.escape(studies.study(name)["title"])
-    return f'<details class="example"{" open" if is_open else ""}><summary>Try it: {title} (<code>{name}</code>, 5 MB)</summary>\n{frame(name, url)}\n</details>'
+    return f'<details class="example"{" open" if is_open else ""}><summary>Try it: {title} (<code>{name}</code>, 5 MB)</summary>\n{frame(name, url, "data-src")}\n</details>'
 
 
 def used(block: str) -> str | None:

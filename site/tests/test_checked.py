@@ -41,6 +41,6 @@ class Checked(unittest.TestCase):
         self.assertEqual(self.problems({"a.html": "<p>"}), ["a.html: no Content-Security-Policy"])
 
     def test_the_live_page_is_looked_up_where_it_was_built(self):
-        page = {"a.html": POLICY + '<iframe src="live/index.html?example=x"></iframe><a href="live/other.html">y</a>'}
+        page = {"a.html": POLICY + '<iframe src="live/index.html?example=x"></iframe><iframe data-src="live/other.html"></iframe>'}
         self.assertEqual(self.problems(page, {"index.html": ""}), ["a.html: `live/other.html` leads nowhere"])
         self.assertEqual(self.problems(page), [])

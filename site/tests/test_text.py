@@ -35,7 +35,7 @@ class Text(unittest.TestCase):
         block = "```console\n$ armill new pocket --example r2000ic-pocket\ncreated\n```\n"
         page = live.embedded(f"a\n\n{block}\nb\n\n{block}", "docs/guide/a.md", "guide/a.html")
         self.assertEqual(page.count("<iframe"), 1)
-        self.assertIn('src="../live/index.html?example=r2000ic-pocket"', page)
+        self.assertIn('data-src="../live/index.html?example=r2000ic-pocket"', page)
         self.assertLess(page.index("created"), page.index("<iframe"))
         self.assertLess(page.index("<iframe"), page.index("\nb\n"))
         other = "```console\n$ armill new cell --robot kuka/kr16-2\n```\n"
