@@ -1,14 +1,14 @@
 """What the documentation adds to its generator: pages from the whole repository, and checks.
 
 Order of events: `on_config` completes the navigation, `on_files` collects the pages, `on_page_markdown` adapts their text,
-`on_post_page` adds the policy, `on_post_build` checks all links and moves the pages to `target/site`.
+`on_page_content` their signatures, `on_post_page` adds the policy, `on_post_build` checks all links and moves the pages to `target/site`.
 """
 
 import logging
 
 from mkdocs.plugins import event_priority
 
-from making import checked, live, pages, policy, published, sources, text
+from making import checked, live, pages, policy, published, python_types, sources, text
 
 log = logging.getLogger("mkdocs.hooks.armill")
 
@@ -41,6 +41,11 @@ def on_page_markdown(markdown, page, config, files):
         page.meta["hide"] = ["toc"]  # A wide table, and nothing else.
     markdown = sources.linked(text.nested(markdown), path)
     return live.embedded(markdown, path, page.url)
+
+
+def on_page_content(html, page, config, files):
+    """Signatures of the Python reference in names that the reader knows."""
+    return python_types.explained(html) if page.file.src_uri.startswith("site/pages/python/") else html
 
 
 def on_post_page(output, page, config):

@@ -30,7 +30,7 @@ def frame(name: str, url: str, source: str = "src") -> str:
 def folded(name: str, url: str, is_open: bool = False) -> str:
     """The same, opened by the reader."""
     title = html.escape(studies.study(name)["title"])
-    return f'<details class="example"{" open" if is_open else ""}><summary>Try it: {title} (<code>{name}</code>, 5 MB)</summary>\n{frame(name, url, "data-src")}\n</details>'
+    return f'<details class="example"{" open" if is_open else ""}><summary>Try it: {title} (<code>{name}</code>, 6 MB)</summary>\n{frame(name, url, "data-src")}\n</details>'
 
 
 def used(block: str) -> str | None:

@@ -14,5 +14,7 @@ def move(built: str) -> None:
     for old in SITE.iterdir():
         if old.name != "live":
             shutil.rmtree(old) if old.is_dir() else old.unlink()
+    # It names addresses, which are known only where the site is published.
+    Path(built, "sitemap.xml").unlink(missing_ok=True)
     for new in Path(built).iterdir():
         shutil.move(new, SITE / new.name)
