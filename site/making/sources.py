@@ -64,7 +64,8 @@ def linked(markdown: str, page: str) -> str:
             return target
         path, hash_, anchor = target.partition("#")
         path = meant(repository.resolved(page, path)) if path else page
-        if path not in found and not pages.is_picture(path):
+        is_there = path in repository.paths() or repository.inside(path)
+        if path not in found and not pages.is_picture(path) and is_there:
             path = address(path)
         return posixpath.relpath(path, posixpath.dirname(page) or ".") + hash_ + anchor
 
@@ -78,9 +79,8 @@ def files(config, found: dict[str, pages.Source]) -> list[File]:
         inside = repository.inside(path)
         if inside:
             copies[path] = listing(path, inside)
-        elif path not in repository.paths():
-            continue  # The generator reports the broken link.
-        for file in inside or [path]:
+        # Neither a folder nor a file: the generator reports the broken link.
+        for file in inside or [path] * (path in repository.paths()):
             content = repository.read(file)
             copies[file] = f"<pre>{html.escape(content)}</pre>" if content is not None else "<p>This file is not text.</p>"
     return [File.generated(config, address(path), content=page(path, body)) for path, body in copies.items()]

@@ -1,7 +1,7 @@
 // The documentation with the live page in it: search, themes, small screens, own files alone.
 
 import assert from "node:assert/strict";
-import { readdirSync } from "node:fs";
+import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { launch, open, serious, settled, site } from "./setup.mjs";
@@ -82,11 +82,26 @@ test("each example study has its page, with the live page and its own title", as
   }
 });
 
+test("with the headers of the guide the live page inside of a page may use more than one thread", async () => {
+  const isolated = await site({ "Cross-Origin-Opener-Policy": "same-origin", "Cross-Origin-Embedder-Policy": "require-corp" }, "..");
+  const page = await open(browser, `${isolated.url}studies/mh12-groove/index.html`, { answers: false });
+  const frame = await inside(page);
+  assert.equal(await frame.evaluate(() => crossOriginIsolated), true);
+  assert.deepEqual(page.complaints, []);
+  await page.context().close();
+  isolated.stop();
+});
+
 test("every page loads own files alone, without errors, and fits a telephone", async () => {
   const copies = all.filter((path) => path.startsWith("source/"));
   const own = all.filter((path) => !path.startsWith("source/"));
   assert.ok(own.length > 150 && copies.length > 100, `${own.length} pages, ${copies.length} copies of sources`);
   const page = await visit("index.html", { width: 390, height: 844 });
+  // Other tests load these: here they would cost most of the time.
+  const { config, docs } = JSON.parse(readFileSync(join(pages.folder, "search/search_index.json"), "utf8"));
+  assert.ok(docs.length > 1000);
+  await page.route("**/search/search_index.json", (route) => route.fulfill({ json: { config, docs: docs.slice(0, 1) } }));
+  await page.route("**/live/index.html*", (route) => route.fulfill({ contentType: "text/html", body: "" }));
   // Copies are all made in one way.
   for (const path of [...own, ...copies.slice(0, 20)]) {
     await page.goto(new URL(path, pages.url).href);

@@ -44,7 +44,8 @@ pub fn documentation() -> Result<Vec<(&'static str, Command)>, String> {
     };
     let tools = ["-m", "pip", "install", "-q", "-r", "site/requirements.txt"];
     let tests = ["-m", "pytest", "-p", "no:cacheprovider", "site/tests"];
-    let pages = ["-m", "mkdocs", "build", "-q", "--strict", "-f", "site/mkdocs.yml"];
+    // Not with `-q`: it drops warnings, and with them what `--strict` counts.
+    let pages = ["-m", "mkdocs", "build", "--strict", "-f", "site/mkdocs.yml"];
     Ok(vec![
         ("the documentation: environment", environment),
         ("the documentation: generator", python(&tools)),
