@@ -37,8 +37,8 @@ def on_page_markdown(markdown, page, config, files):
     path = page.file.src_uri
     if path in ("CHANGELOG.md", "ARCHITECTURE.md"):
         page.meta["search"] = {"boost": 0.5}
-    if path == "validation/TABLE.md":
-        page.meta["hide"] = ["toc"]  # A wide table, and nothing else.
+    if path in ("validation/TABLE.md", "site/pages/try-it.md"):
+        page.meta["hide"] = ["toc"]  # Wide, without sections.
     markdown = sources.linked(text.nested(markdown), path)
     return live.embedded(markdown, path, page.url)
 

@@ -6,9 +6,12 @@ import re
 
 from . import studies, text
 
-# `armill new DIR` copies this one where no example is named.
+# The first one of the page with all of them.
 FIRST = "mh12-groove"
-COMMAND = re.compile(r"^\$ armill new [\w-]+(?: --example ([\w-]+))?$", re.MULTILINE)
+# How a page uses an example study.
+USE = re.compile(r"--example ([\w-]+)|\brun studies/([\w-]+)|\bplace studies/([\w-]+)|Study\.load\(\"([\w-]+)\"|example `([\w-]+)`")
+# Pages that name one, with another subject.
+WITHOUT = ("docs/guide/install.md", "docs/guide/many-machines.md", "docs/guide/site.md")
 # Pages of a single study begin with it; the others show it when it is opened.
 OF_STUDY = re.compile(r"^studies/([\w-]+)/README\.md$")
 CHOICE = "<!-- live examples -->"
@@ -30,18 +33,17 @@ def frame(name: str, url: str, source: str = "src") -> str:
 def folded(name: str, url: str, is_open: bool = False) -> str:
     """The same, opened by the reader."""
     title = html.escape(studies.study(name)["title"])
-    return f'<details class="example"{" open" if is_open else ""}><summary>Try it: {title} (<code>{name}</code>, 6 MB)</summary>\n{frame(name, url, "data-src")}\n</details>'
+    return f'<details class="example"{" open" if is_open else ""}><summary>Try an example: {title} (<code>{name}</code>, 6 MB)</summary>\n{frame(name, url, "data-src")}\n</details>'
 
 
-def used(block: str) -> str | None:
-    """The example that the commands of a block copy."""
-    command = COMMAND.search(block)
-    name = command and (command[1] or FIRST)
-    return name if name in studies.names() else None
+def used(line: str) -> str | None:
+    """The example study that a line of a page uses."""
+    names = (name for found in USE.findall(line) for name in found)
+    return next((name for name in names if name in studies.names()), None)
 
 
 def embedded(markdown: str, path: str, url: str) -> str:
-    """The text of a page with the live page behind the first block that copies an example."""
+    """The text of a page with the live page behind the first block or paragraph that uses an example study."""
     if CHOICE in markdown:
         names = studies.names()
         names.sort(key=lambda name: name != FIRST)
@@ -49,17 +51,13 @@ def embedded(markdown: str, path: str, url: str) -> str:
     if study := OF_STUDY.match(path):
         head, block, rest = markdown.partition("## study.toml")
         return f"{head}{frame(study[1], url)}\n\n{block}{rest}"
-    if path != "README.md" and not path.startswith("docs/guide/"):
+    if path in WITHOUT or not (path == "README.md" or path.startswith("docs/guide/")):
         return markdown
     lines = markdown.split("\n")
     flags = text.is_code(lines)
-    begin = None
-    for index, (line, code) in enumerate(zip(lines, flags)):
-        if code and begin is None:
-            begin = index
-        ends = begin is not None and index > begin and line == "```"
-        if ends and (name := used("\n".join(lines[begin:index]))):
-            return "\n".join([*lines[: index + 1], "", folded(name, url), "", *lines[index + 1 :]])
-        if ends:
-            begin = None
+    for index, line in enumerate(lines):
+        if name := used(line):
+            inside = flags[index]
+            end = next((at for at in range(index, len(lines)) if (not flags[at] if inside else not lines[at])), len(lines))
+            return "\n".join([*lines[:end], "", folded(name, url), "", *lines[end:]])
     return markdown

@@ -38,8 +38,13 @@ class Text(unittest.TestCase):
         self.assertIn('data-src="../live/index.html?example=r2000ic-pocket"', page)
         self.assertLess(page.index("created"), page.index("<iframe"))
         self.assertLess(page.index("<iframe"), page.index("\nb\n"))
-        other = "```console\n$ armill new cell --robot kuka/kr16-2\n```\n"
-        self.assertEqual(live.embedded(other, "docs/guide/a.md", "guide/a.html"), other)
+        for other in ("```console\n$ armill new cell\n```\n", "a `--example NAME`\n", "`mh12-groove`\n"):
+            self.assertEqual(live.embedded(other, "docs/guide/a.md", "guide/a.html"), other)
+
+    def test_the_live_page_follows_the_paragraph_that_names_an_example(self):
+        page = live.embedded("a example `mh12-groove`, and\nb\n\nc\n", "docs/guide/a.md", "guide/a.html")
+        self.assertLess(page.index("\nb\n"), page.index("<iframe"))
+        self.assertLess(page.index("</details>"), page.index("\nc\n"))
 
     def test_the_policy_names_each_script_of_the_page(self):
         page = policy.added('<meta charset="utf-8"><script>var a=1</script><script id="b" type="application/json">{}</script>')
