@@ -35,8 +35,8 @@ def on_files(files, config):
 def on_page_markdown(markdown, page, config, files):
     """The text of a page as the generator needs it."""
     path = page.file.src_uri
-    if path in ("CHANGELOG.md", "ARCHITECTURE.md"):
-        page.meta["search"] = {"boost": 0.5}
+    if path.startswith(("CHANGELOG", "ARCHITECTURE", "validation/", "python/notebooks/")):
+        page.meta["search"] = {"boost": 0.5}  # After the pages that explain.
     if path in ("validation/TABLE.md", "site/pages/try-it.md"):
         page.meta["hide"] = ["toc"]  # Wide, without sections.
     markdown = sources.linked(text.nested(markdown), path)
