@@ -7,7 +7,7 @@ from functools import cache
 
 from mkdocs.structure.files import File
 
-from . import libraries, notebooks, repository, studies
+from . import libraries, licences, notebooks, repository, studies
 
 # Pages of the root and of folders that are not pages as a whole.
 SINGLE = ("README.md", "ARCHITECTURE.md", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md", "web/README.md")
@@ -44,7 +44,7 @@ def collected() -> dict[str, Source]:
     single = [path for path in SINGLE if path in repository.paths()]
     inside = [path for path in repository.paths() if path.startswith(FOLDERS) and path.endswith(".md")]
     found = {path: Source(path) for path in [*single, *sorted(inside)]}
-    for generate in (libraries.robots, libraries.materials, studies.texts, notebooks.texts):
+    for generate in (libraries.robots, libraries.materials, studies.texts, notebooks.texts, licences.texts):
         found |= {path: Source(path, content) for path, content in generate().items()}
     return found
 
