@@ -11,7 +11,8 @@ PACKAGES = {"mkdocs-material": "style, scripts and search", "mkdocstrings-python
 def licence(package: str) -> str:
     """The text of the licence of an installed package."""
     files = distribution(package).files or []
-    return next(Path(file.locate()) for file in files if file.name.upper().startswith("LICENSE")).read_text(encoding="utf-8")
+    found = (file for file in files if file.parts[0].endswith(".dist-info") and file.name.upper().startswith("LICENSE"))
+    return Path(next(found).locate()).read_text(encoding="utf-8")
 
 
 def used_icons() -> Path:

@@ -2,6 +2,7 @@
 
 import fnmatch
 import posixpath
+import re
 from dataclasses import dataclass
 from functools import cache
 
@@ -25,6 +26,8 @@ MOVED = {
     "SECURITY.md": "development/security.html",
     "web/README.md": "development/web.html",
 }
+# Pages that introduce a section of the navigation; other files of this name are pages as any other.
+INTRODUCTIONS = re.compile(r"(site/pages/[\w-]+/|validation/|studies/|python/notebooks/)?README\.md")
 
 
 @dataclass(frozen=True)
@@ -69,6 +72,8 @@ def is_picture(path: str) -> bool:
 def placed(file: File, where: str) -> File:
     """The file at an address of the site."""
     file.dest_uri = where
+    if file.name == "index" and not INTRODUCTIONS.fullmatch(file.src_uri):
+        file.name = posixpath.dirname(file.src_uri)
     return file
 
 

@@ -31,6 +31,11 @@ class Text(unittest.TestCase):
             self.assertEqual(pages.address(path), address)
         self.assertEqual(len(set(map(pages.address, pages.collected()))), len(pages.collected()))
 
+    def test_licences_are_those_of_the_packages(self):
+        page = pages.collected()["site/pages/licences.md"].text()
+        self.assertRegex(page, r"(?s)mkdocs-material .*Martin Donath.*mkdocstrings-python .*Mazzucotelli")
+        self.assertNotIn("Font Awesome", page.partition("Material Design Icons")[0])
+
     def test_the_live_page_follows_the_block_that_copies_an_example(self):
         block = "```console\n$ armill new pocket --example r2000ic-pocket\ncreated\n```\n"
         page = live.embedded(f"a\n\n{block}\nb\n\n{block}", "docs/guide/a.md", "guide/a.html")
