@@ -150,12 +150,13 @@ export async function serious(page, part = "body") {
   }, part);
 }
 
-const TYPES = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".gz": "application/gzip" };
+const TYPES = { ".html": "text/html", ".js": "text/javascript", ".json": "application/json", ".css": "text/css", ".svg": "image/svg+xml", ".png": "image/png", ".gz": "application/gzip" };
 
-/** Serves the page without a server, as any web server does: files alone. Env ARMILL_SITE: its folder. */
-export async function site(headers = {}) {
-  const folder = process.env.ARMILL_SITE;
-  if (!folder) throw new Error("ARMILL_SITE names no page without a server: `cargo xtask site` makes it");
+/** Serves the page without a server, as any web server does: files alone. Env ARMILL_SITE: its folder; the documentation is in the
+ * folder above. */
+export async function site(headers = {}, part = ".") {
+  if (!process.env.ARMILL_SITE) throw new Error("ARMILL_SITE names no page without a server: `cargo xtask site` makes it");
+  const folder = join(process.env.ARMILL_SITE, part);
   const requested = [];
   const server = createServer((request, response) => {
     const { pathname } = new URL(request.url, "http://site");

@@ -4,31 +4,39 @@
 //! ```text
 //! crates/browser -> WebAssembly -> compressed \
 //! web/src -> page of one script ------------- target/site/live
-//! docs -> mkdocs ---------------------------- target/site
+//! docs, python, robots, ... -> mkdocs -------- target/site
 //! ```
 //!
 //! | file | content |
 //! |---|---|
 //! | `live` | the page with its program |
+//! | `docs` | the documentation |
 
+mod docs;
 mod live;
 
+pub use docs::documentation;
 pub use live::live_page;
 
 use crate::COULD_NOT_RUN;
-use crate::command::{expect_no_arguments, succeeded};
+use crate::command::succeeded;
 use crate::node;
 use std::process::ExitCode;
 
 /// Description in the list of tasks.
-pub const ABOUT: &str = "Builds the site into target/site: documentation, and the live page without a server; needs Node, npm and rustup.";
+pub const ABOUT: &str = "Builds the site into target/site: documentation, and the live page without a server; needs Python, Node, npm and rustup. `--docs`: the documentation alone.";
 
 /// Builds it, or reports what is missing.
 pub fn run(arguments: &[String]) -> ExitCode {
-    if let Err(code) = expect_no_arguments("site", arguments) {
-        return code;
-    }
-    match build() {
+    let built = match arguments {
+        [] => live().and_then(|()| docs()),
+        [only] if only == "--docs" => docs(),
+        _ => Err(format!(
+            "cargo xtask site takes --docs or nothing, got: {}",
+            arguments.join(" ")
+        )),
+    };
+    match built {
         Ok(()) => ExitCode::SUCCESS,
         Err(problem) => {
             eprintln!("{problem}");
@@ -37,8 +45,8 @@ pub fn run(arguments: &[String]) -> ExitCode {
     }
 }
 
-/// Builds all of it.
-fn build() -> Result<(), String> {
+/// Builds the live page.
+fn live() -> Result<(), String> {
     if let Some(problem) = node::missing() {
         return Err(problem);
     }
@@ -47,5 +55,14 @@ fn build() -> Result<(), String> {
         succeeded(&mut command)?;
     }
     println!("target/site/live/index.html: open it, or serve the folder target/site");
+    Ok(())
+}
+
+/// Builds the documentation.
+fn docs() -> Result<(), String> {
+    for (_, mut command) in documentation()? {
+        succeeded(&mut command)?;
+    }
+    println!("target/site/index.html: open it, or serve the folder target/site");
     Ok(())
 }

@@ -13,6 +13,7 @@
 //! | documentation tests | an example in the documentation does not compile or run |
 //! | documentation | a link leads nowhere, or rustdoc has another warning |
 //! | the kernel for NEON | it does not compile; left out without the standard library for that target |
+//! | the documentation | its tests fail, a page cannot be built, or a link, picture or anchor leads nowhere |
 //! | the page, tested | see `page` |
 //! | the Python package | see `python` |
 //!
@@ -25,6 +26,7 @@ mod room;
 mod step;
 
 use crate::command::{cargo, expect_no_arguments, has_cargo_tool};
+use crate::site::documentation;
 use crate::{COULD_NOT_RUN, FOUND_WRONG};
 use count::Count;
 use std::env;
@@ -50,9 +52,26 @@ fn steps() -> Vec<Step> {
         let check = cargo(&["check", "-p", "armill-core", "--target", NEON]);
         steps.push(Step::new("the kernel for NEON, compiled only", check));
     }
+    steps.extend(site_documentation());
     steps.extend(page::tests());
     steps.extend(python::steps());
     steps
+}
+
+/// Installs Python where it is missing; gives the steps that build the documentation next to the page without a server.
+fn site_documentation() -> Vec<Step> {
+    python::ensure();
+    match documentation() {
+        Ok(made) => made
+            .into_iter()
+            .map(|(name, command)| Step::new(name, command))
+            .collect(),
+        // Its test in Chromium fails.
+        Err(problem) => {
+            eprintln!("{problem}");
+            Vec::new()
+        }
+    }
 }
 
 /// The target whose back end cannot run on our test machines.

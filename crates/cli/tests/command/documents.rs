@@ -109,6 +109,7 @@ macro_rules! guide {
 
 guide! {
     guide_install: "install",
+    guide_site: "site",
     guide_predict: "predict",
     guide_programs: "programs",
     guide_your_robot: "your-robot",
