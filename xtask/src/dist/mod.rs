@@ -1,56 +1,71 @@
-//! The release artifacts of a version: crates, Python wheel, a tarball with the command, lists of what is in them.
+//! The release artifacts of a version: crates, Python wheel and its sources, a tarball with the command, lists of what is in them.
 //!
 //! | file | content |
 //! |---|---|
 //! | `armill-VERSION-TARGET.tar.gz` | command with its page, completions, manual pages, documentation, examples, licences |
+//! | `armill_VERSION_ARCHITECTURE.deb` | the same as a Debian package |
 //! | `armill-VERSION-....whl` | the Python package |
+//! | `armill-VERSION.tar.gz` | its sources (sdist), of which the wheel is built |
+//! | `conda/recipe.yaml` | the recipe of the conda package of these sources |
 //! | `armill-....crate` | the crates, as they would be published, each built from its package alone |
 //! | `THIRD-PARTY-LICENSES.md` | every package that is built in, its licence, and the texts |
 //! | `armill-VERSION.cdx.json` | the same as a bill of materials: CycloneDX 1.6 |
 //! | `SHA256SUMS` | checksums of all |
 //!
 //! `tools`: what is needed, and gets installed; `component`: what is built in; `third_party`, `bill`: lists of it for
-//! people and for programs; `program`: the command; `wheel`; `tarball`; `crates`.
+//! people and for programs; `program`: the command; `accompanying`: what goes with it; `tarball`; `debian`;
+//! `source_package`; `wheel`; `conda`; `crates`.
 //!
 //! Linux with glibc: linked by zig against glibc 2.17, so that the command and the wheel run on any distribution since
-//! 2014. Elsewhere, and with `--native`, the C library of this machine is the oldest supported one. One commit gives the same
-//! tarball in any folder: names are sorted, times are that of the commit, paths of this machine are cut.
+//! 2014; with `--aarch64` also for that processor. Elsewhere, and with `--native`, the C library of this machine is the oldest
+//! supported one. One commit gives the same tarball in any folder: names are sorted, times are that of the commit, paths of this
+//! machine are cut.
 
+mod accompanying;
 mod bill;
 mod component;
+mod conda;
 mod crates;
+mod debian;
 mod program;
+mod source_package;
 mod tarball;
 mod third_party;
 mod tools;
 mod wheel;
 
 use crate::command::{cargo, printed};
-use crate::{COULD_NOT_RUN, FOUND_WRONG, web};
+use crate::{COULD_NOT_RUN, FOUND_WRONG, rustup, web};
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
-use std::time::Instant;
-use std::{env, fs};
+use std::time::{Duration, Instant};
+use std::{env, fs, io};
 use toml::de::DeTable;
 use tools::Tools;
 
 /// Description in the list of tasks.
-pub const ABOUT: &str = "Builds the release artifacts: tarball, wheel, crates, licences, SBOM: [--out DIR] [--native] [--allow-dirty].";
+pub const ABOUT: &str = "Builds the release artifacts: tarball, Debian package, wheel, sdist, crates, licences, SBOM: [--out DIR] [--aarch64] [--native] [--allow-dirty].";
 
 const HELP: &str = "\
-Builds the release artifacts of this version: crates, Python wheel, a tarball with the command, its completions, manual
-pages and documentation, the licences of all that is built in, a bill of materials (SBOM), checksums.
+Builds the release artifacts of this version: crates, Python wheel and its sources (sdist), conda recipe, a tarball and a
+Debian package with the command, its completions, manual pages and documentation, the licences of all that is built in, a
+bill of materials (SBOM), checksums. What cannot be made on this machine is listed with the reason.
 
-usage: cargo xtask dist [--out DIR] [--native] [--allow-dirty]
+usage: cargo xtask dist [--out DIR] [--aarch64] [--native] [--allow-dirty]
 
   --out DIR      output folder; files of the same name are replaced [default: target/dist]
+  --aarch64      tarball, Debian package and wheel also for Linux on aarch64, linked by zig
   --native       link against the C library of this machine, without zig: runs on systems as new as this one
   --allow-dirty  also with changes that are not committed
 
 It takes from ten minutes to half an hour, and needs git, tar, Python 3 with venv, Node 20 with npm, and the network:
-maturin and zig come from PyPI into target/dist-venv.
+maturin, zig and auditwheel come from PyPI into target/dist-venv.
 ";
 
+/// The other processor that Linux artifacts are made for.
+const AARCH64: &str = "aarch64-unknown-linux-gnu";
+/// Where the sources of the Python package are unpacked, in the folder of cargo.
+const UNPACKED: &str = "dist-sources";
 /// The default output folder.
 const OUT: &str = "target/dist";
 
@@ -58,14 +73,16 @@ const OUT: &str = "target/dist";
 #[derive(Debug, PartialEq)]
 struct Options {
     out: PathBuf,
+    aarch64: bool,
     native: bool,
     allow_dirty: bool,
 }
 
 /// What is made, of what, and where.
+#[derive(Clone)]
 struct Release {
     version: String,
-    /// The target triple of this machine.
+    /// The target triple: that of this machine, except for the artifacts of another processor.
     target: String,
     /// When it was committed, s since 1970: the time of every file.
     committed_s: String,
@@ -83,14 +100,14 @@ pub fn run(arguments: &[String]) -> ExitCode {
         return ExitCode::SUCCESS;
     }
     let prepared = options(arguments).and_then(|options| prepared(&options));
-    let release = match prepared {
-        Ok(release) => release,
+    let (release, others) = match prepared {
+        Ok(prepared) => prepared,
         Err(problem) => {
             eprintln!("{problem}");
             return ExitCode::from(COULD_NOT_RUN);
         }
     };
-    match made(&release) {
+    match made(&release, &others) {
         Ok(()) => ExitCode::SUCCESS,
         Err(problem) => {
             eprintln!("{problem}");
@@ -106,6 +123,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
 fn options(arguments: &[String]) -> Result<Options, String> {
     let mut options = Options {
         out: PathBuf::from(OUT),
+        aarch64: false,
         native: false,
         allow_dirty: false,
     };
@@ -118,6 +136,7 @@ fn options(arguments: &[String]) -> Result<Options, String> {
                     .ok_or("--out takes a folder; see cargo xtask dist --help")?
                     .into();
             }
+            "--aarch64" => options.aarch64 = true,
             "--native" => options.native = true,
             "--allow-dirty" => options.allow_dirty = true,
             _ => return Err(format!("`{argument}` is not known; see cargo xtask dist --help")),
@@ -126,11 +145,11 @@ fn options(arguments: &[String]) -> Result<Options, String> {
     Ok(options)
 }
 
-/// Looks for all that is needed before anything is made.
+/// Looks for all that is needed before anything is made; gives the release, and the same for other processors.
 ///
 /// # Errors
-/// All that is missing; changes that are not committed; a folder that cannot be made.
-fn prepared(options: &Options) -> Result<Release, String> {
+/// All that is missing; changes that are not committed; a folder that cannot be made; a processor that zig cannot link for.
+fn prepared(options: &Options) -> Result<(Release, Vec<Release>), String> {
     tools::missing()?;
     let changed = printed(Command::new("git").args(["status", "--porcelain"]))?;
     if !changed.is_empty() && !options.allow_dirty {
@@ -145,80 +164,169 @@ fn prepared(options: &Options) -> Result<Release, String> {
     let committed_s = printed(Command::new("git").args(["log", "-1", "--format=%ct"]))?;
     fs::create_dir_all(&options.out).map_err(|error| format!("{}: {error}", options.out.display()))?;
     let zig = !options.native && target.ends_with("-linux-gnu");
-    Ok(Release {
+    let other_targets = other_targets(options, zig, &target)?;
+    for target in &other_targets {
+        rustup::add_target(target)?;
+    }
+    let release = Release {
         version,
         committed_s: committed_s.trim().to_owned(),
         out: fs::canonicalize(&options.out).map_err(|error| format!("{}: {error}", options.out.display()))?,
         tools: tools::installed(zig)?,
         target,
-    })
+    };
+    let others = other_targets.iter().map(|target| Release {
+        target: (*target).to_owned(),
+        ..release.clone()
+    });
+    let others = others.collect();
+    Ok((release, others))
 }
 
-/// Makes everything, and prints the results and the times.
+/// The targets that are built in addition to that of this machine.
+///
+/// # Errors
+/// In a line: they are requested, and nothing links for them.
+fn other_targets(options: &Options, zig: bool, target: &str) -> Result<Vec<&'static str>, String> {
+    match (options.aarch64, zig) {
+        (false, _) => Ok(Vec::new()),
+        (true, false) => {
+            Err("--aarch64 links with zig: on Linux with glibc, and without --native".to_owned())
+        }
+        (true, true) if target == AARCH64 => Ok(Vec::new()),
+        (true, true) => Ok(vec![AARCH64]),
+    }
+}
+
+/// What was made, how long each step took, and what was left out.
+#[derive(Default)]
+struct Made {
+    files: Vec<PathBuf>,
+    times: Vec<(String, Duration)>,
+    left_out: Vec<String>,
+}
+
+impl Made {
+    /// Does a step and records its time.
+    fn step<T>(&mut self, name: &str, step: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
+        let begun = Instant::now();
+        let done = step()?;
+        self.times.push((name.to_owned(), begun.elapsed()));
+        Ok(done)
+    }
+}
+
+/// Makes everything, and prints the results, the times, and what was left out.
 ///
 /// # Errors
 /// In a line, of the step that failed.
-fn made(release: &Release) -> Result<(), String> {
-    let mut times = Vec::new();
-    let mut step = |name: &'static str, begun: Instant| times.push((name, begun.elapsed()));
-
-    let begun = Instant::now();
-    if web::build() != ExitCode::SUCCESS {
-        return Err("the page was not built".to_owned());
-    }
-    step("page", begun);
-
-    let begun = Instant::now();
-    let components = component::all(release)?;
+fn made(release: &Release, others: &[Release]) -> Result<(), String> {
+    let mut made = Made::default();
+    made.step("page", || match web::build() {
+        ExitCode::SUCCESS => Ok(()),
+        _ => Err("the page was not built".to_owned()),
+    })?;
     let third_party = release.out.join(third_party::NAME);
-    write(&third_party, &third_party::page(release, &components)?)?;
     let bill = release.out.join(format!("armill-{}.cdx.json", release.version));
-    write(&bill, &bill::text(&release.version, &components))?;
-    step("licences and bill of materials", begun);
-
-    let begun = Instant::now();
-    let program = program::build(release)?;
-    step("command", begun);
-
-    let begun = Instant::now();
-    let tarball = tarball::pack(release, &program, &[&third_party, &bill])?;
-    step("tarball", begun);
-
-    let begun = Instant::now();
-    let wheel = wheel::build(release, &third_party)?;
-    step("wheel", begun);
-
-    let begun = Instant::now();
-    let crates = crates::package(release)?;
-    step("crates", begun);
-
-    let mut files = vec![tarball, wheel, third_party, bill];
-    files.extend(crates);
-    files.push(tarball::checksums(release, &files)?);
-    for (name, time) in times {
-        println!("{:>7.1} s  {name}", time.as_secs_f64());
+    made.step("licences and bill of materials", || {
+        let components = component::all(release)?;
+        for other in others {
+            if component::all(other)? != components {
+                let target = &other.target;
+                return Err(format!(
+                    "for {target} other packages are built in: it needs lists of its own"
+                ));
+            }
+        }
+        write(&third_party, &third_party::page(release, &components)?)?;
+        write(&bill, &bill::text(&release.version, &components))
+    })?;
+    let sources = made.step("sources of the Python package", || {
+        source_package::pack(release, &third_party)
+    })?;
+    let unpacked = source_package::unpacked(release, &sources)?;
+    let recipe = conda::recipe(release, &sources)?;
+    let mut runs = None;
+    for release in [release].into_iter().chain(others) {
+        let target = &release.target;
+        let program = made.step(&format!("command, {target}"), || program::build(release))?;
+        // Help texts come from the command that this machine can run.
+        let runs: &Path = runs.get_or_insert_with(|| program.clone());
+        let lists: [&Path; 2] = [&third_party, &bill];
+        let tarball = made.step(&format!("tarball, {target}"), || {
+            tarball::pack(release, &program, runs, &lists)
+        })?;
+        let debian = made.step(&format!("Debian package, {target}"), || {
+            debian::package(release, &program, runs, &lists)
+        })?;
+        match debian {
+            Ok(package) => made.files.push(package),
+            Err(reason) => made.left_out.push(format!("Debian package, {target}: {reason}")),
+        }
+        let wheel = made.step(&format!("wheel, {target}"), || wheel::build(release, &unpacked))?;
+        made.files.extend([tarball, wheel]);
     }
-    for file in &files {
-        let bytes = fs::metadata(file).map_or(0, |given| given.len());
-        println!("{:>7.1} MB {}", bytes as f64 * 1e-6, file.display());
+    if others.is_empty() && release.target != AARCH64 {
+        let reason = "not requested (--aarch64)";
+        made.left_out.push(format!(
+            "tarball, Debian package and wheel for {AARCH64}: {reason}"
+        ));
     }
+    made.left_out
+        .extend(NOT_MADE.iter().map(|line| (*line).to_owned()));
+    let crates = made.step("crates", || crates::package(release))?;
+    made.files.extend([sources, third_party, bill]);
+    made.files.extend(crates);
+    made.files.push(tarball::checksums(release, &made.files)?);
+    made.files.push(recipe);
+    made.print();
     Ok(())
+}
+
+/// What is made elsewhere from the files made here.
+const NOT_MADE: &[&str] = &[
+    "conda package: it needs a conda channel; rattler-build build --recipe conda/recipe.yaml",
+    "container image: it needs a container engine; podman build -f packaging/Containerfile .",
+    "Windows and macOS: they need a machine of their own; cargo xtask targets checks the types here",
+];
+
+impl Made {
+    /// Prints times, files, and what was left out.
+    fn print(&self) {
+        for (name, time) in &self.times {
+            println!("{:>7.1} s  {name}", time.as_secs_f64());
+        }
+        for file in &self.files {
+            let bytes = fs::metadata(file).map_or(0, |given| given.len());
+            println!("{:>7.1} MB {}", bytes as f64 * 1e-6, file.display());
+        }
+        for line in &self.left_out {
+            println!("not made: {line}");
+        }
+    }
 }
 
 impl Release {
     /// `command` with our programs first in its path, and with nothing of this machine in what it builds.
     fn building(&self, mut command: Command) -> Command {
         let here = env::current_dir().unwrap_or_default();
-        let cargo_home = component::cargo_home();
-        // What is between two flags.
-        let flags = format!(
-            "--remap-path-prefix={}=/cargo\u{1f}--remap-path-prefix={}=/armill",
-            cargo_home.display(),
-            here.display()
-        );
+        let target_folder = here.join(target_folder());
+        let unpacked = target_folder
+            .join(UNPACKED)
+            .join(format!("armill-{}", self.version));
+        // The last that fits decides.
+        let folders = [
+            (component::cargo_home(), "/cargo"),
+            (here, "/armill"),
+            (unpacked, "/armill"),
+        ];
+        let flags = folders.map(|(folder, name)| format!("--remap-path-prefix={}={name}", folder.display()));
         command
             .env("PATH", self.tools.path())
-            .env("CARGO_ENCODED_RUSTFLAGS", flags)
+            // What is between two flags.
+            .env("CARGO_ENCODED_RUSTFLAGS", flags.join("\u{1f}"))
+            // Some run in other folders.
+            .env("CARGO_TARGET_DIR", target_folder)
             .env("SOURCE_DATE_EPOCH", &self.committed_s);
         command
     }
@@ -244,6 +352,16 @@ fn locked(arguments: &[&str]) -> Command {
 /// Writes a file of ours.
 fn write(path: &Path, text: &str) -> Result<(), String> {
     fs::write(path, text).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+/// Removes the folder that an earlier run left.
+fn emptied(folder: &Path) -> Result<(), String> {
+    match fs::remove_dir_all(folder) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => {
+            Err(format!("{}: {error}", folder.display()))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Copies a file into a place with a name.
@@ -278,12 +396,12 @@ mod tests {
 
     #[test]
     fn options_are_read_and_others_refused() {
-        let all = options_of(&["--native", "--out", "there", "--allow-dirty"]).unwrap();
+        let all = options_of(&["--native", "--out", "there", "--allow-dirty", "--aarch64"]).unwrap();
         assert_eq!(all.out, Path::new("there"));
-        assert!(all.native && all.allow_dirty);
+        assert!(all.native && all.allow_dirty && all.aarch64);
         let none = options_of(&[]).unwrap();
         assert_eq!(none.out, Path::new(OUT));
-        assert!(!none.native && !none.allow_dirty);
+        assert!(!none.native && !none.allow_dirty && !none.aarch64);
         assert!(options_of(&["--fast"]).unwrap_err().contains("`--fast`"));
         assert!(options_of(&["--out"]).unwrap_err().contains("takes a folder"));
         assert!(
@@ -294,8 +412,23 @@ mod tests {
     }
 
     #[test]
+    fn another_processor_needs_zig_and_is_not_built_twice() {
+        let options = options_of(&["--aarch64"]).unwrap();
+        let x86_64 = "x86_64-unknown-linux-gnu";
+        assert_eq!(other_targets(&options, true, x86_64).unwrap(), [AARCH64]);
+        assert!(other_targets(&options, true, AARCH64).unwrap().is_empty());
+        assert!(
+            other_targets(&options, false, x86_64)
+                .unwrap_err()
+                .contains("zig")
+        );
+        let without = options_of(&[]).unwrap();
+        assert!(other_targets(&without, false, x86_64).unwrap().is_empty());
+    }
+
+    #[test]
     fn help_names_every_option() {
-        for option in ["--out", "--native", "--allow-dirty"] {
+        for option in ["--out", "--aarch64", "--native", "--allow-dirty"] {
             assert!(
                 HELP.matches(option).count() >= 2 && ABOUT.contains(option),
                 "{option}"
