@@ -44,16 +44,17 @@ use toml::de::DeTable;
 use tools::Tools;
 
 /// Description in the list of tasks.
-pub const ABOUT: &str = "Builds the release artifacts: tarball, Debian package, wheel, sdist, crates, licences, SBOM: [--out DIR] [--aarch64] [--native] [--allow-dirty].";
+pub const ABOUT: &str = "Builds the release artifacts: tarball, Debian package, wheel, sdist, crates, licences, SBOM: [--out DIR] [--lists] [--aarch64] [--native] [--allow-dirty].";
 
 const HELP: &str = "\
 Builds the release artifacts of this version: crates, Python wheel and its sources (sdist), conda recipe, a tarball and a
 Debian package with the command, its completions, manual pages and documentation, the licences of all that is built in, a
 bill of materials (SBOM), checksums. What cannot be made on this machine is listed with the reason.
 
-usage: cargo xtask dist [--out DIR] [--aarch64] [--native] [--allow-dirty]
+usage: cargo xtask dist [--out DIR] [--lists] [--aarch64] [--native] [--allow-dirty]
 
   --out DIR      output folder; files of the same name are replaced [default: target/dist]
+  --lists        licences and bill of materials alone, of the page as its packages are installed
   --aarch64      tarball, Debian package and wheel also for Linux on aarch64, linked by zig
   --native       link against the C library of this machine, without zig: runs on systems as new as this one
   --allow-dirty  also with changes that are not committed
@@ -73,6 +74,7 @@ const OUT: &str = "target/dist";
 #[derive(Debug, PartialEq)]
 struct Options {
     out: PathBuf,
+    lists: bool,
     aarch64: bool,
     native: bool,
     allow_dirty: bool,
@@ -99,9 +101,13 @@ pub fn run(arguments: &[String]) -> ExitCode {
         print!("{HELP}");
         return ExitCode::SUCCESS;
     }
-    let prepared = options(arguments).and_then(|options| prepared(&options));
+    let prepared = options(arguments).and_then(|options| match options.lists {
+        true => lists_alone(&options.out).map(|()| None),
+        false => prepared(&options).map(Some),
+    });
     let (release, others) = match prepared {
-        Ok(prepared) => prepared,
+        Ok(Some(prepared)) => prepared,
+        Ok(None) => return ExitCode::SUCCESS,
         Err(problem) => {
             eprintln!("{problem}");
             return ExitCode::from(COULD_NOT_RUN);
@@ -123,6 +129,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
 fn options(arguments: &[String]) -> Result<Options, String> {
     let mut options = Options {
         out: PathBuf::from(OUT),
+        lists: false,
         aarch64: false,
         native: false,
         allow_dirty: false,
@@ -136,6 +143,7 @@ fn options(arguments: &[String]) -> Result<Options, String> {
                     .ok_or("--out takes a folder; see cargo xtask dist --help")?
                     .into();
             }
+            "--lists" => options.lists = true,
             "--aarch64" => options.aarch64 = true,
             "--native" => options.native = true,
             "--allow-dirty" => options.allow_dirty = true,
@@ -157,10 +165,7 @@ fn prepared(options: &Options) -> Result<(Release, Vec<Release>), String> {
             "there are changes that are not committed; commit them, or use --allow-dirty:\n{changed}"
         ));
     }
-    let rustc = printed(Command::new("rustc").arg("-vV"))?;
-    let target = host(&rustc).ok_or("rustc -vV reports no host")?.to_owned();
-    let manifest = fs::read_to_string("Cargo.toml").map_err(|error| format!("Cargo.toml: {error}"))?;
-    let version = version(&manifest).ok_or("Cargo.toml has no version")?;
+    let (version, target) = version_and_target()?;
     let committed_s = printed(Command::new("git").args(["log", "-1", "--format=%ct"]))?;
     fs::create_dir_all(&options.out).map_err(|error| format!("{}: {error}", options.out.display()))?;
     let zig = !options.native && target.ends_with("-linux-gnu");
@@ -229,17 +234,12 @@ fn made(release: &Release, others: &[Release]) -> Result<(), String> {
     let third_party = release.out.join(third_party::NAME);
     let bill = release.out.join(format!("armill-{}.cdx.json", release.version));
     made.step("licences and bill of materials", || {
-        let components = component::all(release)?;
-        for other in others {
-            if component::all(other)? != components {
-                let target = &other.target;
-                return Err(format!(
-                    "for {target} other packages are built in: it needs lists of its own"
-                ));
-            }
-        }
-        write(&third_party, &third_party::page(release, &components)?)?;
-        write(&bill, &bill::text(&release.version, &components))
+        let targets: Vec<&str> = [release]
+            .into_iter()
+            .chain(others)
+            .map(|it| it.target.as_str())
+            .collect();
+        lists(&release.version, &targets, [&third_party, &bill])
     })?;
     let sources = made.step("sources of the Python package", || {
         source_package::pack(release, &third_party)
@@ -281,6 +281,40 @@ fn made(release: &Release, others: &[Release]) -> Result<(), String> {
     made.files.push(recipe);
     made.print();
     Ok(())
+}
+
+/// Writes the licences and the bill of materials of what is built in for these targets.
+///
+/// # Errors
+/// In a line: cargo or node does not answer; a file cannot be read or written.
+fn lists(version: &str, targets: &[&str], [third_party, bill]: [&Path; 2]) -> Result<(), String> {
+    let components = component::all(targets)?;
+    write(third_party, &third_party::page(version, targets, &components)?)?;
+    write(bill, &bill::text(version, &components))
+}
+
+/// Writes the lists alone, for the target of this machine.
+///
+/// # Errors
+/// In a line: as [`lists`]; no Rust; a folder that cannot be made.
+fn lists_alone(out: &Path) -> Result<(), String> {
+    let (version, target) = version_and_target()?;
+    fs::create_dir_all(out).map_err(|error| format!("{}: {error}", out.display()))?;
+    let third_party = out.join(third_party::NAME);
+    let bill = out.join(format!("armill-{version}.cdx.json"));
+    lists(&version, &[&target], [&third_party, &bill])
+}
+
+/// The version of the workspace, and the target triple of this machine.
+///
+/// # Errors
+/// In a line: Cargo.toml has no version; rustc does not answer.
+fn version_and_target() -> Result<(String, String), String> {
+    let rustc = printed(Command::new("rustc").arg("-vV"))?;
+    let target = host(&rustc).ok_or("rustc -vV reports no host")?.to_owned();
+    let manifest = fs::read_to_string("Cargo.toml").map_err(|error| format!("Cargo.toml: {error}"))?;
+    let version = version(&manifest).ok_or("Cargo.toml has no version")?;
+    Ok((version, target))
 }
 
 /// What is made elsewhere from the files made here.
@@ -396,12 +430,20 @@ mod tests {
 
     #[test]
     fn options_are_read_and_others_refused() {
-        let all = options_of(&["--native", "--out", "there", "--allow-dirty", "--aarch64"]).unwrap();
+        let all = options_of(&[
+            "--native",
+            "--out",
+            "there",
+            "--allow-dirty",
+            "--aarch64",
+            "--lists",
+        ])
+        .unwrap();
         assert_eq!(all.out, Path::new("there"));
-        assert!(all.native && all.allow_dirty && all.aarch64);
+        assert!(all.native && all.allow_dirty && all.aarch64 && all.lists);
         let none = options_of(&[]).unwrap();
         assert_eq!(none.out, Path::new(OUT));
-        assert!(!none.native && !none.allow_dirty && !none.aarch64);
+        assert!(!none.native && !none.allow_dirty && !none.aarch64 && !none.lists);
         assert!(options_of(&["--fast"]).unwrap_err().contains("`--fast`"));
         assert!(options_of(&["--out"]).unwrap_err().contains("takes a folder"));
         assert!(
@@ -428,7 +470,7 @@ mod tests {
 
     #[test]
     fn help_names_every_option() {
-        for option in ["--out", "--aarch64", "--native", "--allow-dirty"] {
+        for option in ["--out", "--lists", "--aarch64", "--native", "--allow-dirty"] {
             assert!(
                 HELP.matches(option).count() >= 2 && ABOUT.contains(option),
                 "{option}"
