@@ -70,10 +70,6 @@ mod tests {
             ("requires-python = \">=3.10\"", "- python >=3.10"),
             ("dependencies = [\"numpy>=1.23\"]", "- numpy >=1.23"),
             ("requires = [\"maturin>=1.9,<2\"]", "- maturin >=1.9,<2"),
-            (
-                "armill = \"armill._command:main\"",
-                "- armill = armill._command:main",
-            ),
         ] {
             assert!(package.contains(written), "pyproject.toml has no `{written}`");
             assert!(recipe.contains(needed), "the recipe has no `{needed}`");
