@@ -46,9 +46,12 @@ pub fn completions(command: &Path, shell: &str, file: &Path) -> Result<(), Strin
 /// Writes the manual pages into a folder.
 ///
 /// # Errors
-/// In a line: the command does not run.
+/// In a line: the command does not run; its list of files cannot be removed.
 pub fn manual(command: &Path, folder: &Path) -> Result<(), String> {
-    printed(Command::new(command).arg("man").arg(folder)).map(drop)
+    printed(Command::new(command).arg("man").arg(folder))?;
+    // By this list the command recognises its own files at the next call; here there is none.
+    let list = folder.join(".armill-files");
+    fs::remove_file(&list).map_err(|error| format!("{}: {error}", list.display()))
 }
 
 #[cfg(test)]
