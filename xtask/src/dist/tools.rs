@@ -10,7 +10,6 @@ use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
 /// The programs that were installed.
-#[derive(Clone)]
 pub struct Tools {
     /// Their folder.
     bin: PathBuf,
