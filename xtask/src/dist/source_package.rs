@@ -1,7 +1,8 @@
 //! The sources of the Python package in one file (sdist), from which `pip install` builds it with Rust.
 //!
 //! It contains the crates that the package needs, the lock file, the built page and the licences. The wheel of the
-//! release is built from it, so that a file that it lacks is found.
+//! release is built from it. Files that crates embed through links are looked for by name: cargo may reuse what it made of those in the
+//! repository.
 
 use super::{Release, copy, emptied, target_folder, third_party};
 use crate::command::succeeded;
@@ -11,8 +12,16 @@ use std::process::Command;
 
 /// The folder of the package.
 const PACKAGE: &str = "python";
-/// The built page; without it `armill serve` of the installed package would have none.
-const PAGE: &str = "crates/web/dist/index.html";
+/// What must be in the sources: the built page, without which `armill serve` of the installed package would have none, one file of
+/// each folder that is embedded, the licences, the lock file.
+const NEEDED: &[&str] = &[
+    "crates/web/dist/index.html",
+    "crates/study/robots/yaskawa/mh12.toml",
+    "crates/study/materials/aluminium-6082-t6.toml",
+    "crates/study/studies/mh12-groove/study.toml",
+    third_party::NAME,
+    "Cargo.lock",
+];
 
 /// Packs the sources with the licences in them and gives the path of the file.
 ///
@@ -40,14 +49,14 @@ pub fn pack(release: &Release, third_party: &Path) -> Result<PathBuf, String> {
 /// Unpacks the sources into an empty folder and gives the folder of the package in it.
 ///
 /// # Errors
-/// In a line: they cannot be unpacked, or lack the page or the licences.
+/// In a line: they cannot be unpacked, or lack a file of [`NEEDED`].
 pub fn unpacked(release: &Release, sources: &Path) -> Result<PathBuf, String> {
     let above = target_folder().join(super::UNPACKED);
     emptied(&above)?;
     fs::create_dir_all(&above).map_err(|error| format!("{}: {error}", above.display()))?;
     succeeded(Command::new("tar").arg("-xzf").arg(sources).arg("-C").arg(&above))?;
     let folder = above.join(name(&release.version));
-    for needed in [PAGE, third_party::NAME, "Cargo.lock"] {
+    for needed in NEEDED {
         if !folder.join(needed).is_file() {
             return Err(format!("{} does not contain {needed}", sources.display()));
         }
