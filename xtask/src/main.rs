@@ -20,9 +20,11 @@ mod command;
 mod dist;
 mod fuzz;
 mod node;
+mod rustup;
 mod scale;
 mod serve;
 mod site;
+mod targets;
 mod test;
 mod tidy;
 mod validate;
@@ -97,6 +99,11 @@ const TASKS: &[RepositoryTask] = &[
         name: "audit",
         about: audit::ABOUT,
         run: audit::run,
+    },
+    RepositoryTask {
+        name: "targets",
+        about: targets::ABOUT,
+        run: targets::run,
     },
     RepositoryTask {
         name: "dist",

@@ -3,7 +3,7 @@
 //! Crates are read off `cargo tree`, without those that only build or derive; packages of npm off the lock file of the
 //! page, without those that only build it. A component is known by its package URL, such as `pkg:cargo/libm@0.2.16`.
 
-use super::{Release, locked};
+use super::locked;
 use crate::command::printed;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -40,11 +40,11 @@ const FONTS_IN: &str = "armill-report";
 /// Lists the packages of the page, one a line.
 const PAGE_PACKAGES: &str = "web/dev/bundled.mjs";
 
-/// Everything that is built in.
+/// Everything that is built in for a target.
 ///
 /// # Errors
 /// In a line: cargo or node does not answer, or the sources of a crate are not there.
-pub fn all(release: &Release) -> Result<Components, String> {
+pub fn all(target: &str) -> Result<Components, String> {
     let mut tree = locked(&["tree", "-p", "armill", "-p", "armill-py"]);
     tree.args([
         "-e",
@@ -53,9 +53,8 @@ pub fn all(release: &Release) -> Result<Components, String> {
         "depth",
         "--format",
         "{p}|{l}|{r}",
-        "--target",
     ])
-    .arg(&release.target);
+    .args(["--target", target]);
     let mut components = read_tree(&printed(&mut tree)?);
     let lock = fs::read_to_string("Cargo.lock").map_err(|error| format!("Cargo.lock: {error}"))?;
     let checksums = checksums(&lock).ok_or("Cargo.lock lists no packages")?;

@@ -1,25 +1,34 @@
-//! The release artifacts of a version: crates, Python wheel, a tarball with the command, lists of what is in them.
+//! The release artifacts of a version: crates, Python wheel and its sources, a tarball with the command, lists of what is in them.
 //!
 //! | file | content |
 //! |---|---|
 //! | `armill-VERSION-TARGET.tar.gz` | command with its page, completions, manual pages, documentation, examples, licences |
+//! | `armill_VERSION_ARCHITECTURE.deb` | the same as a Debian package |
 //! | `armill-VERSION-....whl` | the Python package |
+//! | `armill-VERSION.tar.gz` | its sources (sdist), of which the wheel is built |
+//! | `conda/recipe.yaml` | the recipe of the conda package of these sources |
 //! | `armill-....crate` | the crates, as they would be published, each built from its package alone |
 //! | `THIRD-PARTY-LICENSES.md` | every package that is built in, its licence, and the texts |
 //! | `armill-VERSION.cdx.json` | the same as a bill of materials: CycloneDX 1.6 |
 //! | `SHA256SUMS` | checksums of all |
 //!
 //! `tools`: what is needed, and gets installed; `component`: what is built in; `third_party`, `bill`: lists of it for
-//! people and for programs; `program`: the command; `wheel`; `tarball`; `crates`.
+//! people and for programs; `program`: the command; `accompanying`: what goes with it; `tarball`; `debian`;
+//! `source_package`; `wheel`; `conda`; `crates`.
 //!
 //! Linux with glibc: linked by zig against glibc 2.17, so that the command and the wheel run on any distribution since
-//! 2014. Elsewhere, and with `--native`, the C library of this machine is the oldest supported one. One commit gives the same
-//! tarball in any folder: names are sorted, times are that of the commit, paths of this machine are cut.
+//! 2014. Elsewhere, and with `--native`, the C library of this machine is the oldest
+//! supported one. One commit gives the same tarball in any folder: names are sorted, times are that of the commit, paths of this
+//! machine are cut.
 
+mod accompanying;
 mod bill;
 mod component;
+mod conda;
 mod crates;
+mod debian;
 mod program;
+mod source_package;
 mod tarball;
 mod third_party;
 mod tools;
@@ -29,28 +38,32 @@ use crate::command::{cargo, printed};
 use crate::{COULD_NOT_RUN, FOUND_WRONG, web};
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
-use std::time::Instant;
-use std::{env, fs};
+use std::time::{Duration, Instant};
+use std::{env, fs, io};
 use toml::de::DeTable;
 use tools::Tools;
 
 /// Description in the list of tasks.
-pub const ABOUT: &str = "Builds the release artifacts: tarball, wheel, crates, licences, SBOM: [--out DIR] [--native] [--allow-dirty].";
+pub const ABOUT: &str = "Builds the release artifacts: tarball, Debian package, wheel, sdist, crates, licences, SBOM: [--out DIR] [--lists] [--native] [--allow-dirty].";
 
 const HELP: &str = "\
-Builds the release artifacts of this version: crates, Python wheel, a tarball with the command, its completions, manual
-pages and documentation, the licences of all that is built in, a bill of materials (SBOM), checksums.
+Builds the release artifacts of this version: crates, Python wheel and its sources (sdist), conda recipe, a tarball and a
+Debian package with the command, its completions, manual pages and documentation, the licences of all that is built in, a
+bill of materials (SBOM), checksums. What cannot be made on this machine is listed with the reason.
 
-usage: cargo xtask dist [--out DIR] [--native] [--allow-dirty]
+usage: cargo xtask dist [--out DIR] [--lists] [--native] [--allow-dirty]
 
   --out DIR      output folder; files of the same name are replaced [default: target/dist]
+  --lists        licences and bill of materials alone, of the page as its packages are installed
   --native       link against the C library of this machine, without zig: runs on systems as new as this one
   --allow-dirty  also with changes that are not committed
 
 It takes from ten minutes to half an hour, and needs git, tar, Python 3 with venv, Node 20 with npm, and the network:
-maturin and zig come from PyPI into target/dist-venv.
+maturin, zig and auditwheel come from PyPI into target/dist-venv.
 ";
 
+/// Where the sources of the Python package are unpacked, in the folder of cargo.
+const UNPACKED: &str = "dist-sources";
 /// The default output folder.
 const OUT: &str = "target/dist";
 
@@ -58,6 +71,7 @@ const OUT: &str = "target/dist";
 #[derive(Debug, PartialEq)]
 struct Options {
     out: PathBuf,
+    lists: bool,
     native: bool,
     allow_dirty: bool,
 }
@@ -82,9 +96,13 @@ pub fn run(arguments: &[String]) -> ExitCode {
         print!("{HELP}");
         return ExitCode::SUCCESS;
     }
-    let prepared = options(arguments).and_then(|options| prepared(&options));
+    let prepared = options(arguments).and_then(|options| match options.lists {
+        true => lists_alone(&options.out).map(|()| None),
+        false => prepared(&options).map(Some),
+    });
     let release = match prepared {
-        Ok(release) => release,
+        Ok(Some(prepared)) => prepared,
+        Ok(None) => return ExitCode::SUCCESS,
         Err(problem) => {
             eprintln!("{problem}");
             return ExitCode::from(COULD_NOT_RUN);
@@ -106,6 +124,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
 fn options(arguments: &[String]) -> Result<Options, String> {
     let mut options = Options {
         out: PathBuf::from(OUT),
+        lists: false,
         native: false,
         allow_dirty: false,
     };
@@ -118,6 +137,7 @@ fn options(arguments: &[String]) -> Result<Options, String> {
                     .ok_or("--out takes a folder; see cargo xtask dist --help")?
                     .into();
             }
+            "--lists" => options.lists = true,
             "--native" => options.native = true,
             "--allow-dirty" => options.allow_dirty = true,
             _ => return Err(format!("`{argument}` is not known; see cargo xtask dist --help")),
@@ -138,10 +158,7 @@ fn prepared(options: &Options) -> Result<Release, String> {
             "there are changes that are not committed; commit them, or use --allow-dirty:\n{changed}"
         ));
     }
-    let rustc = printed(Command::new("rustc").arg("-vV"))?;
-    let target = host(&rustc).ok_or("rustc -vV reports no host")?.to_owned();
-    let manifest = fs::read_to_string("Cargo.toml").map_err(|error| format!("Cargo.toml: {error}"))?;
-    let version = version(&manifest).ok_or("Cargo.toml has no version")?;
+    let (version, target) = version_and_target()?;
     let committed_s = printed(Command::new("git").args(["log", "-1", "--format=%ct"]))?;
     fs::create_dir_all(&options.out).map_err(|error| format!("{}: {error}", options.out.display()))?;
     let zig = !options.native && target.ends_with("-linux-gnu");
@@ -154,71 +171,144 @@ fn prepared(options: &Options) -> Result<Release, String> {
     })
 }
 
-/// Makes everything, and prints the results and the times.
+/// What was made, how long each step took, and what was left out.
+#[derive(Default)]
+struct Made {
+    files: Vec<PathBuf>,
+    times: Vec<(String, Duration)>,
+    left_out: Vec<String>,
+}
+
+impl Made {
+    /// Does a step and records its time.
+    fn step<T>(&mut self, name: &str, step: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
+        let begun = Instant::now();
+        let done = step()?;
+        self.times.push((name.to_owned(), begun.elapsed()));
+        Ok(done)
+    }
+}
+
+/// Makes everything, and prints the results, the times, and what was left out.
 ///
 /// # Errors
 /// In a line, of the step that failed.
 fn made(release: &Release) -> Result<(), String> {
-    let mut times = Vec::new();
-    let mut step = |name: &'static str, begun: Instant| times.push((name, begun.elapsed()));
-
-    let begun = Instant::now();
-    if web::build() != ExitCode::SUCCESS {
-        return Err("the page was not built".to_owned());
-    }
-    step("page", begun);
-
-    let begun = Instant::now();
-    let components = component::all(release)?;
+    let mut made = Made::default();
+    made.step("page", || match web::build() {
+        ExitCode::SUCCESS => Ok(()),
+        _ => Err("the page was not built".to_owned()),
+    })?;
     let third_party = release.out.join(third_party::NAME);
-    write(&third_party, &third_party::page(release, &components)?)?;
     let bill = release.out.join(format!("armill-{}.cdx.json", release.version));
-    write(&bill, &bill::text(&release.version, &components))?;
-    step("licences and bill of materials", begun);
-
-    let begun = Instant::now();
-    let program = program::build(release)?;
-    step("command", begun);
-
-    let begun = Instant::now();
-    let tarball = tarball::pack(release, &program, &[&third_party, &bill])?;
-    step("tarball", begun);
-
-    let begun = Instant::now();
-    let wheel = wheel::build(release, &third_party)?;
-    step("wheel", begun);
-
-    let begun = Instant::now();
-    let crates = crates::package(release)?;
-    step("crates", begun);
-
-    let mut files = vec![tarball, wheel, third_party, bill];
-    files.extend(crates);
-    files.push(tarball::checksums(release, &files)?);
-    for (name, time) in times {
-        println!("{:>7.1} s  {name}", time.as_secs_f64());
+    made.step("licences and bill of materials", || {
+        lists(&release.version, &release.target, [&third_party, &bill])
+    })?;
+    let sources = made.step("sources of the Python package", || {
+        source_package::pack(release, &third_party)
+    })?;
+    let unpacked = source_package::unpacked(release, &sources)?;
+    let recipe = conda::recipe(release, &sources)?;
+    let program = made.step("command", || program::build(release))?;
+    let accompanied_by: [&Path; 2] = [&third_party, &bill];
+    let tarball = made.step("tarball", || tarball::pack(release, &program, &accompanied_by))?;
+    match made.step("Debian package", || {
+        debian::package(release, &program, &accompanied_by)
+    })? {
+        Ok(package) => made.files.push(package),
+        Err(reason) => made.left_out.push(format!("Debian package: {reason}")),
     }
-    for file in &files {
-        let bytes = fs::metadata(file).map_or(0, |given| given.len());
-        println!("{:>7.1} MB {}", bytes as f64 * 1e-6, file.display());
-    }
+    let wheel = made.step("wheel", || wheel::build(release, &unpacked))?;
+    made.files.extend([tarball, wheel]);
+    made.left_out
+        .extend(NOT_MADE.iter().map(|line| (*line).to_owned()));
+    let crates = made.step("crates", || crates::package(release))?;
+    made.files.extend([sources, third_party, bill]);
+    made.files.extend(crates);
+    made.files.push(tarball::checksums(release, &made.files)?);
+    made.files.push(recipe);
+    made.print();
     Ok(())
+}
+
+/// Writes the licences and the bill of materials of what is built in for a target.
+///
+/// # Errors
+/// In a line: cargo or node does not answer; a file cannot be read or written.
+fn lists(version: &str, target: &str, [third_party, bill]: [&Path; 2]) -> Result<(), String> {
+    let components = component::all(target)?;
+    write(third_party, &third_party::page(version, target, &components)?)?;
+    write(bill, &bill::text(version, &components))
+}
+
+/// Writes the lists alone, for the target of this machine.
+///
+/// # Errors
+/// In a line: as [`lists`]; no Rust; a folder that cannot be made.
+fn lists_alone(out: &Path) -> Result<(), String> {
+    let (version, target) = version_and_target()?;
+    fs::create_dir_all(out).map_err(|error| format!("{}: {error}", out.display()))?;
+    let third_party = out.join(third_party::NAME);
+    let bill = out.join(format!("armill-{version}.cdx.json"));
+    lists(&version, &target, [&third_party, &bill])
+}
+
+/// The version of the workspace, and the target triple of this machine.
+///
+/// # Errors
+/// In a line: Cargo.toml has no version; rustc does not answer.
+fn version_and_target() -> Result<(String, String), String> {
+    let rustc = printed(Command::new("rustc").arg("-vV"))?;
+    let target = host(&rustc).ok_or("rustc -vV reports no host")?.to_owned();
+    let manifest = fs::read_to_string("Cargo.toml").map_err(|error| format!("Cargo.toml: {error}"))?;
+    let version = version(&manifest).ok_or("Cargo.toml has no version")?;
+    Ok((version, target))
+}
+
+/// What is made elsewhere from the files made here.
+const NOT_MADE: &[&str] = &[
+    "conda package: it needs a conda channel; rattler-build build --recipe conda/recipe.yaml",
+    "container image: it needs a container engine; podman build -f packaging/Containerfile .",
+    "Linux on another processor, Windows and macOS: they need a machine of their own; cargo xtask targets checks the types here",
+];
+
+impl Made {
+    /// Prints times, files, and what was left out.
+    fn print(&self) {
+        for (name, time) in &self.times {
+            println!("{:>7.1} s  {name}", time.as_secs_f64());
+        }
+        for file in &self.files {
+            let bytes = fs::metadata(file).map_or(0, |given| given.len());
+            println!("{:>7.1} MB {}", bytes as f64 * 1e-6, file.display());
+        }
+        for line in &self.left_out {
+            println!("not made: {line}");
+        }
+    }
 }
 
 impl Release {
     /// `command` with our programs first in its path, and with nothing of this machine in what it builds.
     fn building(&self, mut command: Command) -> Command {
         let here = env::current_dir().unwrap_or_default();
-        let cargo_home = component::cargo_home();
-        // What is between two flags.
-        let flags = format!(
-            "--remap-path-prefix={}=/cargo\u{1f}--remap-path-prefix={}=/armill",
-            cargo_home.display(),
-            here.display()
-        );
+        let target_folder = here.join(target_folder());
+        let unpacked = target_folder
+            .join(UNPACKED)
+            .join(format!("armill-{}", self.version));
+        // The last that fits decides.
+        let folders = [
+            (component::cargo_home(), "/cargo"),
+            (here, "/armill"),
+            (unpacked, "/armill"),
+        ];
+        let flags = folders.map(|(folder, name)| format!("--remap-path-prefix={}={name}", folder.display()));
         command
             .env("PATH", self.tools.path())
-            .env("CARGO_ENCODED_RUSTFLAGS", flags)
+            // What is between two flags.
+            .env("CARGO_ENCODED_RUSTFLAGS", flags.join("\u{1f}"))
+            // Some run in other folders.
+            .env("CARGO_TARGET_DIR", target_folder)
             .env("SOURCE_DATE_EPOCH", &self.committed_s);
         command
     }
@@ -244,6 +334,16 @@ fn locked(arguments: &[&str]) -> Command {
 /// Writes a file of ours.
 fn write(path: &Path, text: &str) -> Result<(), String> {
     fs::write(path, text).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+/// Removes the folder that an earlier run left.
+fn emptied(folder: &Path) -> Result<(), String> {
+    match fs::remove_dir_all(folder) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => {
+            Err(format!("{}: {error}", folder.display()))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Copies a file into a place with a name.
@@ -278,12 +378,12 @@ mod tests {
 
     #[test]
     fn options_are_read_and_others_refused() {
-        let all = options_of(&["--native", "--out", "there", "--allow-dirty"]).unwrap();
+        let all = options_of(&["--native", "--out", "there", "--allow-dirty", "--lists"]).unwrap();
         assert_eq!(all.out, Path::new("there"));
-        assert!(all.native && all.allow_dirty);
+        assert!(all.native && all.allow_dirty && all.lists);
         let none = options_of(&[]).unwrap();
         assert_eq!(none.out, Path::new(OUT));
-        assert!(!none.native && !none.allow_dirty);
+        assert!(!none.native && !none.allow_dirty && !none.lists);
         assert!(options_of(&["--fast"]).unwrap_err().contains("`--fast`"));
         assert!(options_of(&["--out"]).unwrap_err().contains("takes a folder"));
         assert!(
@@ -295,7 +395,7 @@ mod tests {
 
     #[test]
     fn help_names_every_option() {
-        for option in ["--out", "--native", "--allow-dirty"] {
+        for option in ["--out", "--lists", "--native", "--allow-dirty"] {
             assert!(
                 HELP.matches(option).count() >= 2 && ABOUT.contains(option),
                 "{option}"

@@ -9,25 +9,10 @@
 //!   LICENSE-* THIRD-PARTY-LICENSES.md armill-VERSION.cdx.json
 //! ```
 
-use super::{Release, copy, target_folder, write};
+use super::{Release, accompanying, copy, emptied, target_folder, write};
 use crate::command::{printed, succeeded};
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::{fs, io};
-
-/// Files and folders of the repository that go with the command, as git has them.
-const WITH_IT: &[&str] = &[
-    "ARCHITECTURE.md",
-    "CHANGELOG.md",
-    "LICENSE-APACHE",
-    "LICENSE-MIT",
-    "README.md",
-    "docs",
-    "materials",
-    "robots",
-    "studies",
-    "validation/TABLE.md",
-];
 
 /// Shells, and how each names its script.
 const COMPLETIONS: &[(&str, &str)] = &[
@@ -43,30 +28,19 @@ const COMPLETIONS: &[(&str, &str)] = &[
 /// # Errors
 /// In a line: the command does not run; a file cannot be copied; tar fails.
 pub fn pack(release: &Release, program: &Path, others: &[&Path]) -> Result<PathBuf, String> {
-    let name = format!("armill-{}-{}", release.version, release.target);
+    let name = name(&release.version, &release.target);
     let above = target_folder().join("dist-tarball");
-    match fs::remove_dir_all(&above) {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => {
-            return Err(format!("{}: {error}", above.display()));
-        }
-        _ => {}
-    }
+    emptied(&above)?;
     let folder = above.join(&name);
     copy(program, &folder.join(program.file_name().unwrap_or_default()))?;
     for file in others {
         copy(file, &folder.join(file.file_name().unwrap_or_default()))?;
     }
-    let tracked = printed(Command::new("git").args(["ls-files", "-z"]).args(WITH_IT))?;
-    for file in tracked.split_terminator('\0') {
-        copy(Path::new(file), &folder.join(file))?;
-    }
-    let completions = folder.join("completions");
-    fs::create_dir_all(&completions).map_err(|error| format!("{}: {error}", completions.display()))?;
+    accompanying::documents(&folder, |_| false)?;
     for (shell, file) in COMPLETIONS {
-        let script = printed(Command::new(program).args(["completions", shell]))?;
-        write(&completions.join(file), &script)?;
+        accompanying::completions(program, shell, &folder.join("completions").join(file))?;
     }
-    printed(Command::new(program).arg("man").arg(folder.join("man/man1")))?;
+    accompanying::manual(program, &folder.join("man/man1"))?;
 
     let tarball = release.out.join(format!("{name}.tar.gz"));
     let mut tar = Command::new("tar");
@@ -88,6 +62,11 @@ pub fn pack(release: &Release, program: &Path, others: &[&Path]) -> Result<PathB
     Ok(tarball)
 }
 
+/// The name of its folder; with `.tar.gz` that of the file.
+fn name(version: &str, target: &str) -> String {
+    format!("armill-{version}-{target}")
+}
+
 /// Writes the checksums of all files, as `sha256sum --check` reads them.
 ///
 /// # Errors
@@ -103,12 +82,45 @@ pub fn checksums(release: &Release, files: &[PathBuf]) -> Result<PathBuf, String
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs;
+    use toml::de::DeTable;
+
+    /// What `cargo binstall` makes of a template.
+    fn filled(template: &str, target: &str) -> String {
+        let values = [
+            ("{ repo }", "https://example.org/armill"),
+            ("{ version }", "0.1.0"),
+            ("{ target }", target),
+            ("{ bin }", "armill"),
+            ("{ binary-ext }", ""),
+        ];
+        let text = values
+            .iter()
+            .fold(template.to_owned(), |text, (key, value)| text.replace(key, value));
+        assert!(
+            !text.contains(['{', '}']),
+            "{text} has keys that are not known here"
+        );
+        text
+    }
 
     #[test]
-    fn the_files_of_the_command_exist() {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-        for path in WITH_IT {
-            assert!(root.join(path).exists(), "{path}");
+    fn binstall_looks_for_the_file_that_is_made() {
+        let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates/cli/Cargo.toml");
+        let manifest = fs::read_to_string(manifest).unwrap();
+        let manifest = DeTable::parse(&manifest).unwrap();
+        let value = |key| {
+            let package = manifest.get_ref().get("package")?.get_ref().get("metadata")?;
+            let binstall = package.get_ref().get("binstall")?;
+            binstall.get_ref().get(key)?.get_ref().as_str().map(str::to_owned)
+        };
+        for target in ["x86_64-unknown-linux-gnu", "aarch64-unknown-linux-gnu"] {
+            let name = name("0.1.0", target);
+            let address = filled(&value("pkg-url").unwrap(), target);
+            assert_eq!(address.rsplit('/').next().unwrap(), format!("{name}.tar.gz"));
+            let program = filled(&value("bin-dir").unwrap(), target);
+            assert_eq!(program, format!("{name}/armill"));
         }
+        assert_eq!(value("pkg-fmt").unwrap(), "tgz");
     }
 }

@@ -1,6 +1,5 @@
 //! The licences of all that is built in, for people: a table, and every text once.
 
-use super::Release;
 use super::component::{Component, Components};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -19,11 +18,11 @@ const BEGINNINGS: &[&str] = &[
     "UNLICENSE",
 ];
 
-/// The page.
+/// The page, for the artifacts of a target.
 ///
 /// # Errors
 /// In a line, where a licence cannot be read.
-pub fn page(release: &Release, components: &Components) -> Result<String, String> {
+pub fn page(version: &str, target: &str, components: &Components) -> Result<String, String> {
     let mut texts: BTreeMap<String, Vec<String>> = BTreeMap::new();
     let mut without = Vec::new();
     for component in components.values() {
@@ -40,10 +39,9 @@ pub fn page(release: &Release, components: &Components) -> Result<String, String
         }
     }
     let head = format!(
-        "# Third-party software in armill {}\n\n\
-         Built into the command `armill`, its page or the Python package, for {}. armill itself is Apache-2.0 OR MIT, at\n\
-         your choice. The standard library of Rust is built in too: MIT OR Apache-2.0, https://github.com/rust-lang/rust.\n\n",
-        release.version, release.target
+        "# Third-party software in armill {version}\n\n\
+         Built into the command `armill`, its page or the Python package, for {target}. armill itself is Apache-2.0 OR MIT, at\n\
+         your choice. The standard library of Rust is built in too: MIT OR Apache-2.0, https://github.com/rust-lang/rust.\n\n"
     );
     Ok(head + &table(components) + &unaccompanied(&without) + &all_texts(texts))
 }

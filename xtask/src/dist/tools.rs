@@ -1,6 +1,6 @@
 //! What dist needs: looked for before anything is built, so that all that is missing is reported at once.
 //!
-//! maturin, zig and cargo-zigbuild are wheels of PyPI, and come into an environment of their own.
+//! maturin, zig, cargo-zigbuild and auditwheel are wheels of PyPI, and come into an environment of their own.
 
 use super::target_folder;
 use crate::command::succeeded;
@@ -80,7 +80,7 @@ pub fn installed(zig: bool) -> Result<Tools, String> {
         "maturin>=1.9,<2",
     ]);
     if zig {
-        pip.args(["ziglang", "cargo-zigbuild"]);
+        pip.args(["ziglang", "cargo-zigbuild", "auditwheel"]);
     }
     succeeded(&mut pip)?;
     Ok(Tools { bin, zig })

@@ -1,7 +1,7 @@
 //! Files of the user are kept: what a command may replace, remove, follow and read.
 
 use std::fmt::Write;
-use std::process::{Command, Stdio};
+use std::process::Command;
 
 use crate::calibrate::ROBOT as LEVER;
 use crate::cell::{ARMILL, Cell, SMALL, armill};
@@ -411,8 +411,8 @@ fn inputs_named_in_a_study_are_regular_files_and_pipes_may_be_named_on_the_comma
     let mut child = Command::new(ARMILL)
         .args(["ballbar", "/dev/stdin", "--json"])
         .current_dir(cell.path())
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
+        .stdin(std::process::Stdio::piped())
+        .stdout(std::process::Stdio::piped())
         .spawn()
         .unwrap();
     std::io::Write::write_all(&mut child.stdin.take().unwrap(), ballbar().as_bytes()).unwrap();

@@ -4,7 +4,7 @@
 
 use std::process::Command;
 
-use crate::cell::{ARMILL, Cell, EVERY_KIND, MH12_URDF, SMALL, what_is_half};
+use crate::cell::{ARMILL, Cell, EVERY_KIND, MH12_URDF, SMALL};
 
 /// A program of a machine with a line and an arc.
 const PROGRAM: &str = "G21 G90\nG0 X-60 Y0 Z20\nG1 Z0 F300\nG1 X60\nG3 X-60 Y0 I-60 J0\nM2\n";
@@ -97,7 +97,7 @@ fn a_full_disk_is_reported_and_leaves_no_partial_file() {
     assert!(!left.contains_key("result.json"));
     let half: Vec<String> = left
         .iter()
-        .filter_map(|(name, bytes)| what_is_half(name, bytes))
+        .filter_map(|(name, bytes)| crate::cell::what_is_half(name, bytes))
         .collect();
     assert!(half.is_empty(), "{half:?}");
 }

@@ -76,7 +76,7 @@ fn the_first_line_is_the_address_and_a_signal_ends_it_with_zero() {
 }
 
 /// Waits until `happens`.
-#[cfg(unix)]
+#[cfg(target_os = "linux")]
 fn wait_until(what: &str, happens: impl Fn() -> bool) {
     let begun = Instant::now();
     while !happens() {
