@@ -40,11 +40,11 @@ const FONTS_IN: &str = "armill-report";
 /// Lists the packages of the page, one a line.
 const PAGE_PACKAGES: &str = "web/dev/bundled.mjs";
 
-/// Everything that is built in for a target.
+/// Everything that is built in for any of these targets.
 ///
 /// # Errors
 /// In a line: cargo or node does not answer, or the sources of a crate are not there.
-pub fn all(target: &str) -> Result<Components, String> {
+pub fn all(targets: &[&str]) -> Result<Components, String> {
     let mut tree = locked(&["tree", "-p", "armill", "-p", "armill-py"]);
     tree.args([
         "-e",
@@ -54,7 +54,7 @@ pub fn all(target: &str) -> Result<Components, String> {
         "--format",
         "{p}|{l}|{r}",
     ])
-    .args(["--target", target]);
+    .args(targets.iter().flat_map(|target| ["--target", target]));
     let mut components = read_tree(&printed(&mut tree)?);
     let lock = fs::read_to_string("Cargo.lock").map_err(|error| format!("Cargo.lock: {error}"))?;
     let checksums = checksums(&lock).ok_or("Cargo.lock lists no packages")?;

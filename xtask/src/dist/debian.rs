@@ -31,7 +31,7 @@ const DOCUMENTS: &str = "usr/share/doc/armill";
 /// The address of the maintainer where the variable `DEBEMAIL` gives none: a name that is reserved for this.
 const NO_ADDRESS: &str = "armill@example.invalid";
 
-/// Makes the package of the command, its help texts, and these other files.
+/// Makes the package of `command`; `runs` is the same command for this machine, which generates its help texts.
 ///
 /// `Ok(Err(reason))` where it cannot be made here.
 ///
@@ -40,6 +40,7 @@ const NO_ADDRESS: &str = "armill@example.invalid";
 pub fn package(
     release: &Release,
     command: &Path,
+    runs: &Path,
     others: &[&Path],
 ) -> Result<Result<PathBuf, String>, String> {
     let Some(architecture) = architecture(&release.target) else {
@@ -57,10 +58,10 @@ pub fn package(
         copy(file, &documents.join(file.file_name().unwrap_or_default()))?;
     }
     for (shell, file) in COMPLETIONS {
-        accompanying::completions(command, shell, &root.join(file))?;
+        accompanying::completions(runs, shell, &root.join(file))?;
     }
     let manual = root.join("usr/share/man/man1");
-    accompanying::manual(command, &manual)?;
+    accompanying::manual(runs, &manual)?;
     let licence = fs::read_to_string("LICENSE-MIT").map_err(|error| format!("LICENSE-MIT: {error}"))?;
     write(&documents.join("copyright"), &copyright(&licence))?;
     let date = printed(Command::new("date").args(["-uR", "-d", &format!("@{}", release.committed_s)]))?;

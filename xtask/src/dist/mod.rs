@@ -17,7 +17,7 @@
 //! `source_package`; `wheel`; `conda`; `crates`.
 //!
 //! Linux with glibc: linked by zig against glibc 2.17, so that the command and the wheel run on any distribution since
-//! 2014. Elsewhere, and with `--native`, the C library of this machine is the oldest
+//! 2014; with `--aarch64` also for that processor. Elsewhere, and with `--native`, the C library of this machine is the oldest
 //! supported one. One commit gives the same tarball in any folder: names are sorted, times are that of the commit, paths of this
 //! machine are cut.
 
@@ -35,7 +35,7 @@ mod tools;
 mod wheel;
 
 use crate::command::{cargo, printed};
-use crate::{COULD_NOT_RUN, FOUND_WRONG, web};
+use crate::{COULD_NOT_RUN, FOUND_WRONG, rustup, web};
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 use std::time::{Duration, Instant};
@@ -44,17 +44,18 @@ use toml::de::DeTable;
 use tools::Tools;
 
 /// Description in the list of tasks.
-pub const ABOUT: &str = "Builds the release artifacts: tarball, Debian package, wheel, sdist, crates, licences, SBOM: [--out DIR] [--lists] [--native] [--allow-dirty].";
+pub const ABOUT: &str = "Builds the release artifacts: tarball, Debian package, wheel, sdist, crates, licences, SBOM: [--out DIR] [--lists] [--aarch64] [--native] [--allow-dirty].";
 
 const HELP: &str = "\
 Builds the release artifacts of this version: crates, Python wheel and its sources (sdist), conda recipe, a tarball and a
 Debian package with the command, its completions, manual pages and documentation, the licences of all that is built in, a
 bill of materials (SBOM), checksums. What cannot be made on this machine is listed with the reason.
 
-usage: cargo xtask dist [--out DIR] [--lists] [--native] [--allow-dirty]
+usage: cargo xtask dist [--out DIR] [--lists] [--aarch64] [--native] [--allow-dirty]
 
   --out DIR      output folder; files of the same name are replaced [default: target/dist]
   --lists        licences and bill of materials alone, of the page as its packages are installed
+  --aarch64      tarball, Debian package and wheel also for Linux on aarch64, linked by zig
   --native       link against the C library of this machine, without zig: runs on systems as new as this one
   --allow-dirty  also with changes that are not committed
 
@@ -62,6 +63,8 @@ It takes from ten minutes to half an hour, and needs git, tar, Python 3 with ven
 maturin, zig and auditwheel come from PyPI into target/dist-venv.
 ";
 
+/// The other processor that Linux artifacts are made for.
+const AARCH64: &str = "aarch64-unknown-linux-gnu";
 /// Where the sources of the Python package are unpacked, in the folder of cargo.
 const UNPACKED: &str = "dist-sources";
 /// The default output folder.
@@ -72,14 +75,16 @@ const OUT: &str = "target/dist";
 struct Options {
     out: PathBuf,
     lists: bool,
+    aarch64: bool,
     native: bool,
     allow_dirty: bool,
 }
 
 /// What is made, of what, and where.
+#[derive(Clone)]
 struct Release {
     version: String,
-    /// The target triple of this machine.
+    /// The target triple: that of this machine, except for the artifacts of another processor.
     target: String,
     /// When it was committed, s since 1970: the time of every file.
     committed_s: String,
@@ -100,7 +105,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
         true => lists_alone(&options.out).map(|()| None),
         false => prepared(&options).map(Some),
     });
-    let release = match prepared {
+    let (release, others) = match prepared {
         Ok(Some(prepared)) => prepared,
         Ok(None) => return ExitCode::SUCCESS,
         Err(problem) => {
@@ -108,7 +113,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
             return ExitCode::from(COULD_NOT_RUN);
         }
     };
-    match made(&release) {
+    match made(&release, &others) {
         Ok(()) => ExitCode::SUCCESS,
         Err(problem) => {
             eprintln!("{problem}");
@@ -125,6 +130,7 @@ fn options(arguments: &[String]) -> Result<Options, String> {
     let mut options = Options {
         out: PathBuf::from(OUT),
         lists: false,
+        aarch64: false,
         native: false,
         allow_dirty: false,
     };
@@ -138,6 +144,7 @@ fn options(arguments: &[String]) -> Result<Options, String> {
                     .into();
             }
             "--lists" => options.lists = true,
+            "--aarch64" => options.aarch64 = true,
             "--native" => options.native = true,
             "--allow-dirty" => options.allow_dirty = true,
             _ => return Err(format!("`{argument}` is not known; see cargo xtask dist --help")),
@@ -146,11 +153,11 @@ fn options(arguments: &[String]) -> Result<Options, String> {
     Ok(options)
 }
 
-/// Looks for all that is needed before anything is made.
+/// Looks for all that is needed before anything is made; gives the release, and the same for other processors.
 ///
 /// # Errors
-/// All that is missing; changes that are not committed; a folder that cannot be made.
-fn prepared(options: &Options) -> Result<Release, String> {
+/// All that is missing; changes that are not committed; a folder that cannot be made; a processor that zig cannot link for.
+fn prepared(options: &Options) -> Result<(Release, Vec<Release>), String> {
     tools::missing()?;
     let changed = printed(Command::new("git").args(["status", "--porcelain"]))?;
     if !changed.is_empty() && !options.allow_dirty {
@@ -162,13 +169,38 @@ fn prepared(options: &Options) -> Result<Release, String> {
     let committed_s = printed(Command::new("git").args(["log", "-1", "--format=%ct"]))?;
     fs::create_dir_all(&options.out).map_err(|error| format!("{}: {error}", options.out.display()))?;
     let zig = !options.native && target.ends_with("-linux-gnu");
-    Ok(Release {
+    let other_targets = other_targets(options, zig, &target)?;
+    for target in &other_targets {
+        rustup::add_target(target)?;
+    }
+    let release = Release {
         version,
         committed_s: committed_s.trim().to_owned(),
         out: fs::canonicalize(&options.out).map_err(|error| format!("{}: {error}", options.out.display()))?,
         tools: tools::installed(zig)?,
         target,
-    })
+    };
+    let others = other_targets.iter().map(|target| Release {
+        target: (*target).to_owned(),
+        ..release.clone()
+    });
+    let others = others.collect();
+    Ok((release, others))
+}
+
+/// The targets that are built in addition to that of this machine.
+///
+/// # Errors
+/// In a line: they are requested, and nothing links for them.
+fn other_targets(options: &Options, zig: bool, target: &str) -> Result<Vec<&'static str>, String> {
+    match (options.aarch64, zig) {
+        (false, _) => Ok(Vec::new()),
+        (true, false) => {
+            Err("--aarch64 links with zig: on Linux with glibc, and without --native".to_owned())
+        }
+        (true, true) if target == AARCH64 => Ok(Vec::new()),
+        (true, true) => Ok(vec![AARCH64]),
+    }
 }
 
 /// What was made, how long each step took, and what was left out.
@@ -193,7 +225,7 @@ impl Made {
 ///
 /// # Errors
 /// In a line, of the step that failed.
-fn made(release: &Release) -> Result<(), String> {
+fn made(release: &Release, others: &[Release]) -> Result<(), String> {
     let mut made = Made::default();
     made.step("page", || match web::build() {
         ExitCode::SUCCESS => Ok(()),
@@ -202,24 +234,44 @@ fn made(release: &Release) -> Result<(), String> {
     let third_party = release.out.join(third_party::NAME);
     let bill = release.out.join(format!("armill-{}.cdx.json", release.version));
     made.step("licences and bill of materials", || {
-        lists(&release.version, &release.target, [&third_party, &bill])
+        let targets: Vec<&str> = [release]
+            .into_iter()
+            .chain(others)
+            .map(|it| it.target.as_str())
+            .collect();
+        lists(&release.version, &targets, [&third_party, &bill])
     })?;
     let sources = made.step("sources of the Python package", || {
         source_package::pack(release, &third_party)
     })?;
     let unpacked = source_package::unpacked(release, &sources)?;
     let recipe = conda::recipe(release, &sources)?;
-    let program = made.step("command", || program::build(release))?;
-    let accompanied_by: [&Path; 2] = [&third_party, &bill];
-    let tarball = made.step("tarball", || tarball::pack(release, &program, &accompanied_by))?;
-    match made.step("Debian package", || {
-        debian::package(release, &program, &accompanied_by)
-    })? {
-        Ok(package) => made.files.push(package),
-        Err(reason) => made.left_out.push(format!("Debian package: {reason}")),
+    let mut runs = None;
+    for release in [release].into_iter().chain(others) {
+        let target = &release.target;
+        let program = made.step(&format!("command, {target}"), || program::build(release))?;
+        // Help texts come from the command that this machine can run.
+        let runs: &Path = runs.get_or_insert_with(|| program.clone());
+        let lists: [&Path; 2] = [&third_party, &bill];
+        let tarball = made.step(&format!("tarball, {target}"), || {
+            tarball::pack(release, &program, runs, &lists)
+        })?;
+        let debian = made.step(&format!("Debian package, {target}"), || {
+            debian::package(release, &program, runs, &lists)
+        })?;
+        match debian {
+            Ok(package) => made.files.push(package),
+            Err(reason) => made.left_out.push(format!("Debian package, {target}: {reason}")),
+        }
+        let wheel = made.step(&format!("wheel, {target}"), || wheel::build(release, &unpacked))?;
+        made.files.extend([tarball, wheel]);
     }
-    let wheel = made.step("wheel", || wheel::build(release, &unpacked))?;
-    made.files.extend([tarball, wheel]);
+    if others.is_empty() && release.target != AARCH64 {
+        let reason = "not requested (--aarch64)";
+        made.left_out.push(format!(
+            "tarball, Debian package and wheel for {AARCH64}: {reason}"
+        ));
+    }
     made.left_out
         .extend(NOT_MADE.iter().map(|line| (*line).to_owned()));
     let crates = made.step("crates", || crates::package(release))?;
@@ -231,13 +283,13 @@ fn made(release: &Release) -> Result<(), String> {
     Ok(())
 }
 
-/// Writes the licences and the bill of materials of what is built in for a target.
+/// Writes the licences and the bill of materials of what is built in for these targets.
 ///
 /// # Errors
 /// In a line: cargo or node does not answer; a file cannot be read or written.
-fn lists(version: &str, target: &str, [third_party, bill]: [&Path; 2]) -> Result<(), String> {
-    let components = component::all(target)?;
-    write(third_party, &third_party::page(version, target, &components)?)?;
+fn lists(version: &str, targets: &[&str], [third_party, bill]: [&Path; 2]) -> Result<(), String> {
+    let components = component::all(targets)?;
+    write(third_party, &third_party::page(version, targets, &components)?)?;
     write(bill, &bill::text(version, &components))
 }
 
@@ -250,7 +302,7 @@ fn lists_alone(out: &Path) -> Result<(), String> {
     fs::create_dir_all(out).map_err(|error| format!("{}: {error}", out.display()))?;
     let third_party = out.join(third_party::NAME);
     let bill = out.join(format!("armill-{version}.cdx.json"));
-    lists(&version, &target, [&third_party, &bill])
+    lists(&version, &[&target], [&third_party, &bill])
 }
 
 /// The version of the workspace, and the target triple of this machine.
@@ -269,7 +321,7 @@ fn version_and_target() -> Result<(String, String), String> {
 const NOT_MADE: &[&str] = &[
     "conda package: it needs a conda channel; rattler-build build --recipe conda/recipe.yaml",
     "container image: it needs a container engine; podman build -f packaging/Containerfile .",
-    "Linux on another processor, Windows and macOS: they need a machine of their own; cargo xtask targets checks the types here",
+    "Windows and macOS: they need a machine of their own; cargo xtask targets checks the types here",
 ];
 
 impl Made {
@@ -378,12 +430,20 @@ mod tests {
 
     #[test]
     fn options_are_read_and_others_refused() {
-        let all = options_of(&["--native", "--out", "there", "--allow-dirty", "--lists"]).unwrap();
+        let all = options_of(&[
+            "--native",
+            "--out",
+            "there",
+            "--allow-dirty",
+            "--aarch64",
+            "--lists",
+        ])
+        .unwrap();
         assert_eq!(all.out, Path::new("there"));
-        assert!(all.native && all.allow_dirty && all.lists);
+        assert!(all.native && all.allow_dirty && all.aarch64 && all.lists);
         let none = options_of(&[]).unwrap();
         assert_eq!(none.out, Path::new(OUT));
-        assert!(!none.native && !none.allow_dirty && !none.lists);
+        assert!(!none.native && !none.allow_dirty && !none.aarch64 && !none.lists);
         assert!(options_of(&["--fast"]).unwrap_err().contains("`--fast`"));
         assert!(options_of(&["--out"]).unwrap_err().contains("takes a folder"));
         assert!(
@@ -394,8 +454,23 @@ mod tests {
     }
 
     #[test]
+    fn another_processor_needs_zig_and_is_not_built_twice() {
+        let options = options_of(&["--aarch64"]).unwrap();
+        let x86_64 = "x86_64-unknown-linux-gnu";
+        assert_eq!(other_targets(&options, true, x86_64).unwrap(), [AARCH64]);
+        assert!(other_targets(&options, true, AARCH64).unwrap().is_empty());
+        assert!(
+            other_targets(&options, false, x86_64)
+                .unwrap_err()
+                .contains("zig")
+        );
+        let without = options_of(&[]).unwrap();
+        assert!(other_targets(&without, false, x86_64).unwrap().is_empty());
+    }
+
+    #[test]
     fn help_names_every_option() {
-        for option in ["--out", "--lists", "--native", "--allow-dirty"] {
+        for option in ["--out", "--lists", "--aarch64", "--native", "--allow-dirty"] {
             assert!(
                 HELP.matches(option).count() >= 2 && ABOUT.contains(option),
                 "{option}"

@@ -23,11 +23,12 @@ const COMPLETIONS: &[(&str, &str)] = &[
     ("zsh", "_armill"),
 ];
 
-/// Packs the command, its help texts, and these other files.
+/// Packs the command, its help texts, and these other files; `runs` is the same command for this machine, which
+/// generates the texts.
 ///
 /// # Errors
 /// In a line: the command does not run; a file cannot be copied; tar fails.
-pub fn pack(release: &Release, program: &Path, others: &[&Path]) -> Result<PathBuf, String> {
+pub fn pack(release: &Release, program: &Path, runs: &Path, others: &[&Path]) -> Result<PathBuf, String> {
     let name = name(&release.version, &release.target);
     let above = target_folder().join("dist-tarball");
     emptied(&above)?;
@@ -38,9 +39,9 @@ pub fn pack(release: &Release, program: &Path, others: &[&Path]) -> Result<PathB
     }
     accompanying::documents(&folder, |_| false)?;
     for (shell, file) in COMPLETIONS {
-        accompanying::completions(program, shell, &folder.join("completions").join(file))?;
+        accompanying::completions(runs, shell, &folder.join("completions").join(file))?;
     }
-    accompanying::manual(program, &folder.join("man/man1"))?;
+    accompanying::manual(runs, &folder.join("man/man1"))?;
 
     let tarball = release.out.join(format!("{name}.tar.gz"));
     let mut tar = Command::new("tar");

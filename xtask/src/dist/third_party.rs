@@ -18,11 +18,11 @@ const BEGINNINGS: &[&str] = &[
     "UNLICENSE",
 ];
 
-/// The page, for the artifacts of a target.
+/// The page, for the artifacts of these targets.
 ///
 /// # Errors
 /// In a line, where a licence cannot be read.
-pub fn page(version: &str, target: &str, components: &Components) -> Result<String, String> {
+pub fn page(version: &str, targets: &[&str], components: &Components) -> Result<String, String> {
     let mut texts: BTreeMap<String, Vec<String>> = BTreeMap::new();
     let mut without = Vec::new();
     for component in components.values() {
@@ -40,8 +40,9 @@ pub fn page(version: &str, target: &str, components: &Components) -> Result<Stri
     }
     let head = format!(
         "# Third-party software in armill {version}\n\n\
-         Built into the command `armill`, its page or the Python package, for {target}. armill itself is Apache-2.0 OR MIT, at\n\
-         your choice. The standard library of Rust is built in too: MIT OR Apache-2.0, https://github.com/rust-lang/rust.\n\n"
+         Built into the command `armill`, its page or the Python package, for {}. armill itself is Apache-2.0 OR MIT, at\n\
+         your choice. The standard library of Rust is built in too: MIT OR Apache-2.0, https://github.com/rust-lang/rust.\n\n",
+        targets.join(" or ")
     );
     Ok(head + &table(components) + &unaccompanied(&without) + &all_texts(texts))
 }

@@ -10,6 +10,7 @@ use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
 /// The programs that were installed.
+#[derive(Clone)]
 pub struct Tools {
     /// Their folder.
     bin: PathBuf,
