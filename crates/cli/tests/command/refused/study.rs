@@ -13,7 +13,10 @@ fn an_unknown_field_is_named_with_its_place() {
 #[test]
 fn an_unknown_robot_is_reported_with_the_problems_of_the_fields() {
     let text = SMALL.replace("tolerance_um", "colour = 3\ntolerance_um");
-    let named = text.find("robot = ").map(|at| &text[at..]).and_then(|rest| rest.lines().next());
+    let named = text
+        .find("robot = ")
+        .map(|at| &text[at..])
+        .and_then(|rest| rest.lines().next());
     let text = text.replace(named.unwrap(), "robot = \"yaskawa/mh13\"");
     check_text(text).refused(&["unknown field `colour`", "yaskawa/mh13", "did you mean"]);
 }
