@@ -335,17 +335,37 @@ def _same_robot(robot: armill.Robot, cell: RobotCell, names: list[str]) -> tuple
         configuration = zero.copy()
         configuration.joint_values = row.tolist()
         theirs.append(_matrix(cell.robot_model.forward_kinematics(configuration, link_name=tip)))
-    ours, model = robot.forward(joints), np.array(theirs)
-    # The base is the same, or it is turned or moved: then the axis of the first joint shows how.
-    candidates = [(np.eye(4), np.linalg.inv(ours[0]) @ model[0]), (model[0] @ np.linalg.inv(ours[0]), np.eye(4))]
-    differences = [float(np.abs(base @ ours @ tip_ - model).max()) for base, tip_ in candidates]
-    best = int(np.argmin(differences))
-    if differences[best] > SAME:
+    base, flange_from_tip, difference = _transforms(robot.forward(joints), np.array(theirs))
+    if difference > SAME:
         raise ValueError(
             f"{robot.name} is not the robot of the cell: at the same joint positions the flanges differ by up to"
-            f" {1000 * differences[best]:.3g} mm beyond a constant transform; use armill.Robot.from_urdf with the URDF of the cell"
+            f" {1000 * difference:.3g} mm beyond constant transforms of base and flange; use armill.Robot.from_urdf with the URDF of the cell"
         )
-    return candidates[best]
+    return base, flange_from_tip
+
+
+def _transforms(ours: np.ndarray, theirs: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
+    """Constant transforms with ``theirs[i] = base @ ours[i] @ tip``, and the largest difference; (n, 4, 4) poses at the same joints.
+
+    Motions from the first pose do not depend on the base: their rotation axes differ by the rotation of the tip, and the
+    equations for its position are linear.
+    """
+    motions = np.linalg.inv(ours[0]) @ ours[1:]
+    seen = np.linalg.inv(theirs[0]) @ theirs[1:]
+    axes, seen_axes = (np.array([_rotation_vector(each[:3, :3]) for each in poses]) for poses in (motions, seen))
+    left, _, right = np.linalg.svd(axes.T @ seen_axes)
+    tip = np.eye(4)
+    tip[:3, :3] = left @ np.diag([1.0, 1.0, np.linalg.det(left @ right)]) @ right
+    equations = np.concatenate([each[:3, :3] - np.eye(3) for each in motions])
+    sides = np.concatenate([tip[:3, :3] @ other[:3, 3] - each[:3, 3] for each, other in zip(motions, seen, strict=True)])
+    tip[:3, 3] = np.linalg.lstsq(equations, sides, rcond=None)[0]
+    base = theirs[0] @ np.linalg.inv(tip) @ np.linalg.inv(ours[0])
+    return base, tip, float(np.abs(base @ ours @ tip - theirs).max())
+
+
+def _rotation_vector(turn: np.ndarray) -> np.ndarray:
+    axis, angle = _axis_angle(turn)
+    return angle * axis
 
 
 def _frames(target: Any, spins: int) -> list[Frame]:

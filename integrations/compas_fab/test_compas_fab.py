@@ -9,7 +9,7 @@ import armill
 import compas_fab
 import numpy as np
 import pytest
-from armill_compas_fab import ArmillPlanner
+from armill_compas_fab import ArmillPlanner, _transforms
 from compas.geometry import Frame, Point, Vector
 from compas_fab.backends import AnalyticalKinematicsPlanner
 from compas_fab.backends.exceptions import InverseKinematicsError, MPMaxJumpError, MPNoIKSolutionError
@@ -43,6 +43,17 @@ def at(state, joints):
 
 def distance(a: Frame, b: Frame) -> float:
     return max(a.point.distance_to_point(b.point), (a.xaxis - b.xaxis).length, (a.yaxis - b.yaxis).length)
+
+
+def test_base_and_flange_may_differ_by_constant_transforms() -> None:
+    robot = armill.Robot.load("universal-robots/ur10e")
+    ours = robot.forward(np.random.default_rng(2).uniform(-2, 2, (20, 6)))
+    base, tip = robot.forward([0.1, -0.4, 0.9, 0.3, 0.2, -0.7]), robot.forward([-1.1, 0.4, 0.5, -0.3, 1.2, 0.7])
+    found = _transforms(ours, base @ ours @ tip)
+    assert np.abs(found[0] - base).max() < 1e-9 and np.abs(found[1] - tip).max() < 1e-9 and found[2] < 1e-9
+    longer = ours.copy()
+    longer[10:, 0, 3] += 1e-4
+    assert _transforms(ours, longer)[2] > 1e-6
 
 
 @pytest.mark.parametrize(("name", "robot"), [("ur10e", None), ("abb_irb120_3_58", armill.Robot.from_urdf(URDF)), ("ur5_cone_tool", "urdf")])
