@@ -1,11 +1,12 @@
 //! `armill check`: all problems of a study.
 //!
-//! Problems are printed on stderr, with `--json` on stdout too. If there are none, stderr reports the size of the
-//! study.
+//! Problems are printed on stderr, with `--json` on stdout too. If there are none, stderr reports the values that are
+//! probably slips, as warnings, and the size of the study.
 //! `--schema` prints the JSON Schema of the study file instead.
 
 use armill_formats::document::schema_json;
 use armill_study::file::format::StudyFile;
+use armill_study::file::slips;
 use armill_study::run::points_to_evaluate;
 use armill_study::{StudyError, studies};
 
@@ -24,6 +25,7 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<Outcome, StudyError> {
     }
     let found = studies::find(arguments.study.as_deref().unwrap_or_else(|| ".".as_ref()))?;
     let study = found.read()?;
+    let warnings = slips::of_study(&study);
     if arguments.json {
         print(r#"{"problems":[]}"#)?;
     }
@@ -34,6 +36,13 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<Outcome, StudyError> {
         counted(study.analyses.len(), ["analysis", "analyses"]),
         counted(points_to_evaluate(&study), ["point", "points"]),
     );
-    say(&format!("{}: fine; {analyses}, {points}", found.shown));
+    for warning in &warnings {
+        say(&format!("warning: {warning}"));
+    }
+    let verdict = match warnings.len() {
+        0 => "fine".to_owned(),
+        count => counted(count, ["warning", "warnings"]),
+    };
+    say(&format!("{}: {verdict}; {analyses}, {points}", found.shown));
     Ok(Outcome::Fine)
 }

@@ -216,6 +216,24 @@ fn a_valid_study_is_reported_with_its_number_of_points() {
 }
 
 #[test]
+fn check_warns_of_values_that_are_probably_slips_as_run_does() {
+    // Both analyses have the plane of the study: one warning.
+    let more = "[[analysis]]\nkind = \"map\"\nname = \"a\"\n\n[[analysis]]\nkind = \"map\"\nname = \"b\"\n";
+    let slipped = SMALL.replacen("tilt_deg = 0", "tilt_deg = 1.5708", 1);
+    assert_ne!(slipped, SMALL);
+    let cell = Cell::with_study(&format!("{slipped}{more}"));
+    let warning = "The plane is tilted by only 1.5708 deg: 1.5708 is 90 deg in rad; if that was meant, write \
+                   `plane.tilt_deg` in deg.";
+    let checked = cell.armill(&["check", "study.toml"]).fine();
+    assert_eq!(
+        checked.err,
+        format!("warning: {warning}\nstudy.toml: 1 warning; 2 analyses, 50 points\n")
+    );
+    let run = cell.armill(&["run", "study.toml", "--no-pictures"]).fine();
+    assert_eq!(run.err.matches(warning).count(), 1, "{}", run.err);
+}
+
+#[test]
 fn examples_are_checked_from_an_empty_folder() {
     for example in ["mh12-groove", "kr120-groove", "studies/mh12-groove"] {
         Cell::new().armill(&["check", example]).fine();

@@ -1,14 +1,13 @@
 //! The backlash of the joints from measurements on circles of the study.
 
-use armill_core::measure::ballbar::CircularTest;
-use armill_core::measure::ballbar::joints::{BacklashOptions, Followed, Observed, fit_backlash};
+use armill_core::measure::ballbar::joints::{BacklashOptions, Observed, fit_backlash};
 use armill_core::watch::Watch;
 use armill_study::error::StudyError;
 use armill_study::file::circles::MeasuredCircle;
 use armill_study::file::resolve::Study;
 
 use super::answer::{BacklashAnswer, answer};
-use crate::data_check;
+use crate::data_check::circles::{NamedTest, slip};
 
 use super::circles::{BacklashEstimate, CircleAnalysis, FollowedCircle, circles, followed};
 
@@ -84,12 +83,15 @@ pub fn estimate<'a>(
         )
     })?;
     let estimated = BacklashEstimate { circles, gaps };
-    let observed: Vec<(&Followed, &CircularTest)> = (estimated.circles.iter())
-        .map(|of| (&of.followed, &of.measured.test))
+    let observed: Vec<NamedTest<'_>> = (estimated.circles.iter())
+        .map(|of| NamedTest {
+            name: of.circle.name,
+            followed: &of.followed,
+            test: &of.measured.test,
+        })
         .collect();
-    let slip = data_check::circles::slip(&observed, &requested, estimated.gaps.rms_after);
     let given = BacklashAnswer {
-        slip,
+        slip: slip(&observed, &requested, estimated.gaps.rms_after),
         ..answer(study, &estimated)
     };
     Ok((estimated, given))

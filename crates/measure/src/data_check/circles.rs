@@ -1,4 +1,5 @@
-//! Data check of circular tests against the circles of a study: zero and direction of their angles.
+//! Data check of circular tests against the circles of a study: zero and direction of their angles, of all circles or
+//! of one.
 //!
 //! The residual is that of the backlash fit, over all circles. Joints reverse at angles that the study predicts; steps
 //! of files with another zero or a mirrored angle are elsewhere. The sign of the radii is not seen: it changes the sign
@@ -57,30 +58,52 @@ impl AngleChange {
     }
 }
 
-/// The likely slip in the angles of the files, where the fit as given has the residual `as_given`, m.
-pub fn slip(
-    observed: &[(&Followed, &CircularTest)],
-    requested: &BacklashOptions,
-    as_given: f64,
-) -> Option<SlipAnswer> {
-    let trial = |change: &AngleChange| -> Option<Trial> {
-        let tests: Vec<CircularTest> = observed
-            .iter()
-            .map(|(_, test)| change.of(test))
+/// The joint motion along a measured circle, its test, and the name of its analysis.
+#[derive(Clone, Copy, Debug)]
+pub struct NamedTest<'a> {
+    /// Name of the analysis.
+    pub name: &'a str,
+    /// The joint motion.
+    pub followed: &'a Followed,
+    /// The test.
+    pub test: &'a CircularTest,
+}
+
+/// The likely slip in the angles of the files of all circles or of one, where the fit as given has the residual
+/// `as_given`, m.
+pub fn slip(observed: &[NamedTest<'_>], requested: &BacklashOptions, as_given: f64) -> Option<SlipAnswer> {
+    let trial = |change: &AngleChange, only: Option<usize>| -> Option<Trial> {
+        let tests: Vec<CircularTest> = (observed.iter().enumerate())
+            .map(|(circle, of)| match only {
+                Some(one) if one != circle => Some(of.test.clone()),
+                _ => change.of(of.test),
+            })
             .collect::<Option<_>>()?;
-        let changed: Vec<Observed<'_>> = observed
-            .iter()
-            .zip(&tests)
-            .map(|((followed, _), test)| Observed { followed, test })
+        let changed: Vec<Observed<'_>> = (observed.iter().zip(&tests))
+            .map(|(of, test)| Observed {
+                followed: of.followed,
+                test,
+            })
             .collect();
         let found = fit_backlash(&changed, requested).ok()??;
         // A fit that needs backlash below zero explains nothing.
         let sound = found.estimates.iter().all(|gap| gap.gap > -2.0 * gap.u);
         sound.then(|| Trial {
-            change: change.words(),
+            change: match only {
+                Some(one) => format!("{} of circle {}", change.words(), observed[one].name),
+                None => change.words(),
+            },
             residual: found.rms_after,
         })
     };
-    let trials: Vec<Trial> = AngleChange::all().iter().filter_map(trial).collect();
+    let changes = AngleChange::all();
+    let mut trials: Vec<Trial> = (changes.iter())
+        .filter_map(|change| trial(change, None))
+        .collect();
+    if observed.len() > 1 {
+        for one in 0..observed.len() {
+            trials.extend(changes.iter().filter_map(|change| trial(change, Some(one))));
+        }
+    }
     likely_slip(as_given, BETTER, &trials)
 }

@@ -261,13 +261,8 @@ fn sources(study: &Study) -> Vec<Source> {
 fn warnings(study: &Study, answers: &AnalysisAnswers) -> Vec<String> {
     let mut warnings = Vec::new();
     warnings.extend(study.own_compliance.iter().filter_map(|own| own.caution.clone()));
+    warnings.extend(slips::of_study(study));
     for setting in study.settings() {
-        let slips = slips::warnings(&study.robot, setting);
-        let new: Vec<String> = slips
-            .into_iter()
-            .filter(|slip| !warnings.contains(slip))
-            .collect();
-        warnings.extend(new);
         let unknown = uncertainty_words::warning(&setting.arm(&study.robot.robot));
         warnings.extend(unknown.filter(|warning| !warnings.contains(warning)));
     }

@@ -15,6 +15,7 @@ use armill_core::source::stiffness_model::FREE_FALL;
 use armill_core::units::{from_deg, to_deg, to_mm};
 use armill_formats::robot::RobotDescription;
 
+use crate::file::resolve::Study;
 use crate::input::setting::Setting;
 use crate::number::{decimals, without_rounding};
 
@@ -41,8 +42,19 @@ pub fn meant_in_rad(deg: f64) -> Option<f64> {
     is_multiple(45.0, WRITTEN).or_else(|| is_multiple(15.0, 0.1 * WRITTEN))
 }
 
+/// The likely slips in the settings of a study, each a sentence, each once.
+pub fn of_study(study: &Study) -> Vec<String> {
+    let mut found = Vec::new();
+    for warning in (study.settings()).flat_map(|setting| warnings(&study.robot, setting)) {
+        if !found.contains(&warning) {
+            found.push(warning);
+        }
+    }
+    found
+}
+
 /// The likely slips in the setting of one analysis, each a sentence.
-pub fn warnings(described: &RobotDescription, setting: &Setting) -> Vec<String> {
+fn warnings(described: &RobotDescription, setting: &Setting) -> Vec<String> {
     let mut warnings = Vec::new();
     warnings.extend(angles(setting));
     warnings.extend(plane(described, setting));

@@ -379,8 +379,8 @@ pub fn poses() -> Vec<Slip> {
     ]
 }
 
-/// A cell whose arm has backlash, with three circles that were measured with `how` in their table.
-fn with_circles(cell: &Cell, how: &str) {
+/// A cell whose arm has backlash, with two circles that were measured with these keys in their tables.
+fn with_circles(cell: &Cell, [flat, upright]: [&str; 2]) {
     let arm = include_str!("../../../../../robots/yaskawa/mh12.toml");
     let mut arm = arm.to_owned();
     for joint in ["S", "L", "U"] {
@@ -413,15 +413,16 @@ circle = { radius_mm = 100 }
     cell.file("study.toml", study);
     cell.armill(&["backlash", "study.toml", "--simulate", "runs", "--noise-um", "1"])
         .fine();
-    let table =
-        |name: &str| format!("[[ballbar]]\nanalysis = \"{name}\"\nfiles = [\"runs/{name}.csv\"]\n{how}\n");
+    let table = |name: &str, how: &str| {
+        format!("[[ballbar]]\nanalysis = \"{name}\"\nfiles = [\"runs/{name}.csv\"]\n{how}\n")
+    };
     cell.file(
         "study.toml",
-        format!("{study}{}{}", table("flat"), table("upright")),
+        format!("{study}{}{}", table("flat", flat), table("upright", upright)),
     );
 }
 
-fn circle(done: &'static str, how: &'static str, said: &'static str) -> Slip {
+fn circle(done: &'static str, how: [&'static str; 2], said: &'static str) -> Slip {
     Slip {
         done,
         files: Box::new(move |cell| with_circles(cell, how)),
@@ -435,18 +436,28 @@ pub fn circles() -> Vec<Slip> {
     vec![
         circle(
             "another zero of the angles: 90 deg",
-            "zero_deg = 90",
+            ["zero_deg = 90"; 2],
             "with zero_deg changed by -90 deg the residual is",
         ),
         circle(
             "another zero of the angles: 180 deg",
-            "zero_deg = 180",
+            ["zero_deg = 180"; 2],
             "with zero_deg changed by 180 deg the residual is",
         ),
         circle(
             "mirrored angles",
-            "mirrored = true",
+            ["mirrored = true"; 2],
             "with the angles mirrored (mirrored = true or false) the residual is",
+        ),
+        circle(
+            "another zero of the angles of one of two circles: 90 deg",
+            ["", "zero_deg = 90"],
+            "with zero_deg changed by -90 deg of circle upright the residual is",
+        ),
+        circle(
+            "mirrored angles of one of two circles",
+            ["mirrored = true", ""],
+            "with the angles mirrored (mirrored = true or false) of circle flat the residual is",
         ),
     ]
 }
