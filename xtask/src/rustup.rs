@@ -7,6 +7,7 @@ use std::process::{Command, Stdio};
 /// # Errors
 /// In a line: rustup is not installed, does not know the target, or cannot download it.
 pub fn add_target(target: &str) -> Result<(), String> {
+    eprintln!("installing the standard library for {target}, if it is missing");
     let added = Command::new("rustup")
         .args(["target", "add", target])
         .stderr(Stdio::null())

@@ -1,8 +1,8 @@
 //! The live page with its program, in `target/site/live`.
 
 use crate::command::{cargo, printed};
-use crate::node;
-use std::process::{Command, Stdio};
+use crate::{node, rustup};
+use std::process::Command;
 use std::{env, fs};
 
 /// WebAssembly with files, clock, random numbers and threads of its host: WASI, version 1.
@@ -36,7 +36,7 @@ fn begin_of_library() -> Result<String, String> {
 /// # Errors
 /// In a line: the standard library for WebAssembly is missing and cannot be installed.
 pub fn live_page() -> Result<Vec<(&'static str, Command)>, String> {
-    add_target()?;
+    rustup::add_target(TARGET)?;
     let begin = format!("link-arg={}", begin_of_library()?);
     fs::create_dir_all("target/site").map_err(|error| format!("target/site: {error}"))?;
     let mut program = cargo(&["rustc", "--profile", "browser", "--target", TARGET]);
@@ -54,18 +54,4 @@ pub fn live_page() -> Result<Vec<(&'static str, Command)>, String> {
         ),
         ("the page without a server: program compressed", compressed),
     ])
-}
-
-/// Installs what is missing with rustup.
-fn add_target() -> Result<(), String> {
-    let added = Command::new("rustup")
-        .args(["target", "add", TARGET])
-        .stderr(Stdio::null())
-        .status();
-    match added.is_ok_and(|status| status.success()) {
-        true => Ok(()),
-        false => Err(format!(
-            "the program of the browser needs the standard library for {TARGET}: install rustup, https://rustup.rs"
-        )),
-    }
 }

@@ -27,7 +27,7 @@ mod step;
 
 use crate::command::{cargo, expect_no_arguments, has_cargo_tool};
 use crate::site::documentation;
-use crate::{COULD_NOT_RUN, FOUND_WRONG};
+use crate::{COULD_NOT_RUN, FOUND_WRONG, rustup};
 use count::Count;
 use std::env;
 use std::process::{Command, ExitCode, Stdio};
@@ -48,9 +48,12 @@ fn steps() -> Vec<Step> {
         ),
         Step::new("documentation", documentation_without_warnings()),
     ]);
-    if has_target(NEON) {
-        let check = cargo(&["check", "-p", "armill-core", "--target", NEON]);
-        steps.push(Step::new("the kernel for NEON, compiled only", check));
+    match rustup::add_target(NEON) {
+        Ok(()) => steps.push(Step::new(
+            "the kernel for NEON, compiled only",
+            cargo(&["check", "-p", "armill-core", "--target", NEON]),
+        )),
+        Err(problem) => eprintln!("the kernel for NEON is not compiled: {problem}"),
     }
     steps.extend(site_documentation());
     steps.extend(page::tests());
@@ -76,17 +79,6 @@ fn site_documentation() -> Vec<Step> {
 
 /// The target whose back end cannot run on our test machines.
 const NEON: &str = "aarch64-unknown-linux-gnu";
-
-/// Whether rustc can compile for `target`; installs what is missing with rustup, and says so if it cannot.
-fn has_target(target: &str) -> bool {
-    eprintln!("installing the standard library for {target}, if it is missing and rustup is installed");
-    let added = Command::new("rustup").args(["target", "add", target]).status();
-    let has = added.is_ok_and(|status| status.success());
-    if !has {
-        eprintln!("no standard library for {target}: the kernel for NEON is not compiled");
-    }
-    has
-}
 
 /// Runs all steps, then prints the time of each and, in the closing line, the number of tests.
 pub fn run(arguments: &[String]) -> ExitCode {
