@@ -209,7 +209,7 @@ test("a job runs in the browser: report, tables and pictures are in its folder",
 test("a job that is cancelled ends at once, and the next one runs", async () => {
   const page = await open(browser, pages.url);
   const { text } = await request(page, "GET", "/api/study");
-  const fine = text.replaceAll(/step_mm = \d+/g, "step_mm = 0.5");
+  const fine = text.replaceAll(/step_mm = \d+/g, "step_mm = 1");
   const { id } = await request(page, "POST", "/api/jobs", { kind: "run", text: fine });
   const state = async (job) => (await request(page, "GET", `/api/jobs/${job}`)).state;
   await page.waitForFunction((id) => globalThis.armill.request("GET", `/api/jobs/${id}`).then(({ state, done }) => state === "running" && done > 0), id);
