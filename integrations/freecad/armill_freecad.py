@@ -56,8 +56,8 @@ class Problem(Exception):
 class Prediction:
     """The answer of armill for one path.
 
-    ``points`` are dicts: ``at`` (x, y, z) in the job, ``distance_mm``, ``line``, ``deviation_um`` (None where the arm does not
-    reach) and ``cross_um``; ``path`` is the entry of ``paths`` in ``result.json``; ``folder`` contains all files.
+    ``points`` are dicts: ``at`` (x, y, z) in the job, ``distance_mm``, ``line`` and ``deviation_um`` (the largest in the
+    plane, None where the arm does not reach); ``path`` is the entry of ``paths`` in ``result.json``; ``folder`` contains all files.
     """
 
     def __init__(self, points, path, tolerance_um, folder):
@@ -194,7 +194,6 @@ def _point(row):
         "distance_mm": number("distance_mm"),
         "line": int(row["line"]),
         "deviation_um": number("in_plane_um"),
-        "cross_um": number("cross_um"),
     }
 
 

@@ -8,7 +8,6 @@ import unittest
 
 import FreeCAD
 import Part
-import PathScripts.PathDrilling as PathDrilling
 import PathScripts.PathJob as PathJob
 import PathScripts.PathProfile as PathProfile
 

@@ -12,7 +12,7 @@ import math
 import os
 import re
 
-from robodk.robomath import Mat, eye, invH, pose_2_xyzrpw, rotx, roty, rotz, transl
+from robodk.robomath import Mat, eye, invH, pose_2_xyzrpw, roty, rotz
 
 #: Largest distance of an arc from its straight pieces, mm, and largest rotation of the tool within a piece, deg.
 CHORD_MM = 0.001
