@@ -51,11 +51,11 @@ pub struct HolesAnswer {
     pub refused: usize,
     /// Holes within the tolerance in a usable posture, over all holes.
     pub fraction_within: f64,
-    /// Mean deviation across the hole, of those that are reached.
+    /// Mean deviation across the hole, of those that can be drilled; of those that are reached if none can.
     pub mean_in_plane_um: Option<f64>,
-    /// Largest deviation across the hole.
+    /// Largest deviation across the hole, of the same holes.
     pub max_in_plane_um: Option<f64>,
-    /// Largest deviation along the hole, by size, of all cases.
+    /// Largest deviation along the hole, by size, of all cases and of the same holes.
     pub max_depth_um: Option<f64>,
     /// Spins that were tried at each hole.
     pub turns: usize,
@@ -67,7 +67,7 @@ pub struct HolesAnswer {
     pub material: Option<String>,
     /// Largest thrust, if computed.
     pub largest_thrust_n: Option<f64>,
-    /// The holes with the largest deviation, with contributions; at most five.
+    /// Of the same holes those with the largest deviation, with contributions; at most five.
     pub worst_holes: Vec<WorstHole>,
     /// Every hole: first those that are not reached, then the largest deviation first.
     pub each: Vec<HoleAnswer>,
@@ -145,8 +145,25 @@ pub fn answer(robot: &Robot, name: &str, analysis: &HolesAnalysis, found: &Holes
             .map_or(f64::INFINITY, |evaluation| evaluation.in_plane)
     };
     order.sort_by(|a, b| key(*b).total_cmp(&key(*a)));
-    let worst = order.iter().filter(|index| answers.points[**index].is_ok());
     let is_refused = |index: usize| is_refused(found, index);
+    let reached: Vec<usize> = order
+        .iter()
+        .copied()
+        .filter(|index| answers.points[*index].is_ok())
+        .collect();
+    let drilled: Vec<usize> = reached
+        .iter()
+        .copied()
+        .filter(|index| !is_refused(*index))
+        .collect();
+    // A hole that cannot be drilled does not decide, unless none can.
+    let counted = if drilled.is_empty() { reached } else { drilled };
+    let of_counted = |value: fn(&Evaluation) -> f64| -> Vec<f64> {
+        let evaluations = counted.iter().filter_map(|index| answers.points[*index].as_ref().ok());
+        evaluations.map(|evaluation| to_um(value(evaluation))).collect()
+    };
+    let across = of_counted(|evaluation| evaluation.in_plane);
+    let depths = of_counted(|evaluation| evaluation.normal.abs());
     let good = evaluation
         .iter()
         .filter(|(index, evaluation)| evaluation.in_plane <= setting.tolerance && !is_refused(*index))
@@ -156,11 +173,6 @@ pub fn answer(robot: &Robot, name: &str, analysis: &HolesAnalysis, found: &Holes
         PathSource::Holes { file } => file.clone(),
         PathSource::Shape(_) => None,
     };
-    let mean = evaluation
-        .iter()
-        .map(|(_, evaluation)| evaluation.in_plane)
-        .sum::<f64>()
-        / evaluation.len().max(1) as f64;
     let clearance = LeastClearance::of(setting, answers);
     HolesAnswer {
         name: name.to_owned(),
@@ -172,12 +184,9 @@ pub fn answer(robot: &Robot, name: &str, analysis: &HolesAnalysis, found: &Holes
         refused: evaluation.iter().filter(|(index, _)| is_refused(*index)).count(),
         fraction_within: good as f64 / count.max(1) as f64,
         counts: CountsAnswer::of(&counts),
-        mean_in_plane_um: (!evaluation.is_empty()).then_some(to_um(mean)),
-        max_in_plane_um: answers.worst().map(|(_, evaluation)| to_um(evaluation.in_plane)),
-        max_depth_um: evaluation
-            .iter()
-            .map(|(_, evaluation)| to_um(evaluation.normal.abs()))
-            .max_by(f64::total_cmp),
+        mean_in_plane_um: (!across.is_empty()).then(|| across.iter().sum::<f64>() / across.len() as f64),
+        max_in_plane_um: across.iter().copied().max_by(f64::total_cmp),
+        max_depth_um: depths.iter().copied().max_by(f64::total_cmp),
         turns: analysis.search.spins.count,
         setting: SettingAnswer::of(robot, setting),
         file: source,
@@ -187,7 +196,8 @@ pub fn answer(robot: &Robot, name: &str, analysis: &HolesAnalysis, found: &Holes
             .as_ref()
             .and(path.forces)
             .map(|given| given.largest_mean),
-        worst_holes: worst
+        worst_holes: counted
+            .iter()
             .take(WORST)
             .filter_map(|index| worst_hole(robot, analysis, found, *index))
             .collect(),
