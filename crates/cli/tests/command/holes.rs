@@ -149,7 +149,8 @@ fn cells_are_compared_by_their_holes() {
 #[test]
 fn the_worst_hole_is_one_that_can_be_drilled() {
     let cell = Cell::new();
-    cell.armill(&["new", "rivets", "--example", "kr210-rivets"]).fine();
+    cell.armill(&["new", "rivets", "--example", "kr210-rivets"])
+        .fine();
     let run = cell
         .armill(&["run", "rivets", "--json", "--no-pictures", "--out", "out"])
         .fine();

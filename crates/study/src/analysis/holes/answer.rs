@@ -159,7 +159,9 @@ pub fn answer(robot: &Robot, name: &str, analysis: &HolesAnalysis, found: &Holes
     // A hole that cannot be drilled does not decide, unless none can.
     let counted = if drilled.is_empty() { reached } else { drilled };
     let of_counted = |value: fn(&Evaluation) -> f64| -> Vec<f64> {
-        let evaluations = counted.iter().filter_map(|index| answers.points[*index].as_ref().ok());
+        let evaluations = counted
+            .iter()
+            .filter_map(|index| answers.points[*index].as_ref().ok());
         evaluations.map(|evaluation| to_um(value(evaluation))).collect()
     };
     let across = of_counted(|evaluation| evaluation.in_plane);
