@@ -4800,17 +4800,17 @@ export interface components {
             fraction_within: number;
             /**
              * Format: double
-             * @description Mean deviation across the hole, of those that are reached.
+             * @description Mean deviation across the hole, of those that can be drilled; of those that are reached if none can.
              */
             mean_in_plane_um: number | null;
             /**
              * Format: double
-             * @description Largest deviation across the hole.
+             * @description Largest deviation across the hole, of the same holes.
              */
             max_in_plane_um: number | null;
             /**
              * Format: double
-             * @description Largest deviation along the hole, by size, of all cases.
+             * @description Largest deviation along the hole, by size, of all cases and of the same holes.
              */
             max_depth_um: number | null;
             /**
@@ -4829,7 +4829,7 @@ export interface components {
              * @description Largest thrust, if computed.
              */
             largest_thrust_n: number | null;
-            /** @description The holes with the largest deviation, with contributions; at most five. */
+            /** @description Of the same holes those with the largest deviation, with contributions; at most five. */
             worst_holes: components["schemas"]["WorstHole"][];
             /** @description Every hole: first those that are not reached, then the largest deviation first. */
             each: components["schemas"]["HoleAnswer"][];
