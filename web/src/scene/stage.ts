@@ -69,18 +69,26 @@ export class Stage {
     this.resize();
   }
 
-  /** Draws before the next frame, once for any number of calls. */
+  /** Draws before the next frame, once for any number of calls. `data-picture` of the stage: `waits` until then, `moving` while
+   * it has the resolution of moving pictures, `still` after that. */
   draw(): void {
     if (this.requested) return;
     this.requested = true;
+    clearTimeout(this.rests);
+    const { dataset } = this.host;
+    dataset.picture = "waits";
     requestAnimationFrame(() => {
       this.requested = false;
       this.before();
       this.render(this.by_card ? Math.min(devicePixelRatio, 2) : Math.min(devicePixelRatio, 1));
       this.labels.place(this.camera, this.size, this.covered);
+      if (this.requested) return;
+      dataset.picture = this.by_card ? "still" : "moving";
       if (this.by_card) return;
-      clearTimeout(this.rests);
-      this.rests = setTimeout(() => this.render(Math.min(2 * devicePixelRatio, 2)), REST_MS);
+      this.rests = setTimeout(() => {
+        this.render(Math.min(2 * devicePixelRatio, 2));
+        dataset.picture = "still";
+      }, REST_MS);
     });
   }
 

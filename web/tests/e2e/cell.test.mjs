@@ -5,7 +5,7 @@ import { execFileSync } from "node:child_process";
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { difference, launch, open, serve, settled } from "./setup.mjs";
+import { difference, launch, open, serve, settled, still } from "./setup.mjs";
 
 let server, browser;
 /** A plate in front of the robot, beside it a fence; a spindle of 160 mm meets it at y' = 300 mm. */
@@ -77,7 +77,7 @@ async function send(page, y, z) {
 const label = (page, kind) => page.locator(`.labels .label.${kind}`).first();
 const stage = async (page) => {
   await page.mouse.move(0, 0);
-  await page.waitForTimeout(500);
+  await still(page);
   return page.locator(".stage canvas").screenshot();
 };
 

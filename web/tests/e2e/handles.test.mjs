@@ -3,7 +3,7 @@
 
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { launch, open, serve, settled } from "./setup.mjs";
+import { drawn, launch, open, serve, settled } from "./setup.mjs";
 
 let browser, server;
 before(async () => {
@@ -18,11 +18,13 @@ after(async () => {
 /** In the view of the plate its centre is the centre of the picture. Arrows and rings are 0.19 of half its height. */
 async function plate(page) {
   await page.click(".views button:nth-child(5)");
+  await drawn(page);
   const box = await page.locator(".stage canvas").boundingBox();
   return { x: box.x + box.width / 2, y: box.y + box.height / 2, arm: 0.16 * (box.height / 2), ring: 0.19 * (box.height / 2) };
 }
 
 async function drag(page, from, to) {
+  await drawn(page);
   await page.mouse.move(from.x, from.y);
   await page.mouse.move(from.x + 1, from.y);
   await page.mouse.down();

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { after, before, test } from "node:test";
-import { client, difference, launch, open, serve, settled, STUDY } from "./setup.mjs";
+import { client, difference, drawn, launch, open, serve, settled, STUDY } from "./setup.mjs";
 
 const text = readFileSync(STUDY, "utf8");
 let server, browser, request;
@@ -21,7 +21,7 @@ const KEYS = ["in_plane_um", "normal_um", "full_um", "in_plane_u_um", "probabili
 test("a map: each layer has its legend, its colours and its value in the tooltip", async () => {
   const page = await open(browser, server.url);
   await page.click(".views button:nth-child(5)");
-  await page.waitForTimeout(300);
+  await drawn(page);
   const sent = [];
   page.on("request", (r) => r.url().endsWith("/api/view") && sent.push(r.postDataJSON().layer));
   assert.deepEqual(await page.locator("#layer option").evaluateAll((all) => all.map((o) => o.value)), KEYS);
@@ -35,7 +35,7 @@ test("a map: each layer has its legend, its colours and its value in the tooltip
     const title = await page.locator("#layer option:checked").innerText();
     assert.match(await legend.getAttribute("aria-label"), new RegExp(`^${title}: `));
     await page.mouse.move(box.x + box.width * 0.41, box.y + box.height * 0.4);
-    await page.waitForTimeout(200);
+    await page.locator(".tip dt").first().waitFor();
     const rows = Object.fromEntries(await page.locator(".tip dt").evaluateAll((all) => all.map((dt) => [dt.textContent, dt.nextElementSibling.textContent])));
     const [y, z] = rows["y′, z′"].replace(" mm", "").replaceAll("−", "-").split(", ").map(Number);
     const { y_mm, z_mm } = answer.maps[0].grid;

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { after, before, test } from "node:test";
-import { client, launch, open, serve, settled, STUDY, um } from "./setup.mjs";
+import { client, drawn, launch, open, serve, settled, STUDY, um } from "./setup.mjs";
 
 const text = readFileSync(STUDY, "utf8");
 let server, browser, request;
@@ -152,10 +152,10 @@ test("holes: verdict, tolerance and the robot at the worst", async () => {
 test("a click on the plate sends the robot there", async () => {
   const page = await open(browser, server.url);
   await page.click(".views button:nth-child(5)");
-  await page.waitForTimeout(300);
+  await drawn(page);
   const box = await page.locator(".stage").boundingBox();
   await page.mouse.move(box.x + box.width * 0.42, box.y + box.height * 0.4);
-  await page.waitForTimeout(200);
+  await page.locator(".tip dd").first().waitFor();
   const place = (await page.locator(".tip dd").first().innerText()).replace(" mm", "").replaceAll("−", "-").split(", ").map(Number);
   await page.mouse.click(box.x + box.width * 0.42, box.y + box.height * 0.4);
   await settled(page);

@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { existsSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { after, before, test } from "node:test";
 import { gzipSync } from "node:zlib";
-import { difference, launch, open, serious, serve, settled } from "./setup.mjs";
+import { difference, launch, open, serious, serve, settled, still } from "./setup.mjs";
 
 const KEPT = new URL("./pictures/", import.meta.url).pathname;
 const DIST = new URL("../../dist/", import.meta.url).pathname;
@@ -121,7 +121,7 @@ for (const dark of [false, true])
     test(`${name} looks as it was kept, ${dark ? "dark" : "light"}`, async () => {
       const page = await open(browser, server.url, { dark, scale: 0.5 });
       await go(page);
-      await page.waitForTimeout(700);
+      await still(page);
       await page.evaluate(() => document.querySelectorAll(".pace").forEach((e) => (e.style.visibility = "hidden")));
       const now = await page.screenshot();
       const file = `${KEPT}${name}-${dark ? "dark" : "light"}.png`;

@@ -4,7 +4,7 @@
 import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
 import { after, before, test } from "node:test";
-import { client, difference, launch, open, serious, serve, settled, um } from "./setup.mjs";
+import { client, difference, drawn, launch, open, serious, serve, settled, still, um } from "./setup.mjs";
 
 /** The pocket of the examples with coarse cells, and further keys of its part. */
 const coarse = (given, keys = "") => given.replace("cell_mm = 0.5", `cell_mm = 1\n${keys}`);
@@ -32,7 +32,7 @@ after(async () => {
 const points = (page) => page.evaluate(() => Number(document.querySelector(".stage").dataset.part || NaN));
 const shown = (page, expected = count) => page.waitForFunction((expected) => document.querySelector(".stage").dataset.part === String(expected) && document.querySelector("#panel-machined").getAttribute("aria-busy") === "false", expected, { timeout: 60_000 });
 const picture = async (page) => {
-  await page.waitForTimeout(500);
+  await still(page);
   return page.locator(".stage > canvas").screenshot();
 };
 const plain = (words) => words.replace(/[\u00a0\u202f]/g, " ").replaceAll("−", "-");
@@ -43,7 +43,7 @@ async function opened(options) {
   const page = await open(browser, server.url, options);
   await shown(page);
   await page.click(".views button:nth-child(5)");
-  await page.waitForTimeout(200);
+  await drawn(page);
   return page;
 }
 

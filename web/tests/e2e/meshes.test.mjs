@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { mkdirSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { difference, launch, open, serve, settled } from "./setup.mjs";
+import { difference, launch, open, serve, settled, still, until } from "./setup.mjs";
 
 let server, browser;
 /** Joints of a made-up arm: name, where in the link before, axis; the box of the link behind it, from and to, m. */
@@ -62,20 +62,22 @@ after(async () => {
   await server?.stop();
 });
 
-/** The page with the robot, after it has requested its meshes, and their responses. */
-async function shown(options) {
+/** The page with the robot, after it has requested this number of meshes, and their responses. */
+async function shown(expected = LINKS.length) {
   const page = await open(browser, server.url, { answers: false });
   const requests = [];
   page.on("response", (r) => r.url().endsWith("/api/mesh") && requests.push(r.status()));
   await settled(page);
+  await until(() => requests.length >= expected);
+  // A further request would follow at once.
   await page.waitForTimeout(400);
   await page.locator(".shown summary").click();
-  return { page, requests, own: page.locator(".shown label", { hasText: "CAD meshes" }), ...options };
+  return { page, requests, own: page.locator(".shown label", { hasText: "CAD meshes" }) };
 }
 /** The scene; the pointer far away, so that nothing of it depends on where it is. */
 async function stage(page) {
   await page.mouse.move(0, 0);
-  await page.waitForTimeout(400);
+  await still(page);
   return page.locator(".stage canvas").screenshot();
 }
 const same = async (page, a, b) => (await difference(page, a, b)) < 0.001;
@@ -108,7 +110,7 @@ test("a mesh that is none, and one that is missing: the arm is drawn from its ch
   assert.deepEqual(broken.page.complaints, []);
   await broken.page.context().close();
   rmSync(join(server.folder, "meshes/l3.stl"));
-  const missing = await shown();
+  const missing = await shown(0);
   assert.deepEqual(missing.requests, []);
   assert.ok(!(await missing.own.isVisible()));
   await missing.page.context().close();

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { difference, launch, open, serious, serve, settled } from "./setup.mjs";
+import { difference, drawn, launch, open, serious, serve, settled, still } from "./setup.mjs";
 
 let server, browser;
 before(async () => {
@@ -26,20 +26,20 @@ test("the pinned arm stays, and the verdict says how much the worst deviation ch
   const page = await open(browser, server.url);
   await pinButton(page).press("Enter");
   // In the same posture one arm would hide the other.
-  await page.waitForTimeout(100);
+  await drawn(page);
   assert.ok(await page.locator(".label.pinned").evaluateAll((all) => all.every((e) => getComputedStyle(e).visibility === "hidden")));
   assert.equal(await page.locator(".verdict-change").count(), 0);
   await change(page, "#field-x", "700");
   await page.waitForFunction(() => [...document.querySelectorAll(".label.pinned")].some((e) => getComputedStyle(e).visibility === "visible"));
   // It is a part of the picture that can be hidden.
   const shot = () => page.locator(".stage").screenshot();
-  await page.waitForTimeout(700);
+  await still(page);
   const shown = await shot();
   await page.locator(".shown summary").press("Enter");
   const box = page.locator(".shown label", { hasText: "Pinned arm" }).locator("input");
   await box.press("Space");
   await page.locator(".shown summary").press("Enter");
-  await page.waitForTimeout(700);
+  await still(page);
   assert.ok((await difference(page, shown, await shot())) > 0.001);
   // A change that is within the uncertainties is not in the verdict, and the line says so.
   await change(page, "#field-x", "1300");
@@ -68,7 +68,7 @@ test("the difference map is about zero, at the same points only, and ends with t
   assert.equal(number(ends[1]), -number(ends[2]));
   // The tooltip has the difference too.
   await page.click(".views button:nth-child(5)");
-  await page.waitForTimeout(300);
+  await drawn(page);
   const stage = await page.locator(".stage").boundingBox();
   await page.mouse.move(stage.x + stage.width / 2 + 9, stage.y + stage.height / 2 + 7);
   assert.match(await page.locator(".stage .tip").innerText(), /minus pinned\s+[+−]?[\d.]+ µm/);

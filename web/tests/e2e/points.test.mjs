@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { after, before, test } from "node:test";
-import { client, launch, open, serve, settled } from "./setup.mjs";
+import { client, drawn, launch, open, serve, settled } from "./setup.mjs";
 
 let browser;
 before(async () => {
@@ -70,7 +70,7 @@ test("a path of 13 000 points: values under the pointer, a click sends the robot
   assert.ok(scene.points.xyz_mm.length > 4000);
   assert.match(await page.locator(".label.force").textContent(), /^force [\d.]+ N$/);
   await page.click(".views button:nth-child(5)");
-  await page.waitForTimeout(300);
+  await drawn(page);
   const at = await overPoint(page);
   const rows = await tip(page);
   const point = Number(rows.Point) - 1;

@@ -108,7 +108,18 @@ export async function settled(page) {
     null,
     { timeout: 60_000 },
   );
-  await page.waitForTimeout(60);
+  await drawn(page);
+}
+
+/** The scene is drawn as it is now: what the pointer is over is found. */
+export const drawn = (page) => page.waitForFunction(() => document.querySelector(".stage")?.dataset.picture !== "waits", null, { timeout: 60_000 });
+
+/** The scene is drawn in its final resolution. */
+export const still = (page) => page.waitForFunction(() => document.querySelector(".stage").dataset.picture === "still", null, { timeout: 60_000 });
+
+/** Waits until this is true; it is asked again and again. */
+export async function until(isTrue) {
+  for (const end = Date.now() + 60_000; !(await isTrue()); await new Promise((done) => setTimeout(done, 20))) if (Date.now() > end) throw new Error(`not within a minute: ${isTrue}`);
 }
 
 /** A micrometre value as the page writes it. */

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { launch, open, serious, serve, settled } from "./setup.mjs";
+import { drawn, launch, open, serious, serve, settled } from "./setup.mjs";
 
 let server, browser;
 before(async () => {
@@ -46,7 +46,7 @@ for (const [name, width, height] of [["a tablet", 820, 1180], ["a phone", 390, 8
     // A tap on the plate sends the robot.
     await page.locator(".stage").scrollIntoViewIfNeeded();
     await page.click(".views button:nth-child(5)");
-    await page.waitForTimeout(300);
+    await drawn(page);
     const now = await page.locator(".stage").boundingBox();
     await page.mouse.click(now.x + now.width / 2 + 9, now.y + now.height / 2 + 7);
     await settled(page);

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
 import { after, before, test } from "node:test";
-import { client, launch, open, serious, serve, settled, um } from "./setup.mjs";
+import { client, drawn, launch, open, serious, serve, settled, um } from "./setup.mjs";
 
 /** Two operations, each with its tool; feeds are known. */
 const APT = `PARTNO/1
@@ -268,12 +268,12 @@ test("deviation vectors are thinned by zoom: about as many in the picture near a
   const page = await open(browser, server.url);
   const whiskers = () => page.evaluate(() => Number(document.querySelector(".stage").dataset.vectors));
   await page.click(".views button:nth-child(5)");
-  await page.waitForTimeout(400);
+  await drawn(page);
   const far = await whiskers();
   const box = await page.locator(".stage").boundingBox();
   await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
   for (let i = 0; i < 8; i++) await page.mouse.wheel(0, -240);
-  await page.waitForTimeout(400);
+  await drawn(page);
   const near = await whiskers();
   for (const count of [far, near]) assert.ok(count >= 24 && count <= 96, `${far} ${near}`);
   await page.context().close();

@@ -171,3 +171,23 @@ fn the_worst_hole_is_one_that_can_be_drilled() {
     let said = run.json()["answer"].to_string();
     assert!(said.contains(&headline), "{said}");
 }
+
+#[test]
+fn a_hole_that_cannot_be_drilled_does_not_decide_a_comparison() {
+    let cell = Cell::new();
+    cell.armill(&["new", "rivets", "--example", "kr210-rivets"])
+        .fine();
+    let holes = &cell
+        .armill(&["run", "rivets", "--json", "--no-pictures", "--out", "out"])
+        .fine()
+        .json()["holes"][0];
+    let compared = cell
+        .armill(&["compare", "rivets", "--json", "--no-pictures", "--out", "cells"])
+        .fine();
+    let numbers = &compared.json()["analyses"][0]["cells"][0];
+    for key in ["mean_in_plane_um", "max_in_plane_um", "fraction_within"] {
+        assert!((number(&numbers[key]) - number(&holes[key])).abs() < 1e-9, "{key}");
+    }
+    let point = &holes["worst_holes"][0]["point"];
+    assert_eq!(numbers["max_in_plane_u_um"], point["in_plane_u_um"]);
+}

@@ -95,7 +95,7 @@ pub(super) fn of_cell(
                 let setting = &analysis.path.setting;
                 let requested = holes
                     .next()
-                    .map(|given| AnalysisNumbers::holes(given, setting.tolerance, &found.answers));
+                    .map(|given| AnalysisNumbers::holes(given, setting.tolerance, found));
                 let traits = traits::of_holes(study, analysis);
                 entries.extend(requested.map(|numbers| entry(numbers, traits, setting.least_gain)));
             }

@@ -3,9 +3,11 @@
 //! `95 %`: the deviation that 95 of 100 reached points do not exceed (nearest rank). Points have equal weight,
 //! independent apart.
 
-use armill_core::kernel::Answers;
+use armill_core::kernel::{Answers, Evaluation};
 use armill_core::map::Counts;
+use armill_core::optimize::HolesFound;
 use armill_core::units::to_um;
+use armill_study::analysis::holes::answer::decisive;
 use armill_study::analysis::path::PathAnalysis;
 use armill_study::answer::{
     CountsAnswer, HolesAnswer, MapAnswer, PathAnswer, PointAnswer, SettingAnswer, VolumeAnswer,
@@ -80,13 +82,19 @@ impl AnalysisNumbers {
         }
     }
 
-    /// A set of holes and its tolerance, m.
-    pub(super) fn holes(given: &HolesAnswer, limit: f64, answers: &Answers) -> AnalysisNumbers {
+    /// A set of holes and its tolerance, m; deviations are those of the holes that can be drilled.
+    pub(super) fn holes(given: &HolesAnswer, limit: f64, found: &HolesFound) -> AnalysisNumbers {
         let worst = given.worst_holes.first().map(|worst| &worst.point);
+        let numbers = numbers(&given.branch, limit, &found.answers, worst, &given.setting);
+        let decisive = decisive(found).into_iter().map(|(_, evaluation)| evaluation);
         AnalysisNumbers {
             name: given.name.clone(),
             kind: "holes",
-            numbers: numbers(&given.branch, limit, answers, worst, &given.setting),
+            numbers: CellNumbers {
+                fraction_within: given.fraction_within,
+                fraction_within_and_inside_joint_limits: given.fraction_within,
+                ..numbers.with_deviations_of(decisive)
+            },
         }
     }
 
@@ -130,17 +138,9 @@ fn numbers(
     setting: &SettingAnswer,
 ) -> CellNumbers {
     let counts = Counts::of(answers, limit);
-    let mut deviations: Vec<f64> = answers
-        .evaluations()
-        .map(|(_, evaluation)| to_um(evaluation.in_plane))
-        .collect();
-    deviations.sort_by(f64::total_cmp);
-    let reached = deviations.len();
-    let normal = answers
-        .evaluations()
-        .map(|(_, evaluation)| to_um(evaluation.normal.abs()));
+    let reached = answers.evaluations().count();
     let share = worst.and_then(|worst| worst.mostly_by(&setting.contributors));
-    CellNumbers {
+    let numbers = CellNumbers {
         cell: String::new(),
         robot: String::new(),
         compliance_assumed: false,
@@ -149,16 +149,35 @@ fn numbers(
         reached,
         inside_joint_limits: reached - counts.outside_joint_limits,
         tolerance_um: setting.tolerance_um,
-        mean_in_plane_um: (reached > 0).then(|| deviations.iter().sum::<f64>() / reached as f64),
-        p95_in_plane_um: nearest_rank(&deviations, 0.95),
-        max_in_plane_um: deviations.last().copied(),
+        mean_in_plane_um: None,
+        p95_in_plane_um: None,
+        max_in_plane_um: None,
         max_in_plane_u_um: worst.and_then(|worst| worst.in_plane_u_um),
-        max_normal_um: normal.max_by(f64::total_cmp),
+        max_normal_um: None,
         fraction_within: counts.fraction_within(),
         fraction_within_and_inside_joint_limits: counts.fraction_within_and_inside_joint_limits(),
         counts: CountsAnswer::of(&counts),
         mostly_by: share.map(|(name, _)| name.to_owned()),
         mostly_by_percent: share.and_then(|(_, part)| part).map(|part| part * 100.0),
+    };
+    numbers.with_deviations_of(answers.evaluations().map(|(_, evaluation)| evaluation))
+}
+
+impl CellNumbers {
+    /// The same with the deviations of these points.
+    fn with_deviations_of<'a>(self, points: impl Iterator<Item = &'a Evaluation>) -> CellNumbers {
+        let (mut across, along): (Vec<f64>, Vec<f64>) = points
+            .map(|evaluation| (to_um(evaluation.in_plane), to_um(evaluation.normal.abs())))
+            .unzip();
+        across.sort_by(f64::total_cmp);
+        let count = across.len();
+        CellNumbers {
+            mean_in_plane_um: (count > 0).then(|| across.iter().sum::<f64>() / count as f64),
+            p95_in_plane_um: nearest_rank(&across, 0.95),
+            max_in_plane_um: across.last().copied(),
+            max_normal_um: along.into_iter().max_by(f64::total_cmp),
+            ..self
+        }
     }
 }
 

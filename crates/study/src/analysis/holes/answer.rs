@@ -146,26 +146,11 @@ pub fn answer(robot: &Robot, name: &str, analysis: &HolesAnalysis, found: &Holes
     };
     order.sort_by(|a, b| key(*b).total_cmp(&key(*a)));
     let is_refused = |index: usize| is_refused(found, index);
-    let reached: Vec<usize> = order
-        .iter()
-        .copied()
-        .filter(|index| answers.points[*index].is_ok())
-        .collect();
-    let drilled: Vec<usize> = reached
-        .iter()
-        .copied()
-        .filter(|index| !is_refused(*index))
-        .collect();
-    // A hole that cannot be drilled does not decide, unless none can.
-    let counted = if drilled.is_empty() { reached } else { drilled };
-    let of_counted = |value: fn(&Evaluation) -> f64| -> Vec<f64> {
-        let evaluations = counted
-            .iter()
-            .filter_map(|index| answers.points[*index].as_ref().ok());
-        evaluations.map(|evaluation| to_um(value(evaluation))).collect()
-    };
-    let across = of_counted(|evaluation| evaluation.in_plane);
-    let depths = of_counted(|evaluation| evaluation.normal.abs());
+    let decisive = decisive(found);
+    let across = || decisive.iter().map(|(_, evaluation)| to_um(evaluation.in_plane));
+    let depths = decisive.iter().map(|(_, evaluation)| to_um(evaluation.normal.abs()));
+    let mut worst: Vec<usize> = decisive.iter().map(|(index, _)| *index).collect();
+    worst.sort_by(|a, b| key(*b).total_cmp(&key(*a)));
     let good = evaluation
         .iter()
         .filter(|(index, evaluation)| evaluation.in_plane <= setting.tolerance && !is_refused(*index))
@@ -186,9 +171,9 @@ pub fn answer(robot: &Robot, name: &str, analysis: &HolesAnalysis, found: &Holes
         refused: evaluation.iter().filter(|(index, _)| is_refused(*index)).count(),
         fraction_within: good as f64 / count.max(1) as f64,
         counts: CountsAnswer::of(&counts),
-        mean_in_plane_um: (!across.is_empty()).then(|| across.iter().sum::<f64>() / across.len() as f64),
-        max_in_plane_um: across.iter().copied().max_by(f64::total_cmp),
-        max_depth_um: depths.iter().copied().max_by(f64::total_cmp),
+        mean_in_plane_um: (!decisive.is_empty()).then(|| across().sum::<f64>() / decisive.len() as f64),
+        max_in_plane_um: across().max_by(f64::total_cmp),
+        max_depth_um: depths.max_by(f64::total_cmp),
         turns: analysis.search.spins.count,
         setting: SettingAnswer::of(robot, setting),
         file: source,
@@ -198,7 +183,7 @@ pub fn answer(robot: &Robot, name: &str, analysis: &HolesAnalysis, found: &Holes
             .as_ref()
             .and(path.forces)
             .map(|given| given.largest_mean),
-        worst_holes: counted
+        worst_holes: worst
             .iter()
             .take(WORST)
             .filter_map(|index| worst_hole(robot, analysis, found, *index))
@@ -215,6 +200,13 @@ pub fn answer(robot: &Robot, name: &str, analysis: &HolesAnalysis, found: &Holes
 pub fn is_refused(found: &HolesFound, index: usize) -> bool {
     let status = found.statuses.get(index);
     status.is_some_and(|status| *status != PostureStatus::Usable)
+}
+
+/// The holes that decide, with their indices: those that can be drilled; if none can, all that are reached.
+pub fn decisive(found: &HolesFound) -> Vec<(usize, &Evaluation)> {
+    let reached = || found.answers.evaluations();
+    let drilled: Vec<_> = reached().filter(|(index, _)| !is_refused(found, *index)).collect();
+    if drilled.is_empty() { reached().collect() } else { drilled }
 }
 
 /// Axes of hole `index`, base: x and y across it, z out of the part.
