@@ -58,7 +58,7 @@ fn point(a_deg: f64, b_deg: f64) -> [f64; 2] {
     ]
 }
 
-fn folder() -> tempfile::TempDir {
+pub fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let (mut english, mut german) = (
         "A_deg,B_deg,x_mm,y_mm,z_mm\n".to_owned(),

@@ -131,6 +131,11 @@ impl Cell {
         }
     }
 
+    /// A cell in a folder that has its files.
+    pub fn of(folder: TempDir) -> Cell {
+        Cell { folder }
+    }
+
     /// A cell with `study.toml`.
     pub fn with_study(text: &str) -> Cell {
         let cell = Cell::new();

@@ -186,7 +186,10 @@ fn a_hole_that_cannot_be_drilled_does_not_decide_a_comparison() {
         .fine();
     let numbers = &compared.json()["analyses"][0]["cells"][0];
     for key in ["mean_in_plane_um", "max_in_plane_um", "fraction_within"] {
-        assert!((number(&numbers[key]) - number(&holes[key])).abs() < 1e-9, "{key}");
+        assert!(
+            (number(&numbers[key]) - number(&holes[key])).abs() < 1e-9,
+            "{key}"
+        );
     }
     let point = &holes["worst_holes"][0]["point"];
     assert_eq!(numbers["max_in_plane_u_um"], point["in_plane_u_um"]);

@@ -45,10 +45,16 @@ fn filled_in(folder: &Path) {
     std::fs::write(folder.join("tests.csv"), filled.join("\n")).unwrap();
 }
 
-#[test]
-fn a_completed_plan_gives_the_springs_and_a_robot_for_predictions() {
+/// A folder with a completed plan.
+pub fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     filled_in(folder.path());
+    folder
+}
+
+#[test]
+fn a_completed_plan_gives_the_springs_and_a_robot_for_predictions() {
+    let folder = folder();
     let arguments = [
         "identify",
         "tests.csv",
@@ -148,8 +154,7 @@ fn a_plan_expects_displacements_by_the_compliances_of_the_robot_file() {
 
 #[test]
 fn the_table_on_the_screen_names_every_spring_and_the_error_to_expect() {
-    let folder = tempfile::tempdir().unwrap();
-    filled_in(folder.path());
+    let folder = folder();
     let arguments = [
         "identify",
         "tests.csv",

@@ -112,7 +112,7 @@ fn loads() -> String {
     text
 }
 
-fn cell() -> tempfile::TempDir {
+pub fn cell() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let work: String = part()
         .lines()

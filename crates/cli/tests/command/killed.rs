@@ -10,7 +10,7 @@ use crate::cell::{ARMILL, Cell, SMALL, files_in, what_is_half};
 /// first is 0, which is before the end on any machine. `ARMILL_KILLS=100` runs more than the few that every test run has
 /// time for. No assertion depends on what a kill catches.
 fn moments() -> Vec<f64> {
-    let count = std::env::var("ARMILL_KILLS").map_or(8, |count| count.parse().expect("ARMILL_KILLS=100"));
+    let count = std::env::var("ARMILL_KILLS").map_or(4, |count| count.parse().expect("ARMILL_KILLS=100"));
     (0..count)
         .map(|k| (f64::from(k) * 0.618_033_988_75).fract())
         .collect()

@@ -30,7 +30,7 @@ fn poses(count: u32, gear: f64, turn_deg: f64) -> String {
     text
 }
 
-fn cell(gear: f64) -> tempfile::TempDir {
+pub fn cell(gear: f64) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("lever.toml"), ROBOT).unwrap();
     std::fs::write(folder.path().join("poses.csv"), poses(150, gear, 0.0)).unwrap();

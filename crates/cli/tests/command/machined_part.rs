@@ -35,9 +35,8 @@ fn part(cell: &Cell, args: &[&str]) -> Value {
     cell.armill(&given).fine().json()["paths"][0]["machined_part"].clone()
 }
 
-/// Witness: a joint about the z axis of the base turns by `c x F_y` and moves the tool at (x, 0) by `c x^2 F_y` along y, which is across this slot.
-#[test]
-fn the_walls_of_a_slot_are_off_by_the_turn_of_one_soft_joint() {
+/// A cell whose study cuts a slot.
+pub fn slot() -> Cell {
     let cell = Cell::new();
     cell.file("cut.ngc", SLOT);
     let machined = format!("cell_mm = 0.5, {STOCK}, tool = {{ diameter_mm = 10 }}");
@@ -46,7 +45,13 @@ fn the_walls_of_a_slot_are_off_by_the_turn_of_one_soft_joint() {
         "study.toml",
         study("[0, 100, 0]", SOFT_AXIS_1, &machined, feature),
     );
-    let part = part(&cell, &[]);
+    cell
+}
+
+/// Witness: a joint about the z axis of the base turns by `c x F_y` and moves the tool at (x, 0) by `c x^2 F_y` along y, which is across this slot.
+#[test]
+fn the_walls_of_a_slot_are_off_by_the_turn_of_one_soft_joint() {
+    let part = part(&slot(), &[]);
     let at = |x_m: f64| 1e-6 * 100.0 * x_m * x_m * 1e6;
     // The last dexel of the straight wall is within half a cell of its end at x = 1.04 m.
     for (key, sign) in [("most_left_um", 1.0), ("most_gouged_um", -1.0)] {

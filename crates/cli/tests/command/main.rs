@@ -35,6 +35,7 @@ mod import;
 mod journal;
 #[cfg(unix)]
 mod killed;
+mod killed_jobs;
 mod learn;
 mod machined_part;
 mod masses;

@@ -96,7 +96,7 @@ const ARM: &str = "format = 1\nname = \"Arm\"\n\n[chain]\nsource = \"own\"\nmoti
     { about = \"z\", joint = \"J2\" },\n  { along = \"x\", length_mm = 400 },\n]\n\n[[joint]]\nname = \"J1\"\nsign = 1\nsource = \"own\"\n\n[[joint]]\nname = \"J2\"\nsign = 1\nsource = \"own\"\n\n\
     [sources.own]\nwhat = \"lengths\"\nwhere = \"here\"\nlicence = \"fact\"\n";
 
-fn folder() -> tempfile::TempDir {
+pub fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
     write("arm.toml", ARM);

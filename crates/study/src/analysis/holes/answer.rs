@@ -148,7 +148,9 @@ pub fn answer(robot: &Robot, name: &str, analysis: &HolesAnalysis, found: &Holes
     let is_refused = |index: usize| is_refused(found, index);
     let decisive = decisive(found);
     let across = || decisive.iter().map(|(_, evaluation)| to_um(evaluation.in_plane));
-    let depths = decisive.iter().map(|(_, evaluation)| to_um(evaluation.normal.abs()));
+    let depths = decisive
+        .iter()
+        .map(|(_, evaluation)| to_um(evaluation.normal.abs()));
     let mut worst: Vec<usize> = decisive.iter().map(|(index, _)| *index).collect();
     worst.sort_by(|a, b| key(*b).total_cmp(&key(*a)));
     let good = evaluation
@@ -205,8 +207,14 @@ pub fn is_refused(found: &HolesFound, index: usize) -> bool {
 /// The holes that decide, with their indices: those that can be drilled; if none can, all that are reached.
 pub fn decisive(found: &HolesFound) -> Vec<(usize, &Evaluation)> {
     let reached = || found.answers.evaluations();
-    let drilled: Vec<_> = reached().filter(|(index, _)| !is_refused(found, *index)).collect();
-    if drilled.is_empty() { reached().collect() } else { drilled }
+    let drilled: Vec<_> = reached()
+        .filter(|(index, _)| !is_refused(found, *index))
+        .collect();
+    if drilled.is_empty() {
+        reached().collect()
+    } else {
+        drilled
+    }
 }
 
 /// Axes of hole `index`, base: x and y across it, z out of the part.

@@ -1,0 +1,209 @@
+//! Every command that writes files, killed half-way: what is there is final, and the same command after it gives what an
+//! undisturbed one gives. `run` and `place` have tests of their own in `killed`.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::Instant;
+
+use crate::cell::{ARMILL, Cell};
+use crate::{calibrate, identify, journal, learn, machined_part, motion};
+
+/// A path with a table of placements.
+const RING: &str = r#"format = 1
+robot = "yaskawa/mh12"
+tolerance_um = 40
+plane = { centre_mm = [1000, 0, 800], tilt_deg = 0, half_size_mm = 100, step_mm = 50 }
+tool = { flange_from_tool_mm_deg = [0, 0, 150, 0, 0, 0] }
+load = { cases_n = [[3, 5, 5]] }
+[[analysis]]
+kind = "path"
+name = "ring"
+circle.radius_mm = 60
+step_mm = 20
+"#;
+
+/// A command with the files that it reads.
+struct Job {
+    cell: Cell,
+    arguments: &'static [&'static str],
+}
+
+fn jobs() -> Vec<Job> {
+    let of_study = |arguments| Job {
+        cell: Cell::with_study(RING),
+        arguments,
+    };
+    let of_folder = |folder, arguments| Job {
+        cell: Cell::of(folder),
+        arguments,
+    };
+    vec![
+        of_study(&["posture", "study.toml", "--step-deg", "30", "--out", "out"]),
+        of_study(&["advise", "study.toml", "--x-mm", "900,1100", "--out", "out"]),
+        of_study(&[
+            "compensate",
+            "study.toml",
+            "--program",
+            "ring.src",
+            "--out",
+            "out",
+        ]),
+        Job {
+            cell: machined_part::slot(),
+            arguments: &["run", "study.toml", "--out", "out"],
+        },
+        of_folder(
+            learn::cell(1.0),
+            &[
+                "learn",
+                "poses.csv",
+                "--robot",
+                "lever.toml",
+                "--out",
+                "mine.toml",
+                "--drawing",
+                "errors.svg",
+            ],
+        ),
+        of_folder(
+            journal::cell(),
+            &[
+                "journal",
+                "journal.toml",
+                "--work",
+                "work.csv",
+                "--next",
+                "3",
+                "--out",
+                "mine.toml",
+            ],
+        ),
+        of_folder(
+            calibrate::folder(),
+            &[
+                "calibrate",
+                "poses.csv",
+                "--robot",
+                "lever.toml",
+                "--out",
+                "mine.toml",
+                "--residuals",
+                "left.csv",
+                "--drawing",
+                "errors.svg",
+            ],
+        ),
+        of_folder(
+            identify::folder(),
+            &[
+                "identify",
+                "tests.csv",
+                "--robot",
+                "yaskawa/mh12",
+                "--tool-mm",
+                "0,60,150",
+                "--unknowns",
+                "drives",
+                "--out",
+                "mine.toml",
+            ],
+        ),
+        of_folder(
+            motion::folder(),
+            &[
+                "motion",
+                "stops.csv",
+                "--robot",
+                "arm.toml",
+                "--tool-mm",
+                "0,0,0",
+                "--zone-mm",
+                "0",
+                "--out",
+                "mine.toml",
+            ],
+        ),
+    ]
+}
+
+/// Shares of the time of an undisturbed run at which a job is killed; `ARMILL_KILLS` is their number.
+fn moments() -> Vec<f64> {
+    let count = std::env::var("ARMILL_KILLS").map_or(2, |count| count.parse().expect("ARMILL_KILLS=100"));
+    (0..count)
+        .map(|k| (0.9 + f64::from(k) * 0.618_033_988_75).fract())
+        .collect()
+}
+
+fn start(folder: &Path, arguments: &[&str]) -> Child {
+    let mut command = Command::new(ARMILL);
+    command.args(arguments).current_dir(folder);
+    command.stdout(Stdio::null()).stderr(Stdio::null());
+    command.spawn().unwrap()
+}
+
+/// All files below a folder by their paths, but those whose names show that they are of armill alone: lock, list of its files, unfinished.
+fn tree(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut files = BTreeMap::new();
+    let mut folders = vec![folder.to_owned()];
+    while let Some(next) = folders.pop() {
+        for entry in std::fs::read_dir(next).unwrap() {
+            let path = entry.unwrap().path();
+            let name = path.file_name().unwrap().to_string_lossy();
+            if path.is_dir() {
+                folders.push(path);
+            } else if !name.starts_with(".armill-") {
+                let name = path.strip_prefix(folder).unwrap().to_string_lossy().into_owned();
+                files.insert(name, std::fs::read(path).unwrap());
+            }
+        }
+    }
+    files
+}
+
+/// A new folder with these files.
+fn with(files: &BTreeMap<String, Vec<u8>>) -> Cell {
+    let cell = Cell::new();
+    for (name, bytes) in files {
+        cell.file(name, bytes);
+    }
+    cell
+}
+
+#[test]
+fn every_job_leaves_final_files_and_is_repeated_without_force() {
+    for Job { cell, arguments } in jobs() {
+        let given = tree(cell.path());
+        let begun = Instant::now();
+        let ended = start(cell.path(), arguments).wait().unwrap();
+        let whole_time = begun.elapsed();
+        assert!(ended.success(), "{arguments:?}");
+        let undisturbed = tree(cell.path());
+        assert!(undisturbed.len() > given.len(), "{arguments:?} writes nothing");
+        let mut left_by_kills = Vec::new();
+        for moment in moments() {
+            let killed = with(&given);
+            let mut child = start(killed.path(), arguments);
+            std::thread::sleep(whole_time.mul_f64(moment));
+            child.kill().unwrap();
+            child.wait().unwrap();
+            let left = tree(killed.path());
+            for (name, bytes) in &left {
+                assert!(
+                    undisturbed.get(name) == Some(bytes),
+                    "{arguments:?} after {moment:.3}: `{name}` is not final"
+                );
+            }
+            left_by_kills.push(left.len() - given.len());
+            let again = start(killed.path(), arguments).wait().unwrap();
+            assert!(again.success(), "{arguments:?} again after {moment:.3}");
+            let differ = tree(killed.path()) != undisturbed;
+            assert!(!differ, "{arguments:?} again after {moment:.3} gives other files");
+        }
+        let of = undisturbed.len() - given.len();
+        println!(
+            "{}: files left by each kill {left_by_kills:?} of {of}",
+            arguments[0]
+        );
+    }
+}
