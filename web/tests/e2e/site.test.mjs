@@ -211,11 +211,16 @@ test("a job that is cancelled ends at once, and the next one runs", async () => 
   const { text } = await request(page, "GET", "/api/study");
   const fine = text.replaceAll(/step_mm = \d+/g, "step_mm = 1");
   const { id } = await request(page, "POST", "/api/jobs", { kind: "run", text: fine });
-  const state = async (job) => (await request(page, "GET", `/api/jobs/${job}`)).state;
-  await page.waitForFunction((id) => globalThis.armill.request("GET", `/api/jobs/${id}`).then(({ state, done }) => state === "running" && done > 0), id);
+  /** The state of a job as soon as it is this one, or is over. */
+  const reached = async (job, is) => {
+    await page.waitForFunction(([id, is]) => globalThis.armill.request("GET", `/api/jobs/${id}`).then(({ state, done }) => (state === is && (is !== "running" || done > 0)) || ["done", "failed", "cancelled"].includes(state)), [job, is], { timeout: 240_000 });
+    const { state, error } = await request(page, "GET", `/api/jobs/${job}`);
+    assert.equal(state, is, JSON.stringify(error));
+  };
+  await reached(id, "running");
   await request(page, "DELETE", `/api/jobs/${id}`);
-  assert.equal(await state(id), "cancelled");
+  await reached(id, "cancelled");
   const next = await request(page, "POST", "/api/jobs", { kind: "run", text, options: { no_pictures: true } });
-  await page.waitForFunction((id) => globalThis.armill.request("GET", `/api/jobs/${id}`).then(({ state }) => state === "done"), next.id, { timeout: 240_000 });
+  await reached(next.id, "done");
   await page.context().close();
 });

@@ -102,3 +102,28 @@ fn has_venv() -> bool {
         .stderr(Stdio::null());
     command.status().is_ok_and(|status| status.success())
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::command::{cargo, printed};
+    use std::collections::BTreeSet;
+
+    /// The packages that cargo builds for these arguments, each with its features.
+    fn built(arguments: &[&str]) -> BTreeSet<String> {
+        let mut tree = cargo(&["tree", "--format", "{p} {f}", "--prefix", "none"]);
+        let printed = printed(tree.args(arguments)).unwrap();
+        let lines = printed.lines().map(|line| line.trim_end_matches(" (*)"));
+        lines.map(str::to_owned).collect()
+    }
+
+    #[test]
+    fn the_wheel_is_built_of_what_the_tests_are_built_of() {
+        let tests = built(&["--workspace", "--edges", "normal,build,dev"]);
+        let wheel = built(&["--package", "armill-py", "--edges", "normal,build"]);
+        let again: Vec<&String> = wheel.difference(&tests).collect();
+        assert!(
+            again.is_empty(),
+            "with other features these are built a second time for the wheel, and all that use them: {again:#?}"
+        );
+    }
+}
