@@ -6,16 +6,21 @@
 //! `step`: one of them; `page`: those of the page of `armill serve`; `python`: those of the Python package;
 //! `count`: the tests in what it printed; `room`: whether the disk has room for them.
 //!
-//! | step | fails where |
-//! |---|---|
-//! | the page, built | see `page` |
-//! | unit and integration tests | one does not pass, in any crate of the workspace |
-//! | documentation tests | an example in the documentation does not compile or run |
-//! | documentation | a link leads nowhere, or rustdoc has another warning |
-//! | the kernel for NEON | it does not compile; left out without the standard library for that target |
-//! | the documentation | its tests fail, a page cannot be built, or a link, picture or anchor leads nowhere |
-//! | the page, tested | see `page` |
-//! | the Python package | see `python` |
+//! First everything is built, then it is tested. Lists of steps of a stage run at the same time, since a browser and a single Python
+//! leave processors unused; the output of the first list is printed at once, that of a step of the others when the step has ended.
+//!
+//! | stage | steps | fails where |
+//! |---|---|---|
+//! | built | the page | see `page` |
+//! | | unit and integration tests | a crate or a test does not compile |
+//! | | the Python package: environment | a package of the tests cannot be installed |
+//! | tested | unit and integration tests | one does not pass, in any crate of the workspace |
+//! | | documentation tests | an example in the documentation does not compile or run |
+//! | | documentation | a link leads nowhere, or rustdoc has another warning |
+//! | | the kernel for NEON | it does not compile; left out without the standard library for that target |
+//! | | the Python package | see `python` |
+//! | | the documentation | its tests fail, a page cannot be built, or a link, picture or anchor leads nowhere |
+//! | | the page | see `page` |
 //!
 //! Exit codes as for any task; a run without a single test could not run.
 
@@ -31,39 +36,47 @@ use crate::{COULD_NOT_RUN, FOUND_WRONG, rustup};
 use count::Count;
 use std::env;
 use std::process::{Command, ExitCode, Stdio};
-use step::{Outcome, Step};
+use std::thread;
+use step::{Outcome, Output, Step};
 
 /// Description in the list of tasks.
 pub const ABOUT: &str = "Runs all tests, also on a fresh machine: unit, integration, documentation, the page in a browser, Python.";
 
-/// What makes up "all tests", in order. A new step, an installation included, is one line here.
-fn steps() -> Vec<Step> {
+/// What makes up "all tests": stages, one after the other, of lists that run at the same time. A new step, an installation included, is
+/// one line here.
+fn stages() -> Vec<Vec<Vec<Step>>> {
     // First, so that the program whose tests run contains the page.
-    let mut steps = page::build();
-    steps.extend([
-        Step::new("unit and integration tests", test_runner()),
+    let mut built = page::build();
+    built.push(Step::new(
+        "unit and integration tests, built",
+        test_runner(&["--no-run"]),
+    ));
+    python::ensure();
+    let environment = python::environment();
+
+    let mut tested = vec![
+        Step::new("unit and integration tests", test_runner(&["--no-fail-fast"])),
         Step::new(
             "documentation tests",
             cargo(&["test", "--doc", "--workspace", "--no-fail-fast"]),
         ),
         Step::new("documentation", documentation_without_warnings()),
-    ]);
+    ];
     match rustup::add_target(NEON) {
-        Ok(()) => steps.push(Step::new(
+        Ok(()) => tested.push(Step::new(
             "the kernel for NEON, compiled only",
             cargo(&["check", "-p", "armill-core", "--target", NEON]),
         )),
         Err(problem) => eprintln!("the kernel for NEON is not compiled: {problem}"),
     }
-    steps.extend(site_documentation());
-    steps.extend(page::tests());
-    steps.extend(python::steps());
-    steps
+    tested.extend(python::tests());
+    let mut pages = site_documentation();
+    pages.extend(page::tests());
+    vec![vec![built, environment], vec![tested, pages]]
 }
 
-/// Installs Python where it is missing; gives the steps that build the documentation next to the page without a server.
+/// The steps that build the documentation next to the page without a server.
 fn site_documentation() -> Vec<Step> {
-    python::ensure();
     match documentation() {
         Ok(made) => made
             .into_iter()
@@ -94,7 +107,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
         }
     }
     room::warn_if_little();
-    let outcomes: Vec<Outcome> = steps().into_iter().map(Step::run).collect();
+    let outcomes: Vec<Outcome> = stages().into_iter().flat_map(run_together).collect();
     println!("\n{}", table(&outcomes));
     let total = outcomes
         .iter()
@@ -102,6 +115,23 @@ pub fn run(arguments: &[String]) -> ExitCode {
         .fold(Count::default(), Count::plus);
     println!("tests: {total}");
     verdict(&outcomes, total)
+}
+
+/// Runs lists of steps at the same time, the steps of a list one after the other.
+fn run_together(lists: Vec<Vec<Step>>) -> Vec<Outcome> {
+    let run = |steps: Vec<Step>, output| steps.into_iter().map(|step| step.run(output)).collect();
+    let mut lists = lists.into_iter();
+    let first = lists.next().unwrap_or_default();
+    thread::scope(|scope| {
+        let others: Vec<_> = lists
+            .map(|steps| scope.spawn(move || -> Vec<Outcome> { run(steps, Output::Kept) }))
+            .collect();
+        let mut outcomes: Vec<Outcome> = run(first, Output::Live);
+        for other in others {
+            outcomes.extend(other.join().expect("a step that fails has an outcome"));
+        }
+        outcomes
+    })
 }
 
 /// Installs these packages with apt-get, and says so.
@@ -126,28 +156,17 @@ fn install(packages: &[&str]) {
     }
 }
 
-/// Nextest where it is installed (it shows progress and runs in parallel), else the runner every cargo has.
-fn test_runner() -> Command {
-    if has_cargo_tool("nextest") {
-        return cargo(&[
-            "nextest",
-            "run",
-            "--workspace",
-            "--no-fail-fast",
-            "--no-tests=pass",
-        ]);
-    }
-    eprintln!("cargo-nextest is not installed: cargo test is used instead");
-    // `--doc` has a step of its own, and these targets leave it out.
-    cargo(&[
-        "test",
-        "--workspace",
-        "--no-fail-fast",
-        "--lib",
-        "--bins",
-        "--tests",
-        "--examples",
-    ])
+/// Nextest where it is installed (it shows progress and runs in parallel), else the runner every cargo has; with these options.
+fn test_runner(options: &[&str]) -> Command {
+    let mut command = if has_cargo_tool("nextest") {
+        cargo(&["nextest", "run", "--workspace"])
+    } else {
+        eprintln!("cargo-nextest is not installed: cargo test is used instead");
+        // `--doc` has a step of its own, and these targets leave it out.
+        cargo(&["test", "--workspace", "--lib", "--bins", "--tests", "--examples"])
+    };
+    command.args(options);
+    command
 }
 
 /// Builds the documentation of our crates; a broken link or a warning fails.
@@ -205,6 +224,30 @@ mod tests {
     fn table_names_verdict_and_wall_time() {
         let table = table(&[outcome(true), outcome(false)]);
         assert_eq!(table, "ok         1.2 s  made up\nFAILED     1.2 s  made up\n");
+    }
+
+    #[test]
+    fn lists_of_a_stage_are_run_at_the_same_time_and_each_in_order() {
+        // Each waits for a file that the other list writes: one after the other they would never end.
+        let folder = tempfile::tempdir().unwrap();
+        let step = |name, script: &str| {
+            let mut command = Command::new("sh");
+            command.args(["-c", script]).current_dir(folder.path());
+            Step::new(name, command)
+        };
+        let wait = |file: &str| {
+            format!("for i in $(seq 6000); do test -e {file} && exit 0; sleep 0.01; done; exit 1")
+        };
+        let outcomes = run_together(vec![
+            vec![step("a", "touch a"), step("b", &wait("c"))],
+            vec![
+                step("c", &format!("({}) && touch c", wait("a"))),
+                step("d", "false"),
+            ],
+        ]);
+        let of = |outcome: &Outcome| (outcome.name, outcome.passed);
+        let found: Vec<_> = outcomes.iter().map(of).collect();
+        assert_eq!(found, [("a", true), ("b", true), ("c", true), ("d", false)]);
     }
 
     #[test]

@@ -30,11 +30,19 @@ pub fn ensure() {
     }
 }
 
-/// Installs what is missing, and gives the steps.
-pub fn steps() -> Vec<Step> {
-    ensure();
+/// The steps that make the environment of the tests.
+pub fn environment() -> Vec<Step> {
     let mut environment = Command::new("python3");
     environment.args(["-m", "venv", VENV]);
+    let tools = ["-m", "pip", "install", "-q", "-r", "tests/requirements.txt"];
+    vec![
+        Step::new("the Python package: environment", environment),
+        Step::new("the Python package: tools", in_package("python", &tools)),
+    ]
+}
+
+/// The steps that build and test the package in that environment.
+pub fn tests() -> Vec<Step> {
     let python = |arguments: &[&str]| in_package("python", arguments);
     let wheels = at_root(WHEELS).to_string_lossy().into_owned();
     let interpreter = at_root(VENV).join("bin/python").to_string_lossy().into_owned();
@@ -59,10 +67,7 @@ pub fn steps() -> Vec<Step> {
         &wheels,
         "armill",
     ];
-    let tools = ["-m", "pip", "install", "-q", "-r", "tests/requirements.txt"];
     vec![
-        Step::new("the Python package: environment", environment),
-        Step::new("the Python package: tools", python(&tools)),
         Step::new("the Python package: wheel", in_package("maturin", &wheel)),
         Step::new("the Python package: installed", python(&installed)),
         Step::new("the Python package: tests", python(&["-m", "pytest"])),
