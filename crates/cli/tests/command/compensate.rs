@@ -14,7 +14,7 @@ cases_n = [[-60, 40, 25]]
 const RING: &str = "G21 G90 G17\nG0 X40 Y0 Z10\nG0 Z0\nG3 X40 Y0 I-40 J0 F600\nG1 X0 Y20\nG0 Z10\nM2\n";
 
 /// A cell with this program in it.
-fn cell(program: &str, rest: &str) -> Cell {
+pub fn cell(program: &str, rest: &str) -> Cell {
     let cell = Cell::new();
     cell.file("ring.ngc", RING);
     cell.file(

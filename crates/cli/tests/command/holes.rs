@@ -175,14 +175,23 @@ fn the_worst_hole_is_one_that_can_be_drilled() {
 #[test]
 fn a_hole_that_cannot_be_drilled_does_not_decide_a_comparison() {
     let cell = Cell::new();
-    cell.armill(&["new", "rivets", "--example", "kr210-rivets"])
-        .fine();
-    let holes = &cell
+    for name in ["rivets", "others"] {
+        cell.armill(&["new", name, "--example", "kr210-rivets"]).fine();
+    }
+    let run = cell
         .armill(&["run", "rivets", "--json", "--no-pictures", "--out", "out"])
-        .fine()
-        .json()["holes"][0];
+        .fine();
+    let holes = &run.json()["holes"][0];
     let compared = cell
-        .armill(&["compare", "rivets", "--json", "--no-pictures", "--out", "cells"])
+        .armill(&[
+            "compare",
+            "rivets",
+            "others",
+            "--json",
+            "--no-pictures",
+            "--out",
+            "cells",
+        ])
         .fine();
     let numbers = &compared.json()["analyses"][0]["cells"][0];
     for key in ["mean_in_plane_um", "max_in_plane_um", "fraction_within"] {
