@@ -226,8 +226,8 @@ fn problems_of_a_robot_file_are_reported_at_the_robot_file() {
 
 #[test]
 fn an_unknown_frame_or_branch_is_reported_with_the_valid_ones() {
-    check("tolerance_um", "base = \"flor\"\ntolerance_um").refused(&[
-        "study.toml:4:8",
+    check("base_link", "flor").refused(&[
+        "study.toml:2:8",
         "no frame `flor`",
         "base_link, controller",
     ]);
