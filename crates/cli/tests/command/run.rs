@@ -486,7 +486,9 @@ fn the_description_of_a_robot_is_shown_with_it_and_is_no_warning_and_its_note_is
         env!("CARGO_MANIFEST_DIR"),
         "/../../robots/yaskawa/mh12.toml"
     ));
-    let file = file.unwrap().replace("\ndescription = \"", "\nnote = \"Worn.\"\ndescription = \"");
+    let file = file
+        .unwrap()
+        .replace("\ndescription = \"", "\nnote = \"Worn.\"\ndescription = \"");
     let cell = Cell::with_study(&SMALL.replace("yaskawa/mh12", "own.toml"));
     cell.file("own.toml", file);
     cell.armill(&["run", ".", "--no-pictures"]).fine();

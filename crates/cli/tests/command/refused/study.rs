@@ -226,11 +226,7 @@ fn problems_of_a_robot_file_are_reported_at_the_robot_file() {
 
 #[test]
 fn an_unknown_frame_or_branch_is_reported_with_the_valid_ones() {
-    check("base_link", "flor").refused(&[
-        "study.toml:2:8",
-        "no frame `flor`",
-        "base_link, controller",
-    ]);
+    check("base_link", "flor").refused(&["study.toml:2:8", "no frame `flor`", "base_link, controller"]);
     let posture = format!("{SMALL}\n[posture]\nbranch = \"sideways\"\n");
     check_text(posture).refused(&[
         "study.toml:16:10",
