@@ -251,25 +251,26 @@ impl Problems {
         let mut parts = Vec::new();
         let (mut shown, mut hidden) = (0, 0);
         for problem in &self.0 {
-            let group = &alike[&(problem.file(), pattern(problem.message()))];
-            if group.len() > MOST_ALIKE && !std::ptr::eq(group[0], problem) {
+            let pattern = pattern(problem.message());
+            let group = &alike[&(problem.file(), pattern.clone())];
+            let more = if group.len() > MOST_ALIKE {
+                group.len() - 1
+            } else {
+                0
+            };
+            if more > 0 && !std::ptr::eq(group[0], problem) {
                 continue;
             }
             if shown == MOST_SHOWN {
-                hidden += 1;
+                hidden += 1 + more;
                 continue;
             }
             parts.push(problem.rendered(&renderer));
             shown += 1;
-        }
-        for ((_, pattern), group) in alike {
-            if group.len() > MOST_ALIKE {
-                let more = group.len() - 1;
+            if more > 0 {
                 let last = group[more].line;
-                let is_one = group
-                    .iter()
-                    .all(|problem| problem.message() == group[0].message());
-                let message = if is_one { group[0].message() } else { &pattern };
+                let is_one = group.iter().all(|other| other.message() == problem.message());
+                let message = if is_one { problem.message() } else { &pattern };
                 parts.push(format!(
                     "... and {more} more up to line {last}: {}",
                     visible(message)
