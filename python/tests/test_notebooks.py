@@ -15,10 +15,10 @@ NAMES = sorted(path.stem for path in FOLDER.glob("*.ipynb"))
 SYNTHETIC = "SYNTHETIC tests: ARMILL_SAMPLES is not set"
 
 
-def ran(name):
-    """Text and number of pictures of a notebook, run in its folder."""
+def ran(name, folder=FOLDER):
+    """Text and number of pictures of a notebook, run in a folder, by default its own."""
     notebook = nbformat.read(FOLDER / f"{name}.ipynb", as_version=4)
-    nbclient.NotebookClient(notebook, timeout=300, resources={"metadata": {"path": str(FOLDER)}}).execute()
+    nbclient.NotebookClient(notebook, timeout=300, resources={"metadata": {"path": str(folder)}}).execute()
     outputs = [output for cell in notebook.cells for output in cell.get("outputs", [])]
     assert not [output["text"] for output in outputs if output.get("name") == "stderr"]
     text = "".join(output["text"] for output in outputs if output.get("name") == "stdout")
@@ -68,6 +68,13 @@ def test_the_springs_of_the_fanuc_are_the_published_ones():
 def test_without_measured_tests_synthetic_ones_are_used_and_reported(monkeypatch):
     monkeypatch.delenv("ARMILL_SAMPLES", raising=False)
     text, pictures = ran("fanuc-identification")
+    assert pictures == 3 and SYNTHETIC in text
+
+
+@pytest.mark.filterwarnings("default")
+def test_the_fanuc_notebook_runs_outside_the_repository(monkeypatch, tmp_path):
+    monkeypatch.delenv("ARMILL_SAMPLES", raising=False)
+    text, pictures = ran("fanuc-identification", tmp_path)
     assert pictures == 3 and SYNTHETIC in text
 
 

@@ -48,7 +48,7 @@ def robots() -> dict[str, str]:
             for joint in robot["joint"]
         ]
         columns = ["joint", "lower limit (deg)", "upper limit (deg)", "largest speed (deg/s)", "compliance (rad/(N m))", "standard uncertainty (rad/(N m))"]
-        note = robot.get("note", "")
+        note = " ".join(robot[key] for key in ("note", "description") if key in robot)
         details.append(f"## {name}\n\n**{robot['name']}**, [robot file]({link}). {note}\n\n{table(columns, joints)}\nSources:\n\n{cited(robot['sources'])}\n")
     head = (
         "# Robot library\n\nEach robot is named as in `robot = \"yaskawa/mh12\"` of a [study file](../docs/guide/study-file.md), and can be used in every command. "

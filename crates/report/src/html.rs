@@ -195,7 +195,10 @@ impl Report {
             let figures: String = captions.iter().map(|link| format!("<li>{link}</li>")).collect();
             let inner = match captions.len() {
                 0 => String::new(),
-                count => format!("<details><summary>{count} figures</summary><ul>{figures}</ul></details>"),
+                count => {
+                    let noun = if count == 1 { "figure" } else { "figures" };
+                    format!("<details><summary>{count} {noun}</summary><ul>{figures}</ul></details>")
+                }
             };
             format!(
                 "<li><a href=\"#s{}\">{}</a>{inner}</li>\n",

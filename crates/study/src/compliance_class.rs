@@ -119,13 +119,15 @@ impl ComplianceClass {
         })
     }
 
-    /// Its compliances for `robot`, with `u = (factor - 1) c` as standard uncertainty.
+    /// Its compliances for `robot`, with `u = (factor - 1) c` as standard uncertainty. Prismatic joints in front of the arm
+    /// are rigid.
     ///
     /// # Errors
-    /// A robot with another structure than six revolute joints.
+    /// A robot with another structure than six revolute joints, on prismatic ones or not.
     pub fn compliance_of(self, robot: &Robot) -> Result<Vec<JointCompliance>, StudyError> {
         let joints = robot.joints().len();
-        if joints != 6 || (0..joints).any(|joint| robot.slides(joint)) {
+        let rails = rails(robot);
+        if joints != rails + 6 || (rails..joints).any(|joint| robot.slides(joint)) {
             let message = format!(
                 "class {} gives the compliances of six revolute joints, but `{}` has {joints} joints of another structure",
                 self.name(),
@@ -133,18 +135,23 @@ impl ComplianceClass {
             );
             return Err(StudyError::value(message, "give the compliance of each joint"));
         }
+        let rigid = JointCompliance {
+            value: 0.0,
+            standard_uncertainty: 0.0,
+        };
         let joint = |joint: ClassValue| JointCompliance {
             value: joint.value,
             standard_uncertainty: (joint.factor - 1.0) * joint.value,
         };
-        Ok(self.values()?.map(joint).to_vec())
+        let arm = self.values()?.map(joint);
+        Ok(std::iter::repeat_n(rigid, rails).chain(arm).collect())
     }
 
-    /// The caution in every result with compliances of this class.
+    /// The caution in every result of `robot` with compliances of this class.
     ///
     /// # Errors
     /// As [`ComplianceClass::values`].
-    pub fn caution(self) -> Result<String, StudyError> {
+    pub fn caution(self, robot: &Robot) -> Result<String, StudyError> {
         let factors = self.values()?.map(|joint| joint.factor);
         let (least, most) = factors.iter().fold((f64::INFINITY, 0.0_f64), |(least, most), f| {
             (least.min(*f), most.max(*f))
@@ -154,8 +161,17 @@ impl ComplianceClass {
         } else {
             format!("{least:.1} to {most:.1}")
         };
+        let names = robot.joints().iter().take(rails(robot));
+        let names: Vec<&str> = names.map(|joint| joint.name.as_str()).collect();
+        let rigid = match names.is_empty() {
+            true => String::new(),
+            false => format!(
+                " No class has prismatic joints: {} is taken as rigid.",
+                names.join(", ")
+            ),
+        };
         Ok(format!(
-            "The joint compliances are assumed, not measured: values of the class {}, each of which may be wrong by a factor of {factor}. Use them to compare postures and placements, not to predict absolute deviations.",
+            "The joint compliances are assumed, not measured: values of the class {}, each of which may be wrong by a factor of {factor}. Use them to compare postures and placements, not to predict absolute deviations.{rigid}",
             self.name()
         ))
     }
@@ -169,6 +185,12 @@ impl ComplianceClass {
 /// The classes, as a hint.
 pub const CLASSES: &str =
     "classes by payload: \"light\" (up to 20 kg), \"medium\" (20 to 100 kg), \"heavy\" (100 to 300 kg)";
+
+/// Number of prismatic joints in front of the arm, such as that of a rail.
+fn rails(robot: &Robot) -> usize {
+    let joints = 0..robot.joints().len();
+    joints.take_while(|joint| robot.slides(*joint)).count()
+}
 
 /// Geometric mean over the robots and the largest factor from it to one of them, joint by joint.
 fn mean_and_spread(arms: &[&str]) -> Result<[ClassValue; 6], StudyError> {

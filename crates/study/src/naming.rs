@@ -60,7 +60,7 @@ pub fn base_from_reference(robot: &Robot, name: &str) -> Result<Isometry, String
 }
 
 /// Name of the reference frame of a controller, if that is not `base_link`.
-const CONTROLLER: &str = "controller";
+pub(crate) const CONTROLLER: &str = "controller";
 
 /// Reference frame of the controller of this robot, in base; with its positioner at these joint positions, rad (m), from the
 /// table back, or where it stands in the study.

@@ -83,6 +83,8 @@ pub struct RobotDetails {
     pub title: String,
     /// What a user should know before trusting it.
     pub note: Option<String>,
+    /// Its zeros, frames and origin in words.
+    pub description: Option<String>,
     /// Elementary motions as text, base to flange.
     pub chain: Vec<String>,
     /// Joints with signs and zeros of the controller, base to flange.
@@ -216,6 +218,7 @@ impl RobotDetails {
             name: robot.name().to_owned(),
             title: found.title.clone(),
             note: found.note.clone(),
+            description: found.description.clone(),
             chain: chain(found),
             joints: (0..robot.joints().len())
                 .map(|index| JointDetails::of(found, index))

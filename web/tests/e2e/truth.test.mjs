@@ -132,8 +132,14 @@ test("along a path the arm keeps the branch of the answer", async () => {
 });
 
 test("warnings have a badge at the verdict that shows them in place", async () => {
-  const page = await open(browser, server.url);
-  const { warnings } = await request("POST", "/api/answer", { text, analysis: "Fig. 6" });
+  // Without `base` the part may be 450 mm off.
+  const named = 'base = "base_link"\n';
+  assert.ok(text.includes(named));
+  const unnamed = text.replace(named, "");
+  const own = await serve(() => unnamed);
+  const page = await open(browser, own.url);
+  const { warnings } = await request("POST", "/api/answer", { text: unnamed, analysis: "Fig. 6" });
+  assert.equal(warnings.length, 1);
   const badge = page.locator(".badge");
   assert.equal(plain(await badge.innerText()), `⚠ ${warnings.length === 1 ? "1 warning" : `${warnings.length} warnings`}`);
   const box = await badge.boundingBox();
@@ -144,6 +150,7 @@ test("warnings have a badge at the verdict that shows them in place", async () =
   await page.keyboard.press("Escape");
   assert.equal(await page.locator("#warning-list").isVisible(), false);
   await page.context().close();
+  await own.stop();
 });
 
 test("a part out of reach: no stale colours, the nearest reachable place, and a button that moves it there", async () => {

@@ -18,7 +18,7 @@ pub(crate) struct CheckArguments {
     /// Print the JSON Schema of the study file instead
     #[arg(long)]
     pub schema: bool,
-    /// Print problems as JSON on stdout
+    /// Print problems and warnings as JSON on stdout
     #[arg(long)]
     pub json: bool,
 }

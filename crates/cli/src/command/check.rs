@@ -1,12 +1,12 @@
 //! `armill check`: all problems of a study.
 //!
-//! Problems are printed on stderr, with `--json` on stdout too. If there are none, stderr reports the values that are
-//! probably slips, as warnings, and the size of the study.
+//! Problems are printed on stderr. If there are none, stderr reports the values that are probably slips, as warnings,
+//! and the size of the study. With `--json` problems and warnings are printed on stdout too.
 //! `--schema` prints the JSON Schema of the study file instead.
 
 use armill_formats::document::schema_json;
+use armill_study::answer::CheckAnswer;
 use armill_study::file::format::StudyFile;
-use armill_study::file::slips;
 use armill_study::run::points_to_evaluate;
 use armill_study::{StudyError, studies};
 
@@ -25,9 +25,9 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<Outcome, StudyError> {
     }
     let found = studies::find(arguments.study.as_deref().unwrap_or_else(|| ".".as_ref()))?;
     let study = found.read()?;
-    let warnings = slips::of_study(&study);
+    let answer = CheckAnswer::of(&study);
     if arguments.json {
-        print(r#"{"problems":[]}"#)?;
+        print(&serde_json::to_string(&answer)?)?;
     }
     let counted = |count: usize, [one, several]: [&str; 2]| {
         format!("{count} {}", if count == 1 { one } else { several })
@@ -36,10 +36,10 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<Outcome, StudyError> {
         counted(study.analyses.len(), ["analysis", "analyses"]),
         counted(points_to_evaluate(&study), ["point", "points"]),
     );
-    for warning in &warnings {
+    for warning in &answer.warnings {
         say(&format!("warning: {warning}"));
     }
-    let verdict = match warnings.len() {
+    let verdict = match answer.warnings.len() {
         0 => "fine".to_owned(),
         count => counted(count, ["warning", "warnings"]),
     };

@@ -140,5 +140,5 @@ pub(super) fn with_compliances(
     let assumed = class.compliance_of(&found.robot)?;
     let robot = found.robot.clone().with_other_compliance(assumed);
     found.robot = robot.map_err(|error| StudyError::value(error.to_string(), ""))?;
-    class.caution().map(Some)
+    class.caution(&found.robot).map(Some)
 }

@@ -167,3 +167,52 @@ fn a_class_removes_the_covariance_of_other_compliances() {
         uncertainty("plain.toml", &class)
     );
 }
+
+#[test]
+fn an_arm_on_a_rail_has_the_class_values_of_the_arm_and_a_rigid_rail() {
+    let arm = include_str!("../../../../robots/kuka/kr120r2500pro.toml");
+    let with_rail = arm
+        .replacen("motions = [", "motions = [\n  { along = \"y\", joint = \"E1\" },", 1)
+        .replacen(
+            "[[joint]]",
+            "[[joint]]\nname = \"E1\"\nsign = 1\nlimits_mm = [-3000, 3000]\nsource = \"ros-industrial\"\n\n[[joint]]",
+            1,
+        );
+    let cell = Cell::with_study(CLASS);
+    cell.file("railed.toml", with_rail);
+    cell.file("rail.toml", CLASS.replace("kuka/kr120r2500pro", "railed.toml"));
+    cell.armill(&["run", "study.toml", "--out", "without", "--no-pictures"])
+        .fine();
+    let said = cell
+        .armill(&["run", "rail.toml", "--out", "with", "--no-pictures"])
+        .fine();
+    assert!(
+        said.err
+            .contains("No class has prismatic joints: E1 is taken as rigid."),
+        "{}",
+        said.err
+    );
+    let (without, with) = (cell.result("without"), cell.result("with"));
+    let rail = &with["robot"]["joints"][0];
+    assert_eq!(
+        (&rail["name"], &rail["compliance_um_per_n"]),
+        (&"E1".into(), &0.0.into())
+    );
+    let of_joint = |result: &serde_json::Value, index: usize| {
+        number(&result["robot"]["joints"][index]["compliance_rad_per_n_m"])
+    };
+    for joint in 0..6 {
+        assert_eq!(of_joint(&with, joint + 1), of_joint(&without, joint));
+    }
+    let largest = |result: &serde_json::Value| number(&result["maps"][0]["max_in_plane_um"]);
+    assert!((largest(&with) - largest(&without)).abs() < 1e-6);
+    let pose = [
+        "pose",
+        "railed.toml",
+        "--compliance-class",
+        "heavy",
+        "--joints-deg",
+        "0,0,-90,90,0,0,0",
+    ];
+    cell.armill(&pose).fine();
+}

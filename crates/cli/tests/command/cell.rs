@@ -12,7 +12,7 @@ pub const ARMILL: &str = env!("CARGO_BIN_EXE_armill");
 
 /// A study of 25 points that runs in a moment; no optional table, so that others can be appended.
 pub const SMALL: &str = r#"format = 1
-title = "Small"
+base = "base_link"
 robot = "yaskawa/mh12"
 tolerance_um = 130
 

@@ -212,7 +212,7 @@ fn a_valid_study_is_reported_with_its_number_of_points() {
         .armill(&["check", ".", "--json"])
         .fine()
         .json();
-    assert_eq!(json, serde_json::json!({ "problems": [] }));
+    assert_eq!(json, serde_json::json!({ "problems": [], "warnings": [] }));
 }
 
 #[test]
@@ -229,6 +229,8 @@ fn check_warns_of_values_that_are_probably_slips_as_run_does() {
         checked.err,
         format!("warning: {warning}\nstudy.toml: 1 warning; 2 analyses, 50 points\n")
     );
+    let json = cell.armill(&["check", "study.toml", "--json"]).fine().json();
+    assert_eq!(json, serde_json::json!({ "problems": [], "warnings": [warning] }));
     let run = cell.armill(&["run", "study.toml", "--no-pictures"]).fine();
     assert_eq!(run.err.matches(warning).count(), 1, "{}", run.err);
 }

@@ -302,7 +302,7 @@ fn heights_of_the_controller_frame_give_the_map_450_mm_higher() {
     cell.file("floor/study.toml", SMALL);
     let lower = SMALL
         .replace("[1000, 0, 800]", "[1000, 0, 350]")
-        .replace("tolerance_um", "base = \"controller\"\ntolerance_um");
+        .replace("base = \"base_link\"", "base = \"controller\"");
     cell.file("controller/study.toml", lower);
     let run = |folder: &str| {
         cell.armill(&["run", folder, "--no-pictures"]).fine();
@@ -451,4 +451,55 @@ fn an_example_runs_from_an_empty_folder() {
     let result = cell.result("groove");
     assert!(result["maps"].as_array().unwrap().len() > 20 && result["paths"].as_array().unwrap().len() >= 5);
     assert_eq!(result["robot"]["name"], "yaskawa/mh12");
+}
+
+#[test]
+fn limits_of_another_source_are_a_warning_only_where_a_result_depends_on_them() {
+    let warnings = |centre: &str, branch: &str| {
+        let text = SMALL
+            .replace("[1000, 0, 800]", centre)
+            .replace("half_size_mm = 100", "half_size_mm = 400");
+        let cell = Cell::with_study(&format!("{text}\n[posture]\nbranch = \"{branch}\"\n"));
+        cell.armill(&["run", ".", "--no-pictures"]).fine();
+        cell.result("out")["warnings"].clone()
+    };
+    // Neither the limits of joint U nor the frame of the controller matter.
+    assert_eq!(warnings("[1000, 0, 800]", "nominal"), serde_json::json!([]));
+    // U is at up to 200.7 deg; the robot file permits 150 deg, the other source 175 deg.
+    let beyond = warnings("[800, 0, 1000]", "front elbow-down").to_string();
+    let said = "Joint U may not reach all points: it is at 125.3 to 200.7 deg, and another source";
+    assert!(
+        beyond.contains(said) && beyond.contains("gives the limits -175 to 175 deg"),
+        "{beyond}"
+    );
+    assert_eq!(beyond.matches("another source").count(), 1, "{beyond}");
+    // All postures are within both limits, but points without one are lost at those of the robot file.
+    let lost = warnings("[450, 0, 1000]", "best").to_string();
+    let said = "Points outside the limits of joint U may be within reach: another source";
+    assert!(lost.contains(said), "{lost}");
+    assert_eq!(lost.matches("another source").count(), 1, "{lost}");
+}
+
+#[test]
+fn the_description_of_a_robot_is_shown_with_it_and_is_no_warning_and_its_note_is_one() {
+    let file = std::fs::read_to_string(concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../robots/yaskawa/mh12.toml"
+    ));
+    let file = file
+        .unwrap()
+        .replace("\ndescription = \"", "\nnote = \"Worn.\"\ndescription = \"");
+    let cell = Cell::with_study(&SMALL.replace("yaskawa/mh12", "own.toml"));
+    cell.file("own.toml", file);
+    cell.armill(&["run", ".", "--no-pictures"]).fine();
+    assert_eq!(cell.result("out")["warnings"], serde_json::json!(["Worn."]));
+    let shown = cell.armill(&["robots", "own.toml"]).fine().out;
+    assert!(
+        shown.contains("Worn.\nThe robot frame of the Yaskawa controller"),
+        "{shown}"
+    );
+    let json = cell.armill(&["robots", "own.toml", "--json"]).fine().json();
+    assert_eq!(json["note"], "Worn.");
+    let description = json["description"].as_str().unwrap();
+    assert!(description.starts_with("The robot frame"), "{description}");
 }

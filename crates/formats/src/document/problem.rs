@@ -29,7 +29,7 @@ pub const MOST_PROBLEMS: usize = 200;
 /// More problems than this are counted, not shown; `--json` has them all.
 const MOST_SHOWN: usize = 100;
 
-/// More problems with the same message than this are counted, not shown.
+/// Of more problems than this that differ in numbers alone the first is shown, and the rest is counted.
 const MOST_ALIKE: usize = 3;
 
 /// The columns a line of source may take before it is cut around its problem.
@@ -183,7 +183,8 @@ impl fmt::Display for Problem {
 
 /// Everything that is wrong in a file, in the order of the text.
 ///
-/// `Display` is the plain text for a terminal: source, caret and hint of the first 100 problems, of those with the same message of the first three.
+/// `Display` is the plain text for a terminal: source, caret and hint of the first 100 problems; of many that differ in
+/// numbers alone those of the first.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
 #[serde(transparent)]
 pub struct Problems(Vec<Problem>);
@@ -235,32 +236,41 @@ impl Problems {
         serde_json::to_value(self).expect("strings, numbers and lists of them always serialise")
     }
 
-    /// The first 100 problems with an empty line between, and how many more there are; of problems with the same message
-    /// the first three.
+    /// The first 100 problems with an empty line between, and how many more there are; of many that differ in numbers
+    /// alone the first.
     fn rendered(&self, renderer: &Renderer) -> String {
         let renderer = renderer
             .clone()
             .decor_style(DecorStyle::Ascii)
             .term_width(SHOWN_WIDTH);
-        let mut alike: BTreeMap<(&str, &str), Vec<usize>> = BTreeMap::new();
-        let mut parts = Vec::new();
-        let mut shown = 0;
+        let mut alike: BTreeMap<(&str, String), Vec<&Problem>> = BTreeMap::new();
         for problem in &self.0 {
-            let lines = alike.entry((problem.file(), problem.message())).or_default();
-            lines.push(problem.line);
-            if lines.len() <= MOST_ALIKE && shown < MOST_SHOWN {
-                parts.push(problem.rendered(&renderer));
-                shown += 1;
-            }
+            let group = alike.entry((problem.file(), pattern(problem.message())));
+            group.or_default().push(problem);
         }
-        let mut hidden = self.0.len() - shown;
-        for ((_, message), lines) in alike {
-            if let [.., last] = lines[..]
-                && lines.len() > MOST_ALIKE
-                && shown < MOST_SHOWN
-            {
-                let more = lines.len() - MOST_ALIKE;
-                hidden -= more;
+        let mut parts = Vec::new();
+        let (mut shown, mut hidden) = (0, 0);
+        for problem in &self.0 {
+            let pattern = pattern(problem.message());
+            let group = &alike[&(problem.file(), pattern.clone())];
+            let more = if group.len() > MOST_ALIKE {
+                group.len() - 1
+            } else {
+                0
+            };
+            if more > 0 && !std::ptr::eq(group[0], problem) {
+                continue;
+            }
+            if shown == MOST_SHOWN {
+                hidden += 1 + more;
+                continue;
+            }
+            parts.push(problem.rendered(&renderer));
+            shown += 1;
+            if more > 0 {
+                let last = group[more].line;
+                let is_one = group.iter().all(|other| other.message() == problem.message());
+                let message = if is_one { problem.message() } else { &pattern };
                 parts.push(format!(
                     "... and {more} more up to line {last}: {}",
                     visible(message)
@@ -272,6 +282,32 @@ impl Problems {
         }
         parts.join("\n\n")
     }
+}
+
+/// A message with `...` in place of its numbers, except in names between backquotes.
+fn pattern(message: &str) -> String {
+    let in_number = |c: char| c.is_ascii_digit() || c == '.';
+    let mut pattern = String::new();
+    for (index, part) in message.split('`').enumerate() {
+        if index > 0 {
+            pattern.push('`');
+        }
+        if index % 2 == 1 {
+            pattern.push_str(part);
+            continue;
+        }
+        let mut rest = part;
+        while let Some(start) = rest.find(|c: char| c.is_ascii_digit()) {
+            let end = rest[start..]
+                .find(|c| !in_number(c))
+                .map_or(rest.len(), |length| start + length);
+            pattern.push_str(rest[..start].strip_suffix('-').unwrap_or(&rest[..start]));
+            pattern.push_str("...");
+            rest = &rest[end..];
+        }
+        pattern.push_str(rest);
+    }
+    pattern
 }
 
 impl fmt::Display for Problems {

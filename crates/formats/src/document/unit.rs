@@ -134,6 +134,13 @@ const RENAMED: &[(&str, &str)] = &[
     ("sure", "rank_by"),
     ("above-limit", "above-tolerance"),
     ("within-limit", "within-tolerance"),
+    ("greatest", "peak"),
+    ("value", "peak"),
+    ("start", "threshold"),
+    ("u_length_mm", "length_u_mm"),
+    ("feed_mm_min", "feed_mm_per_min"),
+    ("rapid_mm_min", "rapid_mm_per_min"),
+    ("program", "path"),
 ];
 
 /// The present name of a field or choice that was renamed, and the advice; `None` if the table has no such name.

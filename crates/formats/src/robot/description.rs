@@ -20,6 +20,8 @@ pub struct RobotDescription {
     pub title: String,
     /// What a user should know before trusting it.
     pub note: Option<String>,
+    /// Its zeros, frames and origin in words.
+    pub description: Option<String>,
     /// What its reader assumed or left out, one sentence each; empty for our own robot files.
     pub remarks: Vec<String>,
     /// Payload, kg, if known.
@@ -92,6 +94,7 @@ impl RobotDescription {
         RobotDescription {
             title: robot.name().to_owned(),
             note: None,
+            description: None,
             remarks: Vec::new(),
             payload_kg: None,
             controller: None,

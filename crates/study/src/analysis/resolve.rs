@@ -223,6 +223,7 @@ impl Resolver<'_> {
         let usual = self
             .robot
             .map_or(crate::BASE_LINK, |found| usual_reference(&found.robot));
+        let base_is_given = base_name.is_some();
         let base_name = base_name.unwrap_or_else(|| usual.to_owned());
         let base_from_reference = self.base_from_reference(log, &base_name);
         let choice = self.choice(log);
@@ -297,6 +298,7 @@ impl Resolver<'_> {
         let tolerance = from_um(tolerance_um);
         Some(Setting {
             base_name,
+            base_is_given,
             base_from_reference,
             flange_from_tool,
             model,

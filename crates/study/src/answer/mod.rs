@@ -19,12 +19,15 @@
 //! ```
 //!
 //! The parts are those of the kinds of [`crate::analysis`], which `by_kind` collects; `statement` and `sentence`
-//! interpret them.
+//! interpret them; `check` is the answer to the check of a study, `limit_warnings` warns of disputed limits.
 
 mod by_kind;
+mod check;
+mod limit_warnings;
 mod sentence;
 mod statement;
 
+pub use check::CheckAnswer;
 pub use statement::{Reading, StatementAnswer};
 
 pub use crate::analysis::holes::answer::{HoleAnswer, HolesAnswer, WorstHole};
@@ -38,7 +41,6 @@ pub use crate::analysis::volume::answer::VolumeAnswer;
 
 use armill_core::load::CuttingLaw;
 use armill_core::robot::BacklashSide;
-use armill_formats::robot::OtherLimits;
 use armill_formats::sources::Source;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -134,7 +136,7 @@ pub fn answer(study: &Study, done: &[AnalysisResult<'_>]) -> StudyAnswer {
         Some(Err(reason)) => (None, Some(format!("The measurement is not compared: {reason}."))),
         None => (None, None),
     };
-    let mut warnings = warnings(study, &answers);
+    let mut warnings = warnings(study, done, &answers);
     let of_measured = measured.iter().flat_map(|given| &given.warnings);
     warnings.extend(of_measured.map(|warning| format!("Measured: {warning}.")));
     warnings.extend(unmeasured);
@@ -256,9 +258,9 @@ fn sources(study: &Study) -> Vec<Source> {
 }
 
 /// What a user should know before relying on the answer, from the robot to its points: assumed compliances, limits that
-/// sources disagree about, what is out of reach or outside joint limits, a record with an uncertain start, masses
+/// sources disagree about where the results depend on them, what is out of reach or outside joint limits, a record with an uncertain start, masses
 /// without gravity, the note of the robot file.
-fn warnings(study: &Study, answers: &AnalysisAnswers) -> Vec<String> {
+fn warnings(study: &Study, done: &[AnalysisResult<'_>], answers: &AnalysisAnswers) -> Vec<String> {
     let mut warnings = Vec::new();
     warnings.extend(study.own_compliance.iter().filter_map(|own| own.caution.clone()));
     warnings.extend(slips::of_study(study));
@@ -266,21 +268,7 @@ fn warnings(study: &Study, answers: &AnalysisAnswers) -> Vec<String> {
         let unknown = uncertainty_words::warning(&setting.arm(&study.robot.robot));
         warnings.extend(unknown.filter(|warning| !warnings.contains(warning)));
     }
-    for i in joint_order(&study.robot.robot) {
-        let notes = study.robot.joint_notes.get(i);
-        for limits in notes.iter().flat_map(|note| &note.other_limits) {
-            let OtherLimits {
-                limits_deg: [lower, upper],
-                source,
-                note,
-            } = limits;
-            let name = &study.robot.robot.joints()[i].name;
-            let note = note.as_ref().map_or(String::new(), |note| format!(" ({note})"));
-            warnings.push(format!(
-                "Limits of joint {name}: another source ({source}) gives {lower} to {upper} deg{note}."
-            ));
-        }
-    }
+    warnings.extend(limit_warnings::warnings(study, done, answers));
     for map in &answers.maps {
         if map.counts.within + map.counts.above_tolerance + map.counts.in_collision == 0 {
             warnings.push(format!(

@@ -26,16 +26,16 @@ pub struct OwnCompliance {
 }
 
 impl OwnCompliance {
-    /// Source and caution of `[compliance]`.
+    /// Source and caution of `[compliance]` for `robot`.
     ///
     /// # Errors
     /// A class that cannot be read: a defect of the library.
-    pub(super) fn of(table: &ComplianceTable) -> Result<OwnCompliance, StudyError> {
+    pub(super) fn of(table: &ComplianceTable, robot: &Robot) -> Result<OwnCompliance, StudyError> {
         let given = table.source.clone();
         Ok(match table.class {
             Some(class) => OwnCompliance {
                 source: given.unwrap_or_else(|| class.source()),
-                caution: Some(class.caution()?),
+                caution: Some(class.caution(robot)?),
             },
             None => OwnCompliance {
                 source: given.unwrap_or_default(),

@@ -303,6 +303,7 @@ impl Parsed {
         robot
             .sources
             .extend(actual.into_iter().flat_map(|actual| actual.sources));
+        let own_compliance = (file.compliance.as_ref()).map(|table| OwnCompliance::of(table, &robot.robot));
         Ok(Study {
             controller,
             title: file
@@ -310,7 +311,7 @@ impl Parsed {
                 .clone()
                 .unwrap_or_else(|| format!("Deviation of {} under load", robot.title)),
             question: file.question.clone(),
-            own_compliance: file.compliance.as_ref().map(OwnCompliance::of).transpose()?,
+            own_compliance: own_compliance.transpose()?,
             robot,
             analyses,
             place: file.place.clone(),

@@ -8,6 +8,7 @@
 //! | angle in deg | it is a multiple of pi/4 or pi/12 to the digits that people write: 0.7854, 1.571, 3.14 |
 //! | plane centre | it is nearer than `INSIDE_BASE_MM` to the origin of the base, where the robot stands |
 //! | TCP | it is nearer than `SHORT_TOOL_MM` to the flange, but not on it, or farther than `LONG_TOOL_MM` |
+//! | no `base` | the frame of the controller is not base_link |
 //! | force | it is larger than the weight of the payload |
 
 use armill_core::frame::fixed_angles;
@@ -17,12 +18,15 @@ use armill_formats::robot::RobotDescription;
 
 use crate::file::resolve::Study;
 use crate::input::setting::Setting;
+use crate::naming::CONTROLLER;
 use crate::number::{decimals, without_rounding};
 
 /// A plane whose centre is nearer than this to the origin of the base is inside the robot, mm.
 const INSIDE_BASE_MM: f64 = 20.0;
 /// A shorter tool is no tool, mm.
 const SHORT_TOOL_MM: f64 = 1.0;
+/// Frames that are nearer to each other are one, mm.
+const SAME_FRAME_MM: f64 = 0.01;
 /// No arm carries a longer tool, mm.
 const LONG_TOOL_MM: f64 = 5e3;
 /// Difference of a number in rad, as people write it, from a multiple of pi/4; a tenth of it of pi/12.
@@ -56,6 +60,7 @@ pub fn of_study(study: &Study) -> Vec<String> {
 /// The likely slips in the setting of one analysis, each a sentence.
 fn warnings(described: &RobotDescription, setting: &Setting) -> Vec<String> {
     let mut warnings = Vec::new();
+    warnings.extend(frame(described, setting));
     warnings.extend(angles(setting));
     warnings.extend(plane(described, setting));
     warnings.extend(tool(setting));
@@ -90,6 +95,29 @@ fn angles(setting: &Setting) -> Vec<String> {
         );
     }
     found
+}
+
+/// No frame is named, and the controller of the robot has its own.
+fn frame(described: &RobotDescription, setting: &Setting) -> Option<String> {
+    let robot = &described.robot;
+    if setting.base_is_given || robot.chain().ground().part_is_in_hand() {
+        return None;
+    }
+    let controller = robot.frames().iter().find(|frame| frame.name == CONTROLLER)?;
+    let origin = controller.base_from_frame.translation.vector.map(to_mm);
+    if origin.norm() < SAME_FRAME_MM {
+        return None;
+    }
+    let given = origin.map(without_rounding);
+    Some(format!(
+        "The part may be {} mm off: the study names no `base`, so its coordinates are relative to base_link; those on the \
+         pendant are relative to the frame `{CONTROLLER}`, which is at ({}, {}, {}) mm. Write `base = \"{CONTROLLER}\"` \
+         or `base = \"base_link\"`.",
+        without_rounding(origin.norm()),
+        given.x,
+        given.y,
+        given.z
+    ))
 }
 
 fn plane(described: &RobotDescription, setting: &Setting) -> Option<String> {

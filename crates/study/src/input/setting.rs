@@ -22,6 +22,8 @@ use crate::uncertainty_words::inputs_without_uncertainty;
 pub struct Setting {
     /// Name of the frame that coordinates count from.
     pub base_name: String,
+    /// Whether the study names that frame.
+    pub base_is_given: bool,
     /// That frame in base.
     pub base_from_reference: Isometry,
     /// Flange to tool centre point.

@@ -41,7 +41,7 @@ pub(super) fn run(name: &str, arguments: &RobotsArguments) -> Result<Outcome, St
 fn as_text(found: &RobotDescription) -> String {
     let robot = &found.robot;
     let mut lines = vec![format!("{} ({})", found.title, robot.name())];
-    lines.extend(found.note.iter().cloned());
+    lines.extend(found.note.iter().chain(&found.description).cloned());
     lines.push(String::new());
     lines.push(
         "Chain of elementary motions, base to flange (right-handed; joints in the sense of the chain):"

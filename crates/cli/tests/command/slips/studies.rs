@@ -6,6 +6,7 @@ use crate::cell::{Cell, MH12_URDF};
 /// A study without mistakes.
 const STUDY: &str = r#"format = 1
 robot = "yaskawa/mh12"
+base = "base_link"
 tolerance_um = 60
 plane = { centre_mm = [1000, 0, 800], tilt_deg = 0, half_size_mm = 100, step_mm = 50 }
 load = { cases_n = [[3, 5, 5]] }
@@ -100,6 +101,12 @@ pub fn all() -> Vec<Slip> {
         ),
         study("TCP in um", [pose, "[0, 0, 150000, 0, 0, 0]"], 0, "is it in um?"),
         study(
+            "no `base`, and a controller with another frame",
+            ["base = \"base_link\"\n", ""],
+            0,
+            "The part may be 450 mm off: the study names no `base`",
+        ),
+        study(
             "20 kN on an arm for 12 kg",
             ["[3, 5, 5]", "[0, 0, 20000]"],
             0,
@@ -177,9 +184,9 @@ pub fn all() -> Vec<Slip> {
             2,
             "write a list: `[3]`",
         ),
-        with_more(
+        study(
             "a frame that the robot does not have",
-            "base = \"table\"\n",
+            ["\"base_link\"", "\"table\""],
             2,
             "has no frame `table`",
         ),

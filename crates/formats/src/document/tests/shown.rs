@@ -114,19 +114,35 @@ fn a_thousand_problems_are_listed_and_a_hundred_shown() {
 }
 
 #[test]
-fn of_problems_with_one_message_three_are_shown_and_the_rest_is_counted() {
+fn of_many_problems_that_differ_in_numbers_the_first_is_shown_and_the_rest_is_counted() {
     let problem =
         |line: usize, message: &str| Problem::of_file("a.ngc", message, "do it").in_file(line, line);
     let same = (1..=100).map(|line| problem(line, "no rotary axes"));
-    let problems: Problems = same.chain([problem(101, "another")]).collect();
+    let angles = (201..=239).map(|line| problem(line, &format!("cut with A at -{line}.5 deg")));
+    let names = (301..=304).map(|line| problem(line, &format!("unknown field `{line}`")));
+    let few = (401..=403).map(|line| problem(line, "tool 7 is not known"));
+    let problems: Problems = (same.chain([problem(101, "another")]).chain(angles))
+        .chain(names)
+        .chain(few)
+        .collect();
     let shown = problems.to_string();
-    assert_eq!(shown.matches("error: a.ngc").count(), 4);
-    assert!(shown.contains("a.ngc:101:1: another"));
-    assert!(
-        shown.ends_with("... and 97 more up to line 100: no rotary axes"),
+    let lines: Vec<&str> = shown.lines().filter(|line| line.starts_with("error: ")).collect();
+    let of = |line: &str| line.split(':').nth(2).unwrap().parse::<usize>().unwrap();
+    assert_eq!(
+        lines.into_iter().map(of).collect::<Vec<_>>(),
+        [1, 101, 201, 301, 302, 303, 304, 401, 402, 403],
         "{shown}"
     );
-    assert_eq!(problems.as_slice().len(), 101);
+    let counted: Vec<&str> = shown.lines().filter(|line| line.starts_with("...")).collect();
+    assert_eq!(
+        counted,
+        [
+            "... and 99 more up to line 100: no rotary axes",
+            "... and 38 more up to line 239: cut with A at ... deg",
+        ]
+    );
+    assert!(shown.contains("cut with A at -201.5 deg"));
+    assert_eq!(problems.as_slice().len(), 147);
 }
 
 #[test]

@@ -22,8 +22,10 @@ pub(super) struct RobotFile {
     pub _format: u32,
     /// Manufacturer and type.
     pub name: String,
-    /// Note on the reliability of the numbers.
+    /// Note on the reliability of the numbers; a warning of every result.
     pub note: Option<String>,
+    /// Zeros, frames and origin in words; not a warning.
+    pub description: Option<String>,
     /// Default branch of the robot, such as `front elbow-up`.
     pub nominal_branch: Option<String>,
     /// Elementary motions from base to flange.

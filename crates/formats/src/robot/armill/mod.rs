@@ -121,6 +121,7 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
         robot,
         title: file.name,
         note: file.note.map(|note| note.trim().to_owned()),
+        description: file.description.map(|text| text.trim().to_owned()),
         remarks: Vec::new(),
         payload_kg: file.payload.map(|payload| payload.mass_kg),
         controller: file.controller,

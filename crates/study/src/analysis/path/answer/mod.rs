@@ -268,8 +268,8 @@ fn circle_cases(found: &PathResult) -> Vec<CircleCase> {
     found.radial.iter().enumerate().map(of_case).collect()
 }
 
-/// Range of each joint, deg (mm); empty if no point is reached.
-fn joint_ranges(robot: &Robot, answers: &Answers) -> Vec<[f64; 2]> {
+/// Range of each joint, deg (mm), in the order of the robot; empty if no point is reached.
+pub(crate) fn joint_ranges(robot: &Robot, answers: &Answers) -> Vec<[f64; 2]> {
     let range = |joint: usize| {
         let slides = robot.slides(joint);
         let scale = if slides { 1e3 } else { to_deg(1f64) };
