@@ -2,6 +2,7 @@
 //!
 //! `fuzz/` contains the program: a separate Cargo package with libFuzzer, one program for all parsers. Here it is built
 //! with the compiler's coverage counters ([`build`]), called for each target, and its output is read ([`output`]).
+//! [`studies`] calls another program: studies that are generated from their schema, read, checked and evaluated.
 //! All output is under `target/fuzz/`: `corpus/TARGET/` (kept from run to run), `crashes/TARGET/`,
 //! `dictionaries/`, `build/`.
 //!
@@ -11,12 +12,14 @@
 //! | `--seconds N` | time for each | 60 |
 //! | `--jobs N` | processes at once | 1 |
 //! | `--input FILE` | one input instead of a campaign, to repeat a finding | - |
+//! | `--studies N` | N generated studies instead of any target | - |
 //!
 //! A finding is a panic, an input that takes longer than 10 s, or more than 2 GiB of memory. It is written to
 //! `crashes/TARGET/` and reported with the line that repeats it.
 
 mod build;
 mod output;
+mod studies;
 
 use crate::command::command_line;
 use crate::{COULD_NOT_RUN, FOUND_WRONG};
@@ -28,8 +31,7 @@ use std::path::Path;
 use std::process::{Command, ExitCode, Stdio};
 
 /// Description in the list of tasks.
-pub const ABOUT: &str =
-    "Feeds hostile input to the parsers: [TARGET] [--seconds N] [--jobs N] | TARGET --input FILE.";
+pub const ABOUT: &str = "Feeds hostile input to the parsers: [TARGET] [--seconds N] [--jobs N] | TARGET --input FILE | --studies N.";
 
 /// The output folder of a run.
 const FOLDER: &str = "target/fuzz";
@@ -49,15 +51,22 @@ struct Options {
     seconds: u32,
     jobs: u32,
     input: Option<String>,
+    studies: Option<u32>,
 }
 
 /// Builds, runs one target or all, prints a row for each.
 pub fn run(arguments: &[String]) -> ExitCode {
     let Some(options) = options(arguments) else {
-        eprintln!("usage: cargo xtask fuzz [TARGET] [--seconds N] [--jobs N] | TARGET --input FILE");
+        eprintln!(
+            "usage: cargo xtask fuzz [TARGET] [--seconds N] [--jobs N] | TARGET --input FILE | --studies N"
+        );
         return ExitCode::from(COULD_NOT_RUN);
     };
-    match fuzzed(&options) {
+    let found = match options.studies {
+        Some(studies) => studies::checked(studies),
+        None => fuzzed(&options),
+    };
+    match found {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => ExitCode::from(FOUND_WRONG),
         Err(problem) => {
@@ -74,6 +83,7 @@ fn options(arguments: &[String]) -> Option<Options> {
         seconds: SECONDS,
         jobs: 1,
         input: None,
+        studies: None,
     };
     let mut arguments = arguments.iter();
     while let Some(argument) = arguments.next() {
@@ -81,14 +91,19 @@ fn options(arguments: &[String]) -> Option<Options> {
             "--seconds" => options.seconds = positive(arguments.next()?)?,
             "--jobs" => options.jobs = positive(arguments.next()?)?,
             "--input" => options.input = Some(arguments.next()?.clone()),
+            "--studies" => options.studies = Some(positive(arguments.next()?)?),
             name if !name.starts_with('-') && options.target.is_none() => {
                 options.target = Some(name.to_owned());
             }
             _ => return None,
         }
     }
-    // An input is for one parser.
-    (options.input.is_none() || options.target.is_some()).then_some(options)
+    // An input is for one parser, generated studies for none.
+    let understood = match options.studies {
+        Some(_) => options.target.is_none() && options.input.is_none(),
+        None => options.input.is_none() || options.target.is_some(),
+    };
+    understood.then_some(options)
 }
 
 /// A whole number above 0.
@@ -212,8 +227,11 @@ mod tests {
             && found.seconds == 5
             && found.jobs == 2));
         assert!(requested("").is_some_and(|found| found.target.is_none() && found.seconds == SECONDS));
+        assert!(requested("--studies 9").is_some_and(|found| found.studies == Some(9)));
         for line in [
             "urdf dh",
+            "urdf --studies 9",
+            "--studies 0",
             "--seconds",
             "--seconds 0",
             "--jobs x",

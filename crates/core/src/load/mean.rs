@@ -29,7 +29,7 @@ use super::arc::{Chip, EngagedArc, Moments};
 use super::cutter::EdgePoint;
 use super::edge_part::parts;
 use super::law::CuttingLaw;
-use super::milling::Milling;
+use super::milling::{Milling, thinnest};
 use super::quadrature::{nodes_between_powers, nodes_from_root};
 
 /// The mean force on the tool.
@@ -196,13 +196,17 @@ impl Milling {
 
     /// Adds every tooth separately, over the arc in even steps.
     fn add_each_tooth<const D: bool>(&self, sum: &mut Sum<D>) {
+        let mut leads = Vec::new();
         for (point, width) in self.slices() {
+            let chip = self.chip(&point);
             for arc in self.arcs_at(&point).iter() {
                 let step = (arc.exit - arc.entry) / f64::from(STEPS_WITH_RUNOUT);
                 for tooth in 0..self.cutter.flutes() {
+                    leads.clear();
+                    leads.extend(self.leads(tooth, &point));
                     for index in 0..STEPS_WITH_RUNOUT {
                         let phi = arc.entry + (f64::from(index) + 0.5) * step;
-                        let h = self.chip_of_tooth(tooth, &point, phi);
+                        let h = thinnest(chip.at(phi), leads.iter().copied());
                         if h >= 0.0 {
                             sum.add(self.directions(&point, phi) * (width * step), &self.law, h);
                         }

@@ -158,14 +158,13 @@ impl Milling {
         self.forces_at(even_steps(TAU, steps))
     }
 
-    /// Forces (N, feed frame) at these angles.
-    pub(super) fn forces_at(&self, angles: impl Iterator<Item = f64>) -> Vec<Vector3<f64>> {
-        match self.leaning {
-            Some(_) => {
-                let slices = self.engaged_slices();
-                angles.map(|angle| self.sum_of(&slices, angle)).collect()
-            }
-            None => angles.map(|angle| self.force_at(angle)).collect(),
+    /// Forces (N, feed frame) at these angles: those of [`Milling::force_at`], with the slices of the edge made once.
+    pub(crate) fn forces_at(&self, angles: impl Iterator<Item = f64>) -> Vec<Vector3<f64>> {
+        if self.is_summed() {
+            let slices = self.engaged_slices();
+            angles.map(|angle| self.sum_of(&slices, angle)).collect()
+        } else {
+            angles.map(|angle| self.force_at(angle)).collect()
         }
     }
 
@@ -194,14 +193,19 @@ impl Milling {
         if self.cutter.runout().offset == 0.0 {
             return even;
         }
+        thinnest(even, self.leads(tooth, point))
+    }
+
+    /// How far tooth `tooth` is farther out than those before it, across the edge at `point`, m: than the one before, the
+    /// second before, and so on to itself.
+    pub(super) fn leads(&self, tooth: u32, point: &EdgePoint) -> impl Iterator<Item = f64> + '_ {
         let flutes = self.cutter.flutes();
         let own = self.cutter.radial_runout(tooth, point.height);
-        let left_by_the_one = |before: u32| {
+        let (height, sin_kappa) = (point.height, point.sin_kappa);
+        (1..=flutes).map(move |before| {
             let other = (tooth + flutes - before % flutes) % flutes;
-            let farther_out = own - self.cutter.radial_runout(other, point.height);
-            f64::from(before) * even + farther_out * point.sin_kappa
-        };
-        (1..=flutes).map(left_by_the_one).fold(f64::INFINITY, f64::min)
+            (own - self.cutter.radial_runout(other, height)) * sin_kappa
+        })
     }
 
     /// Points of the edge with their chip width (m): middles of even slices of the profile.
@@ -314,6 +318,13 @@ impl Milling {
         }
         sum
     }
+}
+
+/// Chip thickness (m) of a tooth that leads those before it by `leads` (m) where teeth that are even cut `even` (m): down to the surface
+/// that the deepest of them left.
+pub(super) fn thinnest(even: f64, leads: impl Iterator<Item = f64>) -> f64 {
+    let left_by_the_one = |(lead, before): (f64, u32)| f64::from(before) * even + lead;
+    leads.zip(1..).map(left_by_the_one).fold(f64::INFINITY, f64::min)
 }
 
 /// Angles at even steps of `turn` (rad), from zero.

@@ -22,7 +22,7 @@ use super::sampler::PathPoint;
 use super::stock::{Stock, StockError};
 use crate::load::{
     Advance, CutHere, CutsAlong, Cutter, CuttingError, CuttingLaw, EndMillBody, Engagement, GreatestForce,
-    Immersion, Milling, Process,
+    Immersion, MeanForce, Milling, Process,
 };
 use crate::watch::{Cancelled, Watch};
 
@@ -292,6 +292,8 @@ struct Walk<'a> {
     current: usize,
     operation: Option<&'a Operation>,
     peaks: Peaks,
+    /// The last cut, and its mean force.
+    last: Option<(Process, Advance, MeanForce)>,
     /// The process with the largest mean force.
     largest: Option<Process>,
     summary: ForceSummary,
@@ -310,6 +312,7 @@ impl<'a> Walk<'a> {
             current: 0,
             operation: None,
             peaks: Peaks::default(),
+            last: None,
             largest: None,
             summary: ForceSummary::default(),
         }
@@ -371,7 +374,12 @@ impl<'a> Walk<'a> {
             }
             Err(error) => return Err(error),
         };
-        let mean = milling.mean();
+        // Points of a cut that does not change have one mean.
+        let mean = match self.last {
+            Some((last, known, mean)) if (last, known) == (*process, advance) => mean,
+            _ => milling.mean(),
+        };
+        self.last = Some((*process, advance, mean));
         let size = mean.force.norm();
         self.summary.without_force += usize::from(size == 0.0);
         let mut greatest = Vector3::zeros();

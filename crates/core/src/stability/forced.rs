@@ -110,10 +110,9 @@ impl ToothForces {
         let cutter = milling.cutter().with_runout(Runout::default())?;
         let even = Milling::new(cutter, *milling.law(), *milling.cut())?;
         let pitch = cutter.pitch();
-        let forces: Vec<Vector3<f64>> = (0..STEPS)
-            // Middles of the steps: no tooth enters or leaves exactly there.
-            .map(|step| even.force_at(pitch * (step as f64 + 0.5) / STEPS as f64))
-            .collect();
+        // Middles of the steps: no tooth enters or leaves exactly there.
+        let middle = |step: usize| pitch * (step as f64 + 0.5) / STEPS as f64;
+        let forces = even.forces_at((0..STEPS).map(middle));
         let turns: Vec<Complex<f64>> = (0..2 * STEPS)
             .map(|part| Complex::from_polar(1.0 / STEPS as f64, -TAU * part as f64 / (2 * STEPS) as f64))
             .collect();

@@ -293,3 +293,24 @@ fn refuses_invalid_cuts() {
     assert_eq!(milling(flat(Hand::Right), good).revolution(0).len(), 1);
     assert!((PI - good.engagement.arc_at(8.0 * MM).unwrap().exit).abs() < 1e-15);
 }
+
+#[test]
+fn forces_at_several_angles_are_those_at_each() {
+    let runout = Runout {
+        offset: 20e-6,
+        angle: 0.3,
+    };
+    let bull = Cutter::bull_nose(16.0 * MM, 3.0 * MM, 3).unwrap();
+    for cutter in [
+        flat(Hand::Right),
+        bull,
+        flat(Hand::Left).with_runout(runout).unwrap(),
+        bull.with_runout(runout).unwrap(),
+    ] {
+        let milling = milling(cutter, cut(Immersion::Down(4.0 * MM), 4.0 * MM));
+        let angles = [0.0, 0.1, 0.7, 1.0, 1.9, 4.0];
+        let each = angles.map(|angle| milling.force_at(angle));
+        assert_eq!(milling.forces_at(angles.into_iter()), each);
+        assert!(each.iter().any(|force| force.norm() > 1.0), "{each:?}");
+    }
+}

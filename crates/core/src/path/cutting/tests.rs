@@ -1,6 +1,6 @@
 use super::*;
 use crate::frame::Isometry;
-use crate::load::{Hand, Mechanistic};
+use crate::load::{Hand, Mechanistic, Runout};
 use crate::path::{Course, DepthOfCut, Move, Sampler, Sampling, Spin};
 use nalgebra::{Point3, Unit};
 use std::f64::consts::TAU;
@@ -417,4 +417,39 @@ fn a_tool_used_again_is_listed_once() {
     let found = along(&cutting(), &points, &operations, None).unwrap();
     let used: Vec<usize> = found.cuts.points.iter().map(|here| here.cutter).collect();
     assert_eq!((found.cuts.cutters.len(), used), (2, vec![1, 0, 1, 0]));
+}
+
+#[test]
+fn a_cut_after_another_has_the_force_that_it_has_alone() {
+    let even = Cutting {
+        greatest: GreatestForce::LeftOut,
+        ..cutting()
+    };
+    let runout = Runout {
+        offset: 20e-6,
+        angle: 0.3,
+    };
+    let with_runout = Cutting {
+        cutter: even.cutter.with_runout(runout).unwrap(),
+        ..even
+    };
+    let [feed, slow] = [40e-3, 20e-3].map(Pace::Feed);
+    let [level, ramp] = [[1.0, 0.0, 0.0], [0.8, 0.0, 0.6]];
+    // A cut like the one before, one that differs in its feed, one in its direction, and the first again.
+    let points = [
+        (level, feed),
+        (level, feed),
+        (level, slow),
+        (ramp, slow),
+        (level, slow),
+        (level, feed),
+    ]
+    .map(|(direction, pace)| point(direction, pace));
+    for cutting in [even, with_runout] {
+        let together = forces(&cutting, &points, &[]);
+        let alone = points.map(|point| forces(&cutting, &[point], &[])[0]);
+        assert_eq!(together, alone);
+        assert_eq!(together[0], together[1]);
+        assert!(together[1] != together[2] && together[2] != together[3]);
+    }
 }
