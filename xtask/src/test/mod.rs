@@ -229,10 +229,11 @@ mod tests {
     #[test]
     fn lists_of_a_stage_are_run_at_the_same_time_and_each_in_order() {
         // Each waits for a file that the other list writes: one after the other they would never end.
-        let folder = tempfile::tempdir().unwrap();
+        let folder = env::temp_dir().join(format!("armill-xtask-{}", std::process::id()));
+        std::fs::create_dir(&folder).unwrap();
         let step = |name, script: &str| {
             let mut command = Command::new("sh");
-            command.args(["-c", script]).current_dir(folder.path());
+            command.args(["-c", script]).current_dir(&folder);
             Step::new(name, command)
         };
         let wait = |file: &str| {
@@ -245,6 +246,7 @@ mod tests {
                 step("d", "false"),
             ],
         ]);
+        std::fs::remove_dir_all(&folder).unwrap();
         let of = |outcome: &Outcome| (outcome.name, outcome.passed);
         let found: Vec<_> = outcomes.iter().map(of).collect();
         assert_eq!(found, [("a", true), ("b", true), ("c", true), ("d", false)]);
