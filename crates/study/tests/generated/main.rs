@@ -61,7 +61,7 @@ fn number(variable: &str) -> Option<u64> {
 /// Checks the study of one seed; a panic is a finding too.
 fn checked(generator: &Generator, seed: u64) -> Result<Outcome, String> {
     let study = generator.study(seed);
-    let outcome = catch_unwind(AssertUnwindSafe(|| check(&study, seed % SHARE == 0)));
+    let outcome = catch_unwind(AssertUnwindSafe(|| check(&study, seed.is_multiple_of(SHARE))));
     let found = match outcome {
         Ok(Ok(outcome)) => return Ok(outcome),
         Ok(Err(found)) => found,
@@ -85,7 +85,7 @@ fn counts(generator: &Generator, first: u64, end: u64) -> Counts {
             if seed >= end {
                 return counts;
             }
-            if seed % PROGRESS == 0 {
+            if seed.is_multiple_of(PROGRESS) {
                 println!("study {seed}");
             }
             let begun = Instant::now();
