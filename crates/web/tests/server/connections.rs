@@ -107,6 +107,31 @@ fn a_head_of_the_limit_passes_and_one_byte_more_does_not() {
     );
 }
 
+#[test]
+fn a_request_of_the_limit_passes_and_one_byte_more_does_not() {
+    const LIMIT: usize = 16 << 20;
+    let folder = folder(STUDY);
+    let served = serve(folder.path());
+    let body = json!({ "text": STUDY }).to_string();
+    let padded = format!("{body}{}", " ".repeat(LIMIT - body.len()));
+    assert_eq!(
+        served.analysis("POST", "/api/check", padded.as_bytes()).status,
+        200
+    );
+    // One byte more is refused as soon as it is announced.
+    let Served { port, token, .. } = &served;
+    let head = format!(
+        "POST /api/check HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nAuthorization: Bearer {token}\r\nContent-Length: {}\r\nConnection: close\r\n\r\n",
+        LIMIT + 1
+    );
+    assert_eq!(served.raw(head.as_bytes()).status, 413);
+    let text = |bytes: usize| format!("{STUDY}{}", "#".repeat(bytes - STUDY.len()));
+    for (bytes, expected) in [(4 << 20, 200), ((4 << 20) + 1, 413)] {
+        let answer = served.post("/api/check", json!({ "text": text(bytes) }));
+        assert_eq!(answer.status, expected, "a text of {bytes} bytes");
+    }
+}
+
 /// Requests a computation of seconds, with these bytes behind the request.
 fn requested_long(served: &Served, behind: &str) -> TcpStream {
     let text = STUDY.replace("step_mm = 20", "step_mm = 0.3");

@@ -378,21 +378,30 @@ fn results_are_written_inside_the_folder_only() {
     std::fs::create_dir(outer.path().join("elsewhere")).unwrap();
     std::fs::write(cell.join("study.toml"), STUDY).unwrap();
     let served = serve(&cell);
-    let link = |to: &std::path::Path| {
-        let _ = std::fs::remove_file(cell.join("out"));
-        std::os::unix::fs::symlink(to, cell.join("out")).unwrap();
-        let job =
-            json!({ "kind": "run", "text": STUDY, "options": { "analysis": "rim", "no_pictures": true } });
+    let link = |name: &str, to: &std::path::Path| {
+        let _ = std::fs::remove_file(cell.join(name));
+        std::os::unix::fs::symlink(to, cell.join(name)).unwrap();
+        let job = match name {
+            "out" => json!({ "kind": "run", "options": { "analysis": "rim", "no_pictures": true } }),
+            "posture" => json!({ "kind": "posture", "options": { "step_deg": 60 } }),
+            "place" => json!({ "kind": "place", "options": { "place": { "x_mm": [1000, 1000] } } }),
+            _ => json!({ "kind": "identify", "options": { "tests": "tests.csv", "tool_mm": [0, 0, 0] } }),
+        };
+        let mut job = job;
+        job["text"] = STUDY.into();
         ended(&served, &begin(&served, job))
     };
-    for to in ["elsewhere", "cell/../elsewhere", "missing"] {
-        let job = link(&outer.path().join(to));
-        assert_eq!(job["state"], "failed", "{to}: {job}");
-        let message = job["error"]["message"].as_str().unwrap();
-        assert!(
-            message.contains("is a link that leads out of the folder"),
-            "{message}"
-        );
+    for name in ["out", "posture", "place", "identify"] {
+        for to in ["elsewhere", "cell/../elsewhere", "missing"] {
+            let job = link(name, &outer.path().join(to));
+            assert_eq!(job["state"], "failed", "{to}: {job}");
+            let message = job["error"]["message"].as_str().unwrap();
+            assert!(
+                message.contains(&format!("/{name}`"))
+                    && message.contains("is a link that leads out of the folder"),
+                "{message}"
+            );
+        }
     }
     assert_eq!(
         std::fs::read_dir(outer.path().join("elsewhere")).unwrap().count(),
@@ -400,7 +409,7 @@ fn results_are_written_inside_the_folder_only() {
     );
     assert!(!outer.path().join("missing").exists());
     // A link inside the folder is fine, and a job does not choose its folder.
-    assert_eq!(link(&cell.join("results"))["state"], "done");
+    assert_eq!(link("out", &cell.join("results"))["state"], "done");
     assert!(cell.join("results/result.json").exists());
     for out in ["../elsewhere", "/tmp", "results"] {
         let job = json!({ "kind": "run", "text": STUDY, "options": { "out": out } });

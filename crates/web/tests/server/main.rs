@@ -10,3 +10,4 @@ mod jobs;
 mod refused;
 mod study;
 mod tickets;
+mod token;
