@@ -44,6 +44,7 @@ mod modes;
 mod motion;
 mod new_and_robots;
 mod path_accuracy;
+mod pictures;
 mod place;
 mod place_in_cell;
 mod pose;
