@@ -29,7 +29,7 @@ use armill_formats::input::Inputs;
 use armill_formats::visible::visible;
 use clap::Parser;
 
-use arguments::{Arguments, Command};
+use arguments::{Arguments, Command, with_present_name};
 use armill_study::{ErrorKind, StudyError};
 use outcome::Outcome;
 
@@ -49,6 +49,7 @@ pub fn command(words: impl IntoIterator<Item = OsString>) -> u8 {
                 .iter()
                 .map(|word| visible(&word.to_string_lossy()).into_owned());
             let refused = Arguments::try_parse_from(shown).err().unwrap_or(refused);
+            let refused = with_present_name(refused);
             // If this cannot be printed, there is no other place to report it.
             let _ = refused.print();
             return u8::try_from(refused.exit_code()).unwrap_or(2);

@@ -3,7 +3,7 @@
 //! `run`, `check`, `compare`, `new`, `robots`, `export`, `materials`, `pose`, `posture`, `place`, `advise`, `compensate`,
 //! `identify`, `calibrate`, `learn`, `journal`, `tracker`, `forces`, `roundness`, `ballbar`, `backlash`, `budget`, `pose_accuracy`, `path_accuracy`, `motion`, `drives`, `frf`, `modes`, `receptance`,
 //! `stability`, `serve`, `completions`, `man`; `poses` and `program` are used by two of them each, `writing` by all that write
-//! files.
+//! files; `renamed` has the options of earlier versions.
 //!
 //! Doc comments of fields and variants are the text of `--help`: one line without a full stop, the unit in the
 //! option's name. Notes for developers are in `//` comments and in these module docs. Names of options are
@@ -42,6 +42,7 @@ mod poses;
 mod posture;
 mod program;
 mod receptance;
+mod renamed;
 mod robots;
 mod roundness;
 mod run;
@@ -79,6 +80,7 @@ pub(crate) use poses::{PosesOptions, TurnArgument};
 pub(crate) use posture::PostureArguments;
 pub(crate) use program::ProgramOptions;
 pub(crate) use receptance::ReceptanceArguments;
+pub(crate) use renamed::with_present_name;
 pub(crate) use robots::{
     BodiesArguments, ImportArguments, MassesArguments, RobotsAction, RobotsArguments, RobotsCheckArguments,
 };

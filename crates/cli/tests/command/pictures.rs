@@ -22,7 +22,10 @@ fn check(picture: &str, study: &str, result: &str) {
         std::fs::write(&kept, &drawn).unwrap();
     }
     let same = std::fs::read(&kept).unwrap() == drawn;
-    assert!(same, "{picture} is not what armill draws: KEEP_PICTURES=1 keeps the new one");
+    assert!(
+        same,
+        "{picture} is not what armill draws: KEEP_PICTURES=1 keeps the new one"
+    );
 }
 
 #[test]

@@ -105,3 +105,19 @@ fn commands_and_flags_that_do_not_exist_are_refused() {
         );
     }
 }
+
+#[test]
+fn a_renamed_option_is_refused_with_its_present_name() {
+    let cell = Cell::new();
+    for (command, old, present) in [
+        ("compensate", "--as-drawn", "--nominal"),
+        ("compensate", "--ask", "--analysis"),
+        ("posture", "--counts", "--component"),
+        ("posture", "--goal", "--objective"),
+        ("calibrate", "--hold-out", "--validation"),
+        ("place", "--sure", "--rank-by"),
+    ] {
+        let words = [old, present, "a similar argument exists"];
+        cell.armill(&[command, "study.toml", old, "1"]).refused(&words);
+    }
+}
