@@ -119,7 +119,7 @@ export const still = (page) => page.waitForFunction(() => document.querySelector
 
 /** Waits until this is true; it is asked again and again. */
 export async function until(isTrue) {
-  for (const end = Date.now() + 60_000; !(await isTrue()); await new Promise((done) => setTimeout(done, 20))) if (Date.now() > end) throw new Error(`not within a minute: ${isTrue}`);
+  for (const end = Date.now() + 240_000; !(await isTrue()); await new Promise((done) => setTimeout(done, 20))) if (Date.now() > end) throw new Error(`not within four minutes: ${isTrue}`);
 }
 
 /** A micrometre value as the page writes it. */

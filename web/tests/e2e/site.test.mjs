@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { client, EXAMPLES, launch, open, serve, settled, site, STUDY } from "./setup.mjs";
+import { client, EXAMPLES, launch, open, serve, settled, site, STUDY, until } from "./setup.mjs";
 
 /** Largest relative difference from the command; numbers below 1 (um, mm, deg) are compared as those of 1. Circles and waves are
  * fitted in steps, to a residual; coordinates of boundaries are rounded to 1e-10 mm. */
@@ -212,11 +212,14 @@ test("a job that is cancelled ends at once, and the next one runs", async () => 
   // The plate with three million points: too many to be done before it is cancelled, and not more than memory has room for.
   const fine = text.replace(/step_mm = 10/, "step_mm = 2");
   const { id } = await request(page, "POST", "/api/jobs", { kind: "run", text: fine });
-  /** The state of a job as soon as it is this one, or is over. */
-  const reached = async (job, is) => {
-    await page.waitForFunction(([id, is]) => globalThis.armill.request("GET", `/api/jobs/${id}`).then(({ state, done }) => (state === is && (is !== "running" || done > 0)) || ["done", "failed", "cancelled"].includes(state)), [job, is], { timeout: 240_000 });
-    const { state, error } = await request(page, "GET", `/api/jobs/${job}`);
-    assert.equal(state, is, JSON.stringify(error));
+  /** Waits until a job is in this state; one that is over before has failed this. */
+  const reached = async (id, expected) => {
+    let job;
+    await until(async () => {
+      job = await request(page, "GET", `/api/jobs/${id}`);
+      return (job.state === expected && (expected !== "running" || job.done > 0)) || ["done", "failed", "cancelled"].includes(job.state);
+    });
+    assert.equal(job.state, expected, JSON.stringify(job.error));
   };
   await reached(id, "running");
   await request(page, "DELETE", `/api/jobs/${id}`);
