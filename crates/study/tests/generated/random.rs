@@ -1,4 +1,4 @@
-//! The same random numbers on every machine: splitmix64.
+//! The same random numbers on every machine: splitmix64 (Steele, Lea, Flood 2014, "Fast splittable pseudorandom number generators").
 
 /// A stream of random numbers.
 pub struct Random(u64);
