@@ -22,7 +22,7 @@ const REPEATED: usize = 40;
 /// Poses whose results share memory: whole blocks of the kernel.
 const TOGETHER: usize = 240;
 const BRANCH: Branch = Branch::ALL[0];
-const NOTE: &str = "verified, limits of both flips, singularity and reach flagged, deciding case";
+const NOTE: &str = "verified, limits of both flips, singularity and reach flagged, worst case";
 
 /// The workload as arrays.
 pub struct Places<T> {

@@ -50,7 +50,7 @@ fn compliance_at_base(robot: &Robot, q: &[f64]) -> Matrix6<f64> {
 }
 
 /// What one joint gives to the sum: its number on the diagonal, moved by the motions up to it.
-fn joint_compliance_at_base(
+pub(crate) fn joint_compliance_at_base(
     chain: &Chain,
     theta: &[f64],
     (joint, c): (usize, &JointCompliance),
@@ -80,7 +80,7 @@ fn joint_compliance_at_base(
 
 /// The step missing in the paper: the compliance at the base origin, moved to the TCP at `tcp` in base,
 /// m.
-fn moved_to(tcp: &Vector3<f64>, at_base: &Matrix6<f64>) -> Matrix6<f64> {
+pub(crate) fn moved_to(tcp: &Vector3<f64>, at_base: &Matrix6<f64>) -> Matrix6<f64> {
     let mut shift = Matrix6::identity();
     shift.fixed_view_mut::<3, 3>(0, 3).copy_from(&-tcp.cross_matrix());
     shift * at_base * shift.transpose()

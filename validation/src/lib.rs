@@ -71,6 +71,8 @@ mod path_accuracy;
 mod planar_modes;
 #[path = "../plane-split/case.rs"]
 mod plane_split;
+#[path = "../shares-and-uncertainty/case.rs"]
+mod shares_and_uncertainty;
 #[path = "../stability-lobes/case.rs"]
 mod stability_lobes;
 #[path = "../thermal-growth/case.rs"]
@@ -178,6 +180,10 @@ pub const CASES: &[Case] = &[
     Case {
         folder: "compliance-two-ways",
         checks: compliance_two_ways::checks,
+    },
+    Case {
+        folder: "shares-and-uncertainty",
+        checks: shares_and_uncertainty::checks,
     },
     Case {
         folder: "jacobian-differences",

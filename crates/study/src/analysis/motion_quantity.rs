@@ -7,7 +7,7 @@ const MOTION: Origin = Origin {
     file: "core/src/motion/along.rs",
     function: "motion_along",
     theory: Some("motion"),
-    validation: None,
+    validation: Some("irb6640-logs"),
 };
 
 const fn of_motion(key: &'static str, unit: &'static str, decimals: u8, words: &'static str) -> Quantity {

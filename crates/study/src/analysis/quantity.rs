@@ -137,7 +137,7 @@ pub const WORST_CASE: Quantity = Quantity {
         Origin {
             file: "core/src/kernel/mod.rs",
             function: "evaluate",
-            validation: None,
+            validation: Some("shares-and-uncertainty"),
             ..ON_PLANE
         },
     )
@@ -156,7 +156,7 @@ pub const IN_PLANE_U: Quantity = deviation(
     "in_plane_u_um",
     "standard uncertainty of the in-plane deviation",
     Origin {
-        validation: None,
+        validation: Some("shares-and-uncertainty"),
         ..SUM
     },
 );
@@ -171,7 +171,7 @@ pub const PROBABILITY_WITHIN: Quantity = Quantity {
             file: "core/src/map/certainty.rs",
             function: "probability_within",
             theory: Some("deviation"),
-            validation: None,
+            validation: Some("shares-and-uncertainty"),
         },
     )
 };
@@ -206,7 +206,7 @@ pub const SHARE: Quantity = deviation(
     "share_NAME_um",
     "share of the joint (base, flange, tool, geometry, thermal growth, learnt residual) in the in-plane deviation; the sum of the shares is the deviation",
     Origin {
-        validation: None,
+        validation: Some("shares-and-uncertainty"),
         ..SUM
     },
 );
@@ -318,25 +318,21 @@ pub const WRIST_BEND: Quantity = angle(
         validation: None,
     },
 );
+const OF_CUT: Origin = Origin {
+    file: "core/src/load/spindle.rs",
+    function: "Milling::mean_torque",
+    theory: Some("cutting"),
+    validation: None,
+};
+
 /// A value of the cut.
-const fn of_cut(
-    key: &'static str,
-    unit: &'static str,
-    words: &'static str,
-    file: &'static str,
-    function: &'static str,
-) -> Quantity {
+const fn of_cut(key: &'static str, unit: &'static str, words: &'static str, origin: Origin) -> Quantity {
     Quantity {
         key,
         unit: Some(unit),
         decimals: 3,
         words,
-        origin: Some(Origin {
-            file,
-            function,
-            theory: Some("cutting"),
-            validation: None,
-        }),
+        origin: Some(origin),
     }
 }
 
@@ -345,32 +341,39 @@ pub const FORCE: Quantity = of_cut(
     "force_n",
     "N",
     "size of the mean cutting force of a revolution, at force-deflection equilibrium",
-    "core/src/load/mean.rs",
-    "Milling::mean_force",
+    Origin {
+        file: "core/src/load/mean.rs",
+        function: "Milling::mean_force",
+        validation: Some("milling-mean-force"),
+        ..OF_CUT
+    },
 );
 /// Torque of the cut.
 pub const TORQUE: Quantity = of_cut(
     "torque_n_m",
     "N m",
     "mean torque of a revolution, of the nominal cut",
-    "core/src/load/spindle.rs",
-    "Milling::mean_torque",
+    OF_CUT,
 );
 /// Chip thickness.
 pub const CHIP: Quantity = of_cut(
     "chip_um",
     "um",
     "largest chip thickness of any tooth, of the nominal cut",
-    "core/src/load/spindle.rs",
-    "Milling::largest_chip",
+    Origin {
+        function: "Milling::largest_chip",
+        ..OF_CUT
+    },
 );
 /// Material removal rate.
 pub const REMOVAL: Quantity = of_cut(
     "removal_mm3_per_s",
     "mm^3/s",
     "material removal rate, of the nominal cut",
-    "core/src/load/spindle.rs",
-    "Cut::removal_rate",
+    Origin {
+        function: "Cut::removal_rate",
+        ..OF_CUT
+    },
 );
 /// Across a hole.
 pub const HOLE_X: Quantity = deviation(
