@@ -14,15 +14,12 @@ use nalgebra::Vector3;
 
 use super::super::profile::wrapped;
 use super::super::run::Direction;
-use super::along::{between, between_numbers};
+use super::along::between;
 use super::circle::Followed;
+use super::joint_run::JointRun;
 use super::reversal::JointReversal;
-use crate::robot::{Backlash, BacklashSide};
-use crate::source::backlash::{along, link_offset};
-use crate::spatial::{Twist, Wrench};
+use crate::robot::BacklashSide;
 
-/// Difference for the derivative by the backlash, relative, and at least, rad (m).
-const STEP: [f64; 2] = [1e-4, 1e-9];
 /// Range next to a reversal in which its joint is followed, rad.
 const ASIDE: f64 = 1e-3;
 
@@ -35,17 +32,12 @@ impl Followed {
     /// Effect of the backlash (rad, m) of joint `joint` on the radius, m, at these angles (rad, any order) in this
     /// direction.
     pub fn effect(&self, joint: usize, gap: f64, direction: Direction, angles: &[f64]) -> Vec<f64> {
-        let lags = self.lags(joint, gap, direction, angles);
-        let lever = |a: f64| between(&self.joints[joint].lever, a).dot(&outwards(a));
-        angles.iter().zip(lags).map(|(a, lag)| lever(*a) * lag).collect()
+        JointRun::of(self, joint, direction, angles).effect(gap)
     }
 
     /// Derivative of the effect by the backlash, m per rad (m): for zero backlash that of a small one over its size.
     pub fn slope(&self, joint: usize, gap: f64, direction: Direction, angles: &[f64]) -> Vec<f64> {
-        let step = (STEP[0] * gap.abs()).max(STEP[1]);
-        let [more, less] = [gap + step, gap - step].map(|gap| self.effect(joint, gap, direction, angles));
-        let pairs = more.iter().zip(&less);
-        pairs.map(|(more, less)| (more - less) / (2.0 * step)).collect()
+        JointRun::of(self, joint, direction, angles).slope(gap)
     }
 
     /// Radial deviations measured by a bar at these angles (rad) in this direction, outwards positive, m: geometry,
@@ -53,9 +45,9 @@ impl Followed {
     pub fn deviation(&self, gaps: &[f64], direction: Direction, angles: &[f64]) -> Vec<f64> {
         let mut moved: Vec<Vector3<f64>> = angles.iter().map(|a| between(&self.unloaded, *a)).collect();
         for (joint, gap) in gaps.iter().enumerate().filter(|(_, gap)| **gap != 0.0) {
-            let lags = self.lags(joint, *gap, direction, angles);
-            for ((moved, a), lag) in moved.iter_mut().zip(angles).zip(lags) {
-                *moved += between(&self.joints[joint].lever, *a) * lag;
+            let run = JointRun::of(self, joint, direction, angles);
+            for ((moved, lever), lag) in moved.iter_mut().zip(run.levers()).zip(run.lags(*gap)) {
+                *moved += lever * lag;
             }
         }
         let radius = |(a, moved): (&f64, &Vector3<f64>)| (outwards(*a) * self.radius + moved).norm();
@@ -102,53 +94,9 @@ impl Followed {
         let mut passed = rising.skip_while(|k| moved(k) < gap.abs());
         passed.next().map(|k| wrapped(on(k)))
     }
-
-    /// Link minus motor at these angles, rad (m).
-    fn lags(&self, joint: usize, gap: f64, direction: Direction, angles: &[f64]) -> Vec<f64> {
-        let along_joint = &self.joints[joint];
-        let backlash = Backlash {
-            gap: gap.abs(),
-            standard_uncertainty: 0.0,
-            side: along_joint.side,
-        };
-        // Stops in the order of motion: stations, reversals, and the requested angles.
-        let count = along_joint.theta.len();
-        let stations =
-            (0..count).map(|index| (TAU * index as f64 / count as f64, along_joint.theta[index], None));
-        let turns = self.reversals.iter().filter(|reversal| reversal.joint == joint);
-        let turns = turns.map(|reversal| (reversal.angle, along_joint.theta_at(reversal.angle), None));
-        let requested = angles.iter().enumerate().map(|(place, angle)| {
-            let angle = wrapped(*angle);
-            (angle, along_joint.theta_at(angle), Some(place))
-        });
-        let mut stops: Vec<(f64, f64, Option<usize>)> = stations.chain(turns).chain(requested).collect();
-        stops.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let seam = match direction {
-            Direction::Anticlockwise => along_joint.winding,
-            Direction::Clockwise => {
-                stops.reverse();
-                -along_joint.winding
-            }
-        };
-        let moves = (0..stops.len()).map(|k| match k {
-            0 => stops[0].1 + seam - stops[stops.len() - 1].1,
-            k => stops[k].1 - stops[k - 1].1,
-        });
-        let twice = moves.clone().chain(moves);
-        let links = along(twice, backlash.gap).skip(stops.len());
-        let mut found = vec![0.0; angles.len()];
-        for ((angle, _, place), link) in stops.iter().zip(links) {
-            if let Some(place) = place {
-                let torque = between_numbers(&along_joint.torque, *angle);
-                let offset = link_offset(&backlash, link, &Twist::ZERO, &Wrench::ZERO, torque);
-                found[*place] = offset * gap.signum();
-            }
-        }
-        found
-    }
 }
 
 /// Outwards at an angle, along the axes of the circle.
-fn outwards(angle: f64) -> Vector3<f64> {
+pub(super) fn outwards(angle: f64) -> Vector3<f64> {
     Vector3::new(angle.cos(), angle.sin(), 0.0)
 }

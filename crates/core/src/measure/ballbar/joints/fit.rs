@@ -22,6 +22,7 @@ use super::super::parts::samples::Samples;
 use super::super::parts::trust;
 use super::super::run::{CircularTest, Direction, Run, RunError};
 use super::circle::Followed;
+use super::joint_run::JointRun;
 use super::nuisance::{basis, without};
 
 /// A circular test, and the arm that followed the circle.
@@ -150,7 +151,7 @@ pub fn fit_backlash(
         })
         .collect();
     let sight = Sight {
-        observed,
+        joints: joint_runs(observed, &samples),
         samples,
         rows,
         bases,
@@ -178,18 +179,48 @@ fn samples_of(observed: &Observed<'_>) -> Result<Samples, RunError> {
     ))
 }
 
+/// Every joint along every run of the samples, by joint, then by run.
+fn joint_runs(observed: &[Observed<'_>], samples: &Samples) -> Vec<Vec<JointRun>> {
+    let circles = observed.iter().zip(&samples.runs);
+    let followed: Vec<&Followed> = circles
+        .flat_map(|(observed, runs)| std::iter::repeat_n(observed.followed, *runs))
+        .collect();
+    let runs: Vec<(&Followed, Direction, Vec<f64>)> = samples
+        .begins
+        .windows(2)
+        .zip(followed)
+        .filter_map(|(ends, followed)| {
+            let samples = &samples.at[ends[0]..ends[1]];
+            let (_, direction) = samples.first()?;
+            Some((
+                followed,
+                *direction,
+                samples.iter().map(|(angle, _)| *angle).collect(),
+            ))
+        })
+        .collect();
+    let of_joint = |joint| -> Vec<JointRun> {
+        let along = |(followed, direction, angles): &(&Followed, Direction, Vec<f64>)| {
+            JointRun::of(followed, joint, *direction, angles)
+        };
+        runs.iter().map(along).collect()
+    };
+    (0..observed[0].followed.joint_count()).map(of_joint).collect()
+}
+
 /// All samples, and the parts that are removed from them.
-struct Sight<'a> {
-    observed: &'a [Observed<'a>],
+struct Sight {
+    /// Every joint along every run, by joint, then by run.
+    joints: Vec<Vec<JointRun>>,
     samples: Samples,
     /// First sample of each circle, and their number.
     rows: Vec<(usize, usize)>,
     bases: Vec<DMatrix<f64>>,
 }
 
-impl Sight<'_> {
+impl Sight {
     fn solve(&self, requested: &BacklashOptions, fixed: usize) -> BacklashFit {
-        let joints = self.observed[0].followed.joint_count();
+        let joints = self.joints.len();
         let first = self.columns(&requested.joints, &vec![0.0; joints]);
         let count = self.samples.at.len() as f64;
         let shows = |column: usize| first.column(column).norm() / count.sqrt() > LEAST_EFFECT;
@@ -264,7 +295,7 @@ impl Sight<'_> {
     fn left(&self, gaps: &[f64]) -> DVector<f64> {
         let mut left = self.samples.deviation.clone();
         for (joint, gap) in gaps.iter().enumerate().filter(|(_, gap)| **gap != 0.0) {
-            left -= self.column(|followed, way, angles| followed.effect(joint, *gap, way, angles));
+            left -= self.column(joint, |run| run.effect(*gap));
         }
         self.without_nuisance(&DMatrix::from_columns(&[left]))
             .column(0)
@@ -273,10 +304,7 @@ impl Sight<'_> {
 
     /// Derivatives of the samples by the backlash of these joints, without the nuisance.
     fn columns(&self, joints: &[usize], gaps: &[f64]) -> DMatrix<f64> {
-        let column = |joint: &usize| {
-            let gap = gaps[*joint];
-            self.column(|followed, way, angles| followed.slope(*joint, gap, way, angles))
-        };
+        let column = |joint: &usize| self.column(*joint, |run| run.slope(gaps[*joint]));
         let columns: Vec<DVector<f64>> = joints.iter().map(column).collect();
         match columns.is_empty() {
             true => DMatrix::zeros(self.samples.at.len(), 0),
@@ -285,18 +313,8 @@ impl Sight<'_> {
     }
 
     /// One value per sample, run by run.
-    fn column(&self, of: impl Fn(&Followed, Direction, &[f64]) -> Vec<f64>) -> DVector<f64> {
-        let begins = self.samples.begins.windows(2);
-        let circles = self.observed.iter().zip(&self.samples.runs);
-        let followed = circles.flat_map(|(observed, runs)| std::iter::repeat_n(observed.followed, *runs));
-        let values = begins.zip(followed).flat_map(|(ends, followed)| {
-            let samples = &self.samples.at[ends[0]..ends[1]];
-            let angles: Vec<f64> = samples.iter().map(|(angle, _)| *angle).collect();
-            samples
-                .first()
-                .map_or_else(Vec::new, |(_, way)| of(followed, *way, &angles))
-        });
-        DVector::from_vec(values.collect())
+    fn column(&self, joint: usize, of: impl Fn(&JointRun) -> Vec<f64>) -> DVector<f64> {
+        DVector::from_vec(self.joints[joint].iter().flat_map(of).collect())
     }
 
     fn without_nuisance(&self, columns: &DMatrix<f64>) -> DMatrix<f64> {

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! In reading order: `along` (a joint along a circle), [`reversal`] (angles where joints reverse), [`circle`] (a circle
-//! in the cell, and the arm that follows it), [`effect`] (effect of a backlash on the radius), `nuisance` (parts of the
+//! in the cell, and the arm that follows it), `joint_run` (a joint along the samples of a run), [`effect`] (effect of a backlash on the radius), `nuisance` (parts of the
 //! radius that are not backlash), [`fit`](mod@fit) (all joints at once, from any number of circles, and which of them
 //! are not identifiable), [`plan`] (circles that make them identifiable).
 //!
@@ -15,6 +15,7 @@ mod along;
 pub mod circle;
 pub mod effect;
 pub mod fit;
+mod joint_run;
 mod nuisance;
 pub mod plan;
 pub mod reversal;
