@@ -11,8 +11,9 @@
 //!
 //! | stage | steps | fails where |
 //! |---|---|---|
-//! | built | the page | see `page` |
-//! | | unit and integration tests | a crate or a test does not compile |
+//! | page | the page | see `page` |
+//! | built | unit and integration tests | a crate or a test does not compile |
+//! | | the page without a server | see `page` |
 //! | | the Python package: environment | a package of the tests cannot be installed |
 //! | tested | unit and integration tests | one does not pass, in any crate of the workspace |
 //! | | documentation tests | an example in the documentation does not compile or run |
@@ -46,11 +47,13 @@ pub const ABOUT: &str = "Runs all tests, also on a fresh machine: unit, integrat
 /// one line here.
 fn stages() -> Vec<Vec<Vec<Step>>> {
     // First, so that the program whose tests run contains the page.
-    let mut built = page::build();
-    built.push(Step::new(
+    let page = page::build();
+    let built = vec![Step::new(
         "unit and integration tests, built",
         test_runner(&["--no-run"]),
-    ));
+    )];
+    // The kernel of the browser is one unit, which leaves a processor to the tests.
+    let without_server = page::build_without_server();
     python::ensure();
     let environment = python::environment();
 
@@ -72,7 +75,11 @@ fn stages() -> Vec<Vec<Vec<Step>>> {
     tested.extend(python::tests());
     let mut pages = site_documentation();
     pages.extend(page::tests());
-    vec![vec![built, environment], vec![tested, pages]]
+    vec![
+        vec![page],
+        vec![built, without_server, environment],
+        vec![tested, pages],
+    ]
 }
 
 /// The steps that build the documentation next to the page without a server.
