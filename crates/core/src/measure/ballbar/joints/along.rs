@@ -43,6 +43,11 @@ impl JointAlong {
     }
 }
 
+/// Outwards at an angle, along the axes of the circle.
+pub(super) fn outwards(angle: f64) -> Vector3<f64> {
+    Vector3::new(angle.cos(), angle.sin(), 0.0)
+}
+
 /// Interpolation at `angle` (rad) of values at even stations of a turn.
 pub(super) fn between(values: &[Vector3<f64>], angle: f64) -> Vector3<f64> {
     let (four, weights) = cubic(angle, values.len());

@@ -14,7 +14,7 @@ use nalgebra::Vector3;
 
 use super::super::profile::wrapped;
 use super::super::run::Direction;
-use super::along::between;
+use super::along::{between, outwards};
 use super::circle::Followed;
 use super::joint_run::JointRun;
 use super::reversal::JointReversal;
@@ -94,9 +94,4 @@ impl Followed {
         let mut passed = rising.skip_while(|k| moved(k) < gap.abs());
         passed.next().map(|k| wrapped(on(k)))
     }
-}
-
-/// Outwards at an angle, along the axes of the circle.
-pub(super) fn outwards(angle: f64) -> Vector3<f64> {
-    Vector3::new(angle.cos(), angle.sin(), 0.0)
 }

@@ -9,9 +9,8 @@ use nalgebra::Vector3;
 
 use super::super::profile::wrapped;
 use super::super::run::Direction;
-use super::along::{between, between_numbers};
+use super::along::{between, between_numbers, outwards};
 use super::circle::Followed;
-use super::effect::outwards;
 use crate::robot::{Backlash, BacklashSide};
 use crate::source::backlash::{along, link_offset};
 use crate::spatial::{Twist, Wrench};
