@@ -10,7 +10,6 @@ use armill_formats::input;
 use armill_formats::mesh::MeshFormat;
 use armill_formats::robot::format::Format;
 use armill_formats::robot::urdf::meshes::{Mesh, meshes};
-use armill_formats::robot::xacro;
 
 /// A mesh of a link and its file.
 #[derive(Clone, Debug)]
@@ -105,10 +104,24 @@ fn named(robot: &str, folder: &Path) -> Option<(Vec<Mesh>, Places)> {
     let text = String::from_utf8_lossy(&bytes);
     let urdf = match format(&text)? {
         Format::Urdf => text.into_owned(),
-        Format::Xacro => xacro::expand_with_meshes(&path, &text).ok()?.urdf,
+        Format::Xacro => expanded(&path, &text)?,
         _ => return None,
     };
     Some((meshes(robot, &urdf).ok()?, Places::of(&path, folder)?))
+}
+
+/// The URDF of a xacro file; none if it cannot be expanded.
+#[cfg(feature = "xacro")]
+fn expanded(path: &Path, text: &str) -> Option<String> {
+    use armill_formats::robot::xacro;
+
+    Some(xacro::expand_with_meshes(path, text).ok()?.urdf)
+}
+
+/// This build does not read xacro.
+#[cfg(not(feature = "xacro"))]
+fn expanded(_: &Path, _: &str) -> Option<String> {
+    None
 }
 
 /// Where meshes may be.
