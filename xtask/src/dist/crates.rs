@@ -2,9 +2,10 @@
 //!
 //! They depend on each other, and none is in a registry yet: cargo packs and builds all of them together.
 
-use super::{Release, copy, locked, target_folder};
+use super::{Release, copy, emptied, locked, target_folder};
 use crate::command::succeeded;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::{env, fs};
 
 /// In the order of their dependencies: so they would be published too.
 const CRATES: &[&str] = &[
@@ -25,6 +26,10 @@ const CRATES: &[&str] = &[
 /// # Errors
 /// In a line: one cannot be packed, or does not build on its own.
 pub fn package(release: &Release) -> Result<Vec<PathBuf>, String> {
+    let home = env::var_os("CARGO_HOME").map(PathBuf::from);
+    if let Some(home) = home.or_else(|| env::home_dir().map(|home| home.join(".cargo"))) {
+        forget_unpacked(&home, &release.version)?;
+    }
     let mut command = locked(&["package"]);
     command.args(CRATES.iter().flat_map(|name| ["-p", name]));
     // The built page is of no commit; what else is not was refused before, or allowed.
@@ -40,11 +45,26 @@ pub fn package(release: &Release) -> Result<Vec<PathBuf>, String> {
     Ok(packages)
 }
 
+/// Removes what cargo unpacked of packages of this version before: it would be built in place of the new ones.
+fn forget_unpacked(cargo_home: &Path, version: &str) -> Result<(), String> {
+    let Ok(registries) = fs::read_dir(cargo_home.join("registry/src")) else {
+        return Ok(());
+    };
+    // The registry that cargo makes of packages is a folder: its name begins with that of no host.
+    let of_packages = registries
+        .flatten()
+        .filter(|registry| registry.file_name().to_string_lossy().starts_with('-'));
+    for registry in of_packages {
+        for name in CRATES {
+            emptied(&registry.path().join(format!("{name}-{version}")))?;
+        }
+    }
+    Ok(())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::fs;
-    use std::path::Path;
 
     /// The manifest of each folder of `crates/`.
     fn manifests() -> Vec<String> {
@@ -67,6 +87,25 @@ mod tests {
                 assert!(private || manifest.contains(line), "{name} has no{line}");
             }
         }
+    }
+
+    #[test]
+    fn only_our_packages_of_this_version_are_forgotten() {
+        let home = env::temp_dir().join(format!("armill-cargo-home-{}", std::process::id()));
+        let all = [
+            "-0f/armill-core-1.2.0",
+            "-0f/armill-core-1.3.0",
+            "-0f/other-1.2.0",
+            "index.crates.io-1/armill-core-1.2.0",
+        ];
+        let path = |name: &str| home.join("registry/src").join(name);
+        for name in all {
+            fs::create_dir_all(path(name)).unwrap();
+        }
+        forget_unpacked(&home, "1.2.0").unwrap();
+        assert_eq!(all.map(|name| path(name).is_dir()), [false, true, true, true]);
+        fs::remove_dir_all(&home).unwrap();
+        forget_unpacked(&home, "1.2.0").unwrap();
     }
 
     #[test]

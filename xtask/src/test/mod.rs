@@ -73,28 +73,14 @@ fn stages() -> Vec<Vec<Vec<Step>>> {
         Err(problem) => eprintln!("the kernel for NEON is not compiled: {problem}"),
     }
     tested.extend(python::tests());
-    let mut pages = site_documentation();
+    // Next to the page without a server.
+    let mut pages = Step::all(documentation());
     pages.extend(page::tests());
     vec![
         vec![page],
         vec![built, without_server, environment],
         vec![tested, pages],
     ]
-}
-
-/// The steps that build the documentation next to the page without a server.
-fn site_documentation() -> Vec<Step> {
-    match documentation() {
-        Ok(made) => made
-            .into_iter()
-            .map(|(name, command)| Step::new(name, command))
-            .collect(),
-        // Its test in Chromium fails.
-        Err(problem) => {
-            eprintln!("{problem}");
-            Vec::new()
-        }
-    }
 }
 
 /// The target whose back end cannot run on our test machines.

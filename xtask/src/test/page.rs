@@ -43,17 +43,7 @@ pub fn build() -> Vec<Step> {
 
 /// The steps that make the page without a server, with the packages of [`build`].
 pub fn build_without_server() -> Vec<Step> {
-    match live_page() {
-        Ok(made) => made
-            .into_iter()
-            .map(|(name, command)| Step::new(name, command))
-            .collect(),
-        // Its test in Chromium fails.
-        Err(problem) => {
-            eprintln!("{problem}");
-            Vec::new()
-        }
-    }
+    Step::all(live_page())
 }
 
 /// The steps that test it.

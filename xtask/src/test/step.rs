@@ -60,6 +60,18 @@ impl Step {
         Self { name, command }
     }
 
+    /// These commands as steps; where they cannot be made the reason is printed, and there is none: a later test of what
+    /// they make fails.
+    pub fn all(made: Result<Vec<(&'static str, Command)>, String>) -> Vec<Self> {
+        let made = made.unwrap_or_else(|problem| {
+            eprintln!("{problem}");
+            Vec::new()
+        });
+        made.into_iter()
+            .map(|(name, command)| Self::new(name, command))
+            .collect()
+    }
+
     /// Prints the command and runs it, without input.
     pub fn run(self, output: Output) -> Outcome {
         match output {

@@ -1,5 +1,5 @@
 //! The programs that `armill compensate` writes, run by the interpreters and compared with its table of points: of an
-//! example study, and of tool paths of other software, in six languages each.
+//! example study and of robot programs in six languages, and of tool paths of other software in two each.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -47,9 +47,15 @@ pub const BLENDING: Quantity = of_motion(
     "distance of the commanded path from the programmed point, by the zone of a corner",
 );
 /// Joints that follow late.
-pub const SERVO: Quantity = of_motion(
-    "servo_um",
-    "um",
-    3,
-    "distance of the path that is followed from the commanded one, across it: joints follow late",
-);
+pub const SERVO: Quantity = Quantity {
+    origin: Some(Origin {
+        validation: None,
+        ..MOTION
+    }),
+    ..of_motion(
+        "servo_um",
+        "um",
+        3,
+        "distance of the path that is followed from the commanded one, across it: joints follow late",
+    )
+};
