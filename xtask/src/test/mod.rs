@@ -6,8 +6,8 @@
 //! `step`: one of them; `page`: those of the page of `armill serve`; `python`: those of the Python package;
 //! `count`: the tests in what it printed; `room`: whether the disk has room for them.
 //!
-//! First everything is built, then it is tested. Lists of steps of a stage run at the same time, since a browser and a single Python
-//! leave processors unused; the output of the first list is printed at once, that of a step of the others when the step has ended.
+//! First everything is built, then it is tested. Lists of steps of a stage run at the same time, since a single Python and a
+//! linker leave processors unused; the output of the first list is printed at once, that of a step of the others when the step has ended.
 //!
 //! | stage | steps | fails where |
 //! |---|---|---|
@@ -72,14 +72,12 @@ fn stages() -> Vec<Vec<Vec<Step>>> {
         )),
         Err(problem) => eprintln!("the kernel for NEON is not compiled: {problem}"),
     }
-    tested.extend(python::tests());
-    // Next to the page without a server.
     let mut pages = Step::all(documentation());
     pages.extend(page::tests());
     vec![
         vec![page],
         vec![built, without_server, environment],
-        vec![tested, pages],
+        vec![tested, python::tests(), pages],
     ]
 }
 
