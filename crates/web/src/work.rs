@@ -165,6 +165,49 @@ mod tests {
     use super::*;
 
     #[test]
+    fn four_requests_are_calculated_at_a_time_and_one_whose_client_leaves_makes_room() {
+        let runtime = tokio::runtime::Builder::new_multi_thread()
+            .worker_threads(1)
+            .build()
+            .unwrap();
+        let _entered = runtime.enter();
+        let work = Work::new();
+        let (begin, begun) = channel();
+        // Each says that it has begun, and works until its client is gone.
+        let request = |name: usize| {
+            let begin = begin.clone();
+            Box::pin(work.done(move |watch| {
+                begin.send(name).unwrap();
+                while !watch.cancel.load(Ordering::Relaxed) {
+                    std::thread::yield_now();
+                }
+                Ok(())
+            }))
+        };
+        let context = &mut Context::from_waker(Waker::noop());
+        let mut requests: Vec<_> = (0..6).map(request).collect();
+        for request in &mut requests {
+            assert!(request.as_mut().poll(context).is_pending());
+        }
+        let mut first: Vec<usize> = (0..AT_ONCE).map(|_| begun.recv().unwrap()).collect();
+        first.sort_unstable();
+        assert_eq!(first, [0, 1, 2, 3]);
+        assert_eq!(work.places.available_permits(), 0, "the others have no place");
+        let mut last = requests.split_off(AT_ONCE);
+        drop(requests);
+        let mut next = Vec::new();
+        while next.len() < last.len() {
+            for request in &mut last {
+                assert!(request.as_mut().poll(context).is_pending());
+            }
+            next.extend(begun.try_iter());
+            std::thread::yield_now();
+        }
+        next.sort_unstable();
+        assert_eq!(next, [4, 5]);
+    }
+
+    #[test]
     fn tabs_are_answered_at_once_and_a_later_request_replaces_the_waiting_one() {
         let runtime = tokio::runtime::Builder::new_multi_thread()
             .worker_threads(1)

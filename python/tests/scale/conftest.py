@@ -81,26 +81,17 @@ def at_work(pid: int) -> bytes:
         return b""
 
 
-def busy_of_ray(ray: Any) -> Callable[[], int]:
-    """Returns a process of Ray that works on a part."""
-
-    @ray.remote
-    def own_pid() -> int:
-        time.sleep(0.2)
-        return os.getpid()
-
-    pids = set(ray.get([own_pid.remote() for _ in range(8)]))
-
-    def busy() -> int:
-        until = time.monotonic() + 30
-        while time.monotonic() < until:
-            for pid in pids:
-                # Ray writes the current task there.
-                if at_work(pid).startswith(b"ray::_part"):
-                    return pid
-        raise AssertionError("no process of ray is at work on a part")
-
-    return busy
+def busy_of_ray() -> int:
+    """A process of the Ray started here that works on a part."""
+    psutil = pytest.importorskip("psutil")
+    until = time.monotonic() + 30
+    while time.monotonic() < until:
+        for process in psutil.Process().children(recursive=True):
+            # Ray writes the current task there.
+            if at_work(process.pid).startswith(b"ray::_part"):
+                pid: int = process.pid
+                return pid
+    raise AssertionError("no process of ray is at work on a part")
 
 
 @pytest.fixture(scope="session")

@@ -109,7 +109,7 @@ def test_dask_gives_the_same_bytes_though_a_worker_is_killed(tmp_path: Path, alo
 
 
 def test_ray_gives_the_same_bytes_though_a_worker_is_killed(tmp_path: Path, alone: list[str], four_of_ray: Any) -> None:
-    killer = Killer(tmp_path, 20, busy_of_ray(four_of_ray))
+    killer = Killer(tmp_path, 20, busy_of_ray)
     scale.run(works.waves(seconds=0.02), tmp_path, "ray", items_per_part=10)
     killer.join()
     assert sums(tmp_path) == alone

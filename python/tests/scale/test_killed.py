@@ -1,4 +1,4 @@
-"""A sweep killed by SIGKILL at any time: no file is incomplete, and the next run finishes it with the same bytes.
+"""A sweep, or a worker of one, killed by SIGKILL at any time: no file is incomplete, none unfinished remains, and the bytes are the same.
 
 ``ARMILL_KILLS=100`` tests more times than a normal test run.
 """
@@ -10,15 +10,23 @@ import os
 import signal
 import subprocess
 import time
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 from armill import scale
 
 from . import works
-from .conftest import manifest, script, sums
+from .conftest import Killer, busy_of_ray, manifest, script, sums
 
 #: Parts of the sweep with 2 items per part.
 PARTS = 500
+
+
+def moments(at_least: int) -> Iterator[float]:
+    """Times between 0 and 1, scattered by the golden ratio."""
+    for k in range(int(os.environ.get("ARMILL_KILLS", at_least))):
+        yield (k * 0.61803398875) % 1
 
 
 def started(folder: Path) -> subprocess.Popen[bytes]:
@@ -44,9 +52,7 @@ def test_after_a_kill_at_any_time_the_next_run_gives_the_same_bytes(tmp_path: Pa
     assert len(undisturbed) == PARTS
 
     caught = []
-    for k in range(int(os.environ.get("ARMILL_KILLS", "4"))):
-        # Scattered by the golden ratio over the whole run.
-        moment = (k * 0.61803398875) % 1
+    for k, moment in enumerate(moments(4)):
         folder = tmp_path / f"killed {k}"
         process = started(folder)
         time.sleep(whole_time * moment)
@@ -66,3 +72,34 @@ def test_after_a_kill_at_any_time_the_next_run_gives_the_same_bytes(tmp_path: Pa
         caught.append(len(left))
     print(f"parts left by each kill: {caught} of {PARTS}")
     assert min(caught) < PARTS, "every run was over before it was killed"
+
+
+def finishes_though_a_worker_is_killed(tmp_path: Path, backend: Any, victim: Callable[[], int]) -> None:
+    """Runs a sweep for each moment, and kills one worker when that share of the parts is there."""
+    sweep = works.waves(seconds=0.01)
+    scale.run(sweep, tmp_path / "undisturbed", workers=1, items_per_part=2)
+    undisturbed = sums(tmp_path / "undisturbed")
+    caught = []
+    for k, moment in enumerate(moments(2)):
+        folder = tmp_path / f"killed {k}"
+        killer = Killer(folder, 1 + int(moment * 0.9 * PARTS), victim)
+        done = scale.run(sweep, folder, backend, items_per_part=2)
+        caught.append(killer.join())
+        assert (done.done_before, done.part_count) == (0, PARTS)
+        assert sums(folder) == undisturbed, f"after {moment:.3f}"
+        assert not list(folder.rglob(f"*{scale.files.UNFINISHED}")), f"after {moment:.3f}"
+    print(f"parts there at each kill: {caught} of {PARTS}")
+    assert min(caught) < PARTS, "every run was over before a worker was killed"
+
+
+def test_workers_of_dask_killed_at_any_time_leave_no_unfinished_file(tmp_path: Path, client: Any) -> None:
+    def worker() -> int:
+        pids: dict[str, int] = client.run(os.getpid)
+        return next(iter(pids.values()))
+
+    finishes_though_a_worker_is_killed(tmp_path, client, worker)
+
+
+def test_processes_of_ray_killed_at_any_time_leave_no_unfinished_file(tmp_path: Path, four_of_ray: Any) -> None:
+    finishes_though_a_worker_is_killed(tmp_path, "ray", busy_of_ray)
+    assert four_of_ray.is_initialized(), "what was started elsewhere is kept"

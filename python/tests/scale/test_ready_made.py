@@ -292,7 +292,7 @@ def test_a_hundred_million_on_dask_with_a_killed_worker_equal_an_undisturbed_run
 def test_a_hundred_million_on_ray_with_a_killed_worker_equal_an_undisturbed_run(
     large: scale.Plan, undisturbed: list[str], four_of_ray: Any, tmp_path: Path
 ) -> None:
-    killer = Killer(tmp_path, 10, busy_of_ray(four_of_ray))
+    killer = Killer(tmp_path, 10, busy_of_ray)
     scale.run(large, tmp_path, "ray")
     assert 10 <= killer.join() < 70, "killed in the middle"
     assert sums(tmp_path) == undisturbed

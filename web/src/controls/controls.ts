@@ -99,19 +99,25 @@ export function controls(live: Live): HTMLElement {
     branch.set(v.branch, ["nominal", "best", ...v.branches].map((b) => ({ value: b, text: b === "nominal" && v.branch === "nominal" ? `nominal: ${v.branch_meant}` : b })));
     spin.set(v.kind === "path" ? v.spin_deg : null);
     process.fill(v.process);
-    robot.set(v.robot, robots.map((r) => ({ value: r.name, text: `${r.title}${r.compliance ? "" : " – no compliance known"}` })));
+    fillRobot();
   };
-  live.listen(["answer", "study"], fill);
-  live.listen(["error"], () => {
+  const fillRobot = () => {
+    if (live.values && live.settled) robot.set(live.values.robot, robots.map((r) => ({ value: r.name, text: `${r.title}${r.compliance ? "" : " – no compliance known"}` })));
+  };
+  const showError = () => {
     for (const control of all) control.clear();
     if (live.error && last && live.error.status >= 400 && live.error.status < 500) {
       showErrors(live, robots, live.error, all, last);
       live.error_at_field = true;
     }
-  });
+  };
+  live.listen(["answer", "study"], fill);
+  live.listen(["error"], showError);
+  // The list may come after a value that was refused: that stays, with its error.
   void robotRows().then((rows) => {
     robots = rows;
-    fill();
+    fillRobot();
+    showError();
   }, () => undefined);
   return root;
 }

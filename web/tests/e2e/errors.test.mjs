@@ -7,7 +7,7 @@ import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { createInterface } from "node:readline";
 import { after, before, test } from "node:test";
-import { launch, open, serious, serve, settled } from "./setup.mjs";
+import { launch, open, serious, serve, settled, until } from "./setup.mjs";
 
 let server, browser;
 before(async () => {
@@ -48,6 +48,27 @@ test("a value that is refused: said at the top and at its field, with limit, val
   await banner(page).waitFor();
   await page.getByRole("button", { name: "Open in Study" }).press("Enter");
   assert.equal(await page.locator("#tab-study").getAttribute("aria-selected"), "true");
+  assert.deepEqual(page.complaints, []);
+  await page.context().close();
+});
+
+test("an error stays at its field when the list of robots comes after it", async () => {
+  const page = await open(browser, server.url);
+  let arrive;
+  const arrives = new Promise((done) => (arrive = done));
+  await page.route("**/api/robots", async (route) => {
+    await arrives;
+    await route.continue();
+  });
+  await page.reload();
+  await settled(page);
+  await page.fill("#field-limit", "-50");
+  await page.waitForSelector("#field-limit-error:not(:empty)");
+  assert.equal(await page.locator("#field-robot option").count(), 0);
+  arrive();
+  await until(async () => (await page.locator("#field-robot option").count()) > 10);
+  assert.match(await page.locator("#field-limit-error").innerText(), /got −50 µm/);
+  assert.equal(await page.inputValue("#field-limit"), "-50");
   assert.deepEqual(page.complaints, []);
   await page.context().close();
 });

@@ -228,11 +228,7 @@ fn every_job_leaves_final_files_and_can_be_repeated() {
                 );
             }
             left_by_kills.push(left.len() - given.len());
-            // A robot file and what belongs to it are replaced on request alone.
-            let replaces = arguments.contains(&"mine.toml") && left.len() > given.len();
-            let force = replaces.then_some("--force");
-            let again: Vec<&str> = arguments.iter().copied().chain(force).collect();
-            let again = start(killed.path(), &again).wait().unwrap();
+            let again = start(killed.path(), arguments).wait().unwrap();
             assert!(again.success(), "{arguments:?} again after {moment:.3}");
             let differ = results(tree(killed.path())) != undisturbed;
             assert!(!differ, "{arguments:?} again after {moment:.3} gives other files");

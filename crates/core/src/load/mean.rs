@@ -17,7 +17,9 @@
 //! Of a leaning tool every part of its edge is integrated in pieces between the kinks of its arcs (`edge_part`).
 //!
 //! What a revolution cuts does not depend on runout: teeth share the same `N c` otherwise. So the shear part of the
-//! mean never changes; the edge part does where a tooth cuts nothing, since it no longer rubs.
+//! mean never changes; the edge part does where a tooth cuts nothing, since it no longer rubs. Each tooth is integrated
+//! over the parts of its arcs in which it cuts down to one earlier tooth (`teeth_at`), over 256 slices of the corner and
+//! as many of a cylinder with a helix.
 //!
 //! Source: integrals of [`super::milling`]; `docs/theory/cutting.md`.
 
@@ -29,8 +31,9 @@ use super::arc::{Chip, EngagedArc, Moments};
 use super::cutter::EdgePoint;
 use super::edge_part::parts;
 use super::law::CuttingLaw;
-use super::milling::{Milling, thinnest};
+use super::milling::Milling;
 use super::quadrature::{nodes_between_powers, nodes_from_root};
+use super::teeth_at::TeethAt;
 
 /// The mean force on the tool.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,9 +50,6 @@ struct Sum<const WITH_DERIVATIVES: bool> {
     force: Vector3<f64>,
     by_parameters: SMatrix<f64, 3, 6>,
 }
-
-/// Steps over the arc where teeth differ by runout.
-const STEPS_WITH_RUNOUT: u32 = 256;
 
 impl Milling {
     /// The mean force over a revolution.
@@ -194,22 +194,14 @@ impl Milling {
         }
     }
 
-    /// Adds every tooth separately, over the arc in even steps.
+    /// Adds every tooth separately, slice by slice.
     fn add_each_tooth<const D: bool>(&self, sum: &mut Sum<D>) {
-        let mut leads = Vec::new();
         for (point, width) in self.slices() {
-            let chip = self.chip(&point);
+            let (even, teeth) = (self.chip(&point), TeethAt::new(&self.cutter, &point));
             for arc in self.arcs_at(&point).iter() {
-                let step = (arc.exit - arc.entry) / f64::from(STEPS_WITH_RUNOUT);
                 for tooth in 0..self.cutter.flutes() {
-                    leads.clear();
-                    leads.extend(self.leads(tooth, &point));
-                    for index in 0..STEPS_WITH_RUNOUT {
-                        let phi = arc.entry + (f64::from(index) + 0.5) * step;
-                        let h = thinnest(chip.at(phi), leads.iter().copied());
-                        if h >= 0.0 {
-                            sum.add(self.directions(&point, phi) * (width * step), &self.law, h);
-                        }
+                    for (part, chip) in teeth.cuts(tooth, even, arc) {
+                        self.add_arc((&point, width), chip, part, sum);
                     }
                 }
             }

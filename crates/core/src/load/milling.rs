@@ -28,11 +28,9 @@
 //! | `kappa`, `psi` | axial immersion angle and lag, see [`super::cutter`] | rad |
 //! | `c`, `c_z` | feed per tooth across the tool axis, and along it to the spindle | m |
 //! | `h`, `db` | chip thickness; chip width, the length of the profile | m |
-//! | `rho_j` | radial runout of tooth `j` | m |
 //!
 //! With runout a tooth cuts the material that the teeth before it left; a tooth that cuts nothing leaves its chip to
-//! the next: `h = min over m of (m c sin(phi) sin(kappa) + (rho_j - rho_(j-m)) sin(kappa) - m c_z cos(kappa))`, `m`
-//! from 1 to `N`.
+//! the next ([`super::teeth_at`]).
 //!
 //! The tool may lean from the programmed axis: the feed frame is then that of the leaning tool, and a point of an edge may cut over
 //! several arcs (`engaged_arcs`).
@@ -56,6 +54,7 @@ use super::error::{CuttingError, checked};
 use super::law::CuttingLaw;
 use super::lean::Lean;
 use super::mechanistic::Mechanistic;
+use super::teeth_at::TeethAt;
 
 /// A cutter in a cut, under a cutting law.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,12 +67,13 @@ pub struct Milling {
 }
 
 /// A slice of the edge that cuts.
-#[derive(Clone, Copy, Debug)]
-struct EngagedSlice {
-    point: EdgePoint,
+#[derive(Clone, Debug)]
+pub(super) struct EngagedSlice {
+    pub(super) point: EdgePoint,
     /// m
-    width: f64,
-    arcs: EngagedArcs,
+    pub(super) width: f64,
+    pub(super) arcs: EngagedArcs,
+    pub(super) teeth: TeethAt,
 }
 
 /// Deepest cut in diameters: it bounds how often a helix winds round.
@@ -187,27 +187,6 @@ impl Milling {
         }
     }
 
-    /// Chip thickness (m) of tooth `tooth` at `point` and the immersion angle `phi`; negative where it cuts nothing.
-    pub(super) fn chip_of_tooth(&self, tooth: u32, point: &EdgePoint, phi: f64) -> f64 {
-        let even = self.chip(point).at(phi);
-        if self.cutter.runout().offset == 0.0 {
-            return even;
-        }
-        thinnest(even, self.leads(tooth, point))
-    }
-
-    /// How far tooth `tooth` is farther out than those before it, across the edge at `point`, m: than the one before, the
-    /// second before, and so on to itself.
-    pub(super) fn leads(&self, tooth: u32, point: &EdgePoint) -> impl Iterator<Item = f64> + '_ {
-        let flutes = self.cutter.flutes();
-        let own = self.cutter.radial_runout(tooth, point.height);
-        let (height, sin_kappa) = (point.height, point.sin_kappa);
-        (1..=flutes).map(move |before| {
-            let other = (tooth + flutes - before % flutes) % flutes;
-            (own - self.cutter.radial_runout(other, height)) * sin_kappa
-        })
-    }
-
     /// Points of the edge with their chip width (m): middles of even slices of the profile.
     pub(super) fn slices(&self) -> impl Iterator<Item = (EdgePoint, f64)> + '_ {
         // All slices of a straight edge cut alike.
@@ -223,11 +202,12 @@ impl Milling {
     }
 
     /// The slices that cut, with their arcs.
-    fn engaged_slices(&self) -> Vec<EngagedSlice> {
+    pub(super) fn engaged_slices(&self) -> Vec<EngagedSlice> {
         let slices = self.slices().map(|(point, width)| EngagedSlice {
             point,
             width,
             arcs: self.arcs_at(&point),
+            teeth: TeethAt::new(&self.cutter, &point),
         });
         slices.filter(|slice| !slice.arcs.is_empty()).collect()
     }
@@ -258,31 +238,39 @@ impl Milling {
         angle - f64::from(tooth) * self.cutter.pitch()
     }
 
-    fn sum_of(&self, slices: &[EngagedSlice], angle: f64) -> Vector3<f64> {
-        let mut sum = Vector3::zeros();
-        for EngagedSlice { point, width, arcs } in slices {
-            let lag = self.cutter.lag(point.height);
-            for tooth in 0..self.cutter.flutes() {
+    /// The chips at an angle of the spindle: of every tooth that cuts at a slice, the immersion angle (rad) and the thickness (m).
+    pub(super) fn chips_at<'a>(
+        &'a self,
+        slices: &'a [EngagedSlice],
+        angle: f64,
+    ) -> impl Iterator<Item = (&'a EngagedSlice, f64, f64)> {
+        slices.iter().flat_map(move |slice| {
+            let lag = self.cutter.lag(slice.point.height);
+            let chip = self.chip(&slice.point);
+            (0..self.cutter.flutes()).filter_map(move |tooth| {
                 let phi = (self.tip_angle(tooth, angle) - lag).rem_euclid(TAU);
-                if !arcs.contains(phi) {
-                    continue;
-                }
-                let h = self.chip_of_tooth(tooth, point, phi);
-                if h >= 0.0 {
-                    let directions = Moments::at(phi).directions(point, self.cutter.hand());
-                    sum += directions * self.law.force(h) * *width;
-                }
-            }
-        }
-        sum
+                let cuts = slice.arcs.contains(phi);
+                let thickness = cuts.then(|| slice.teeth.chip(tooth, chip.at(phi)));
+                thickness.filter(|h| *h >= 0.0).map(|h| (slice, phi, h))
+            })
+        })
+    }
+
+    fn sum_of(&self, slices: &[EngagedSlice], angle: f64) -> Vector3<f64> {
+        let of_chip = |(slice, phi, h): (&EngagedSlice, f64, f64)| {
+            let directions = Moments::at(phi).directions(&slice.point, self.cutter.hand());
+            directions * self.law.force(h) * slice.width
+        };
+        self.chips_at(slices, angle).map(of_chip).sum()
     }
 
     /// The force on the teeth of a flat end mill with straight flutes.
     fn straight_force(&self, arc: EngagedArc, angle: f64) -> Vector3<f64> {
         let point = self.cutter.at_height(0.0);
+        let (even, teeth) = (self.chip(&point), TeethAt::new(&self.cutter, &point));
         let of_tooth = |tooth: u32| {
             let phi = self.tip_angle(tooth, angle).rem_euclid(TAU);
-            let h = self.chip_of_tooth(tooth, &point, phi);
+            let h = teeth.chip(tooth, even.at(phi));
             let cuts = arc.contains(phi) && h >= 0.0;
             let directions = Moments::at(phi).directions(&point, self.cutter.hand());
             cuts.then(|| directions * self.law.force(h) * self.cut.depth)
@@ -318,13 +306,6 @@ impl Milling {
         }
         sum
     }
-}
-
-/// Chip thickness (m) of a tooth that leads those before it by `leads` (m) where teeth that are even cut `even` (m): down to the surface
-/// that the deepest of them left.
-pub(super) fn thinnest(even: f64, leads: impl Iterator<Item = f64>) -> f64 {
-    let left_by_the_one = |(lead, before): (f64, u32)| f64::from(before) * even + lead;
-    leads.zip(1..).map(left_by_the_one).fold(f64::INFINITY, f64::min)
 }
 
 /// Angles at even steps of `turn` (rad), from zero.

@@ -6,7 +6,8 @@
 //! Cutting forces: [`end_mill_body`] and [`cutter`] (the edge on it), [`engagement`] and [`arc`] (where it cuts and the
 //! chip thickness), [`lean`], [`cut`], `arcs_of_point`, `pass_before`, `engaged_arcs` and
 //! `edge_part` (the same of a leaning tool), [`mechanistic`] and [`kienzle`] (force of a chip; [`law`] is either, [`sets`] several of one
-//! material), [`milling`] (force at a spindle angle and over a revolution), [`mean`] (its mean, with uncertainty),
+//! material), `teeth_at` (teeth with runout),
+//! [`milling`] (force at a spindle angle and over a revolution), [`mean`] (its mean, with uncertainty),
 //! `directional` (its derivative by a displacement of the tool), `peak` (its greatest over a revolution), `spindle` (torque, chip thickness, removal rate),
 //! [`drilling`], [`process`] (a tool with its cutting data and feed), [`force_equilibrium`] (the force on a tool that
 //! the cut deflects).
@@ -44,6 +45,7 @@ pub mod process;
 pub mod record;
 pub mod sets;
 mod spindle;
+mod teeth_at;
 
 mod quadrature;
 

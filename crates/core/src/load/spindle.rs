@@ -18,7 +18,8 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::arc::EngagedArc;
 use super::cut::Cut;
-use super::milling::{Milling, even_steps};
+use super::milling::{EngagedSlice, Milling, even_steps};
+use super::teeth_at::TeethAt;
 
 /// Steps over the arc of an edge.
 const STEPS: u32 = 128;
@@ -34,36 +35,35 @@ impl Cut {
 impl Milling {
     /// Torque at an angle of the spindle (rad), N m.
     pub fn torque_at(&self, angle: f64) -> f64 {
-        let mut sum = 0.0;
-        for (point, width) in self.slices() {
-            let arcs = self.arcs_at(&point);
-            let lag = self.cutter.lag(point.height);
-            for tooth in 0..self.cutter.flutes() {
-                let phi = (angle - f64::from(tooth) * self.cutter.pitch() - lag).rem_euclid(TAU);
-                let h = self.chip_of_tooth(tooth, &point, phi);
-                if arcs.contains(phi) && h >= 0.0 {
-                    sum += self.law.force(h)[0] * point.radius * width;
-                }
-            }
-        }
-        sum
+        self.torque_of(&self.engaged_slices(), angle)
+    }
+
+    fn torque_of(&self, slices: &[EngagedSlice], angle: f64) -> f64 {
+        let of_chip = |(slice, _, h): (&EngagedSlice, f64, f64)| {
+            self.law.force(h)[0] * slice.point.radius * slice.width
+        };
+        self.chips_at(slices, angle).map(of_chip).sum()
     }
 
     /// The greatest torque at `steps` even steps of a period, N m.
     pub fn greatest_torque(&self, steps: u32) -> f64 {
+        let slices = self.engaged_slices();
         let angles = even_steps(self.period(), steps);
-        angles.map(|angle| self.torque_at(angle)).fold(0.0, f64::max)
+        angles
+            .map(|angle| self.torque_of(&slices, angle))
+            .fold(0.0, f64::max)
     }
 
     /// The torque averaged over a revolution, N m.
     pub fn mean_torque(&self) -> f64 {
         let mut sum = 0.0;
         for (point, width) in self.slices() {
+            let (even, teeth) = (self.chip(&point), TeethAt::new(&self.cutter, &point));
             for arc in self.arcs_at(&point).iter() {
                 let step = (arc.exit - arc.entry) / f64::from(STEPS);
                 for tooth in 0..self.cutter.flutes() {
                     let tangential = angles_of(arc)
-                        .map(|phi| self.chip_of_tooth(tooth, &point, phi))
+                        .map(|phi| teeth.chip(tooth, even.at(phi)))
                         .filter(|h| *h >= 0.0)
                         .map(|h| self.law.force(h)[0]);
                     sum += tangential.sum::<f64>() * step * point.radius * width;
@@ -77,13 +77,14 @@ impl Milling {
     pub fn largest_chip(&self) -> f64 {
         let mut largest = 0.0f64;
         for (point, _) in self.slices() {
+            let (even, teeth) = (self.chip(&point), TeethAt::new(&self.cutter, &point));
             for arc in self.arcs_at(&point).iter() {
                 for tooth in 0..self.cutter.flutes() {
                     // The chip is largest straight ahead, or at an end of the arc.
                     let turn = TAU * ((arc.entry - FRAC_PI_2) / TAU).ceil();
                     let ahead = (FRAC_PI_2 + turn).min(arc.exit);
                     for phi in [arc.entry, ahead] {
-                        largest = largest.max(self.chip_of_tooth(tooth, &point, phi));
+                        largest = largest.max(teeth.chip(tooth, even.at(phi)));
                     }
                 }
             }

@@ -1,6 +1,7 @@
 //! What a command may replace and remove: the one guard that everything written goes through.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -48,7 +49,7 @@ impl Writer {
     }
 
     /// One that replaces no file without `force`, not even one that armill made: a robot file may be the only record of a
-    /// measurement.
+    /// measurement. A file that is there with the same bytes is done: a command that was killed after it can be repeated.
     #[must_use]
     pub fn for_new_files(self) -> Writer {
         Writer {
@@ -63,6 +64,9 @@ impl Writer {
     /// A file that may not be replaced; the operation that failed. Then the old content is untouched.
     pub fn write(&self, path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), FileError> {
         let path = path.as_ref();
+        if self.is_done(path, bytes) {
+            return Ok(());
+        }
         let folder = folder_of(path);
         let name = path.file_name().map(|name| name.to_string_lossy().into_owned());
         let is_file = path.metadata().map_or(true, |found| found.is_file());
@@ -93,22 +97,23 @@ impl Writer {
     /// # Errors
     /// As of [`Writer::write`]; all files that may not be replaced are named.
     pub fn write_all(&self, files: &[(PathBuf, &[u8])]) -> Result<(), FileError> {
+        let missing = || files.iter().filter(|(path, bytes)| !self.is_done(path, bytes));
         let mut refused = Vec::new();
-        for (path, _) in files {
+        for (path, _) in missing() {
             let name = path
                 .file_name()
                 .unwrap_or_default()
                 .to_string_lossy()
                 .into_owned();
             match self.allow(&Ledger::of(&folder_of(path)), &[(name, path.clone())]) {
-                Err(FileError::NotOurs { paths }) => refused.extend(paths),
+                Err(FileError::NotOurs { paths } | FileError::Exists { paths }) => refused.extend(paths),
                 other => other?,
             }
         }
         if !refused.is_empty() {
-            return Err(FileError::NotOurs { paths: refused });
+            return Err(self.refusing(refused));
         }
-        files.iter().try_for_each(|(path, bytes)| self.write(path, bytes))
+        missing().try_for_each(|(path, bytes)| self.write(path, bytes))
     }
 
     /// Takes a folder for results, makes it where it is missing, and clears what a killed run left half-written.
@@ -169,10 +174,26 @@ impl Writer {
                 refused.push(path.clone());
             }
         }
-        match (refused.is_empty(), self.replaces) {
-            (true, _) => Ok(()),
-            (false, true) => Err(FileError::NotOurs { paths: refused }),
-            (false, false) => Err(FileError::Exists { paths: refused }),
+        match refused.is_empty() {
+            true => Ok(()),
+            false => Err(self.refusing(refused)),
+        }
+    }
+
+    /// Whether this writer leaves the file as it is, because it has these bytes.
+    fn is_done(&self, path: &Path, bytes: &[u8]) -> bool {
+        let is_as_long = || {
+            path.metadata()
+                .is_ok_and(|found| found.is_file() && found.len() == bytes.len() as u64)
+        };
+        !self.replaces && is_as_long() && fs::read(path).is_ok_and(|found| found == bytes)
+    }
+
+    /// The error where these files may not be replaced.
+    fn refusing(&self, paths: Vec<PathBuf>) -> FileError {
+        match self.replaces {
+            true => FileError::NotOurs { paths },
+            false => FileError::Exists { paths },
         }
     }
 
@@ -296,8 +317,6 @@ impl ResultFolder {
 
 #[cfg(test)]
 mod tests {
-    use std::fs;
-
     use super::*;
     use crate::input;
 
@@ -323,6 +342,25 @@ mod tests {
         let forced = Writer::new("calibrate", true).for_new_files();
         forced.write(&file, b"second").unwrap();
         assert_eq!(fs::read(&file).unwrap(), b"second");
+    }
+
+    #[test]
+    fn new_files_that_are_there_with_the_same_bytes_are_done() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        let careful = Writer::new("learn", false).for_new_files();
+        let files = [(at("residuals.csv"), &b"1,2"[..]), (at("robot.toml"), b"name")];
+        // As a command leaves it that was killed after the first.
+        careful.write(&files[0].0, files[0].1).unwrap();
+        careful.write_all(&files).unwrap();
+        assert_eq!(fs::read(at("robot.toml")).unwrap(), b"name");
+        careful.write_all(&files).unwrap();
+        let others = [(at("residuals.csv"), &b"3,4"[..]), (at("robot.toml"), b"eman")];
+        match careful.write_all(&others).unwrap_err() {
+            FileError::Exists { paths } => assert_eq!(paths, [at("residuals.csv"), at("robot.toml")]),
+            other => panic!("{other}"),
+        }
+        assert_eq!(fs::read(at("residuals.csv")).unwrap(), b"1,2");
     }
 
     #[test]

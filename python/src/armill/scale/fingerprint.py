@@ -15,6 +15,7 @@ import inspect
 import os
 import sys
 import sysconfig
+import threading
 import types
 from collections.abc import Iterator, Mapping, Sequence
 from contextvars import ContextVar
@@ -34,6 +35,8 @@ SHORT = 60
 DEEPEST = 20
 #: Functions whose words are being written: one that calls itself is named only.
 _OPEN: ContextVar[tuple[types.FunctionType, ...]] = ContextVar("_OPEN", default=())
+#: One thread parses at a time: in CPython 3.11 others make it a SystemError (python/cpython#106905).
+_PARSING = threading.Lock()
 
 
 def request_of(sweep: Sweep) -> dict[str, str]:
@@ -172,7 +175,8 @@ def _is_installed(module: str | None) -> bool:
 def _source(value: Any) -> str | bytes:
     code = getattr(value, "__code__", None)
     try:
-        source = inspect.getsource(value)
+        with _PARSING:
+            source = inspect.getsource(value)
     except (OSError, TypeError):
         return b"" if code is None else _code_words(code)
     # The source of a lambda is that of its line, which may have others.
