@@ -296,7 +296,7 @@ impl ResultFolder {
     /// Removes a file that was not changed since it was made; whether it is gone.
     fn remove_unchanged(&self, ledger: &Ledger, name: &str) -> bool {
         let path = self.path.join(name);
-        ledger.is_ours(name, &path) && std::fs::remove_file(path).is_ok()
+        ledger.is_ours(name, &path) && fs::remove_file(path).is_ok()
     }
 
     /// Removes what earlier runs of this command made and this one did not, and rewrites the list of files.

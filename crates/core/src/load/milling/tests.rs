@@ -171,6 +171,11 @@ fn forces_repeat_each_pitch_and_with_runout_each_turn() {
     assert!((off.force_at(0.3) - off.force_at(0.3 + TAU)).norm() < 1e-9);
 }
 
+/// Chip thickness of a tooth at a point of its edge and an immersion angle, m.
+fn chip_of_tooth(milling: &Milling, tooth: u32, point: &EdgePoint, phi: f64) -> f64 {
+    TeethAt::new(&milling.cutter, point).chip(tooth, milling.chip(point).at(phi))
+}
+
 #[test]
 fn a_tooth_that_cuts_nothing_leaves_its_chip_to_the_next() {
     // Two teeth, one with 0.2 mm more radial runout than the other at a feed of 0.18 mm.
@@ -180,7 +185,7 @@ fn a_tooth_that_cuts_nothing_leaves_its_chip_to_the_next() {
     });
     let milling = milling(tool.unwrap(), cut(Immersion::Slot, MM));
     let point = milling.cutter.at_height(0.5 * MM);
-    let chips = [0, 1].map(|tooth| milling.chip_of_tooth(tooth, &point, FRAC_PI_2) / MM);
+    let chips = [0, 1].map(|tooth| chip_of_tooth(&milling, tooth, &point, FRAC_PI_2) / MM);
     assert!((chips[0] - 0.36).abs() < 1e-12, "{chips:?}");
     assert!(chips[1] < 0.0, "{chips:?}");
 }
@@ -194,7 +199,7 @@ fn teeth_share_what_a_turn_cuts_whatever_the_runout() {
         let milling = milling(tool.unwrap(), cut(Immersion::Slot, MM));
         let point = milling.cutter.at_height(0.0);
         for phi in [0.01, 0.4, 1.2, 3.0] {
-            let chips = (0..flutes).map(|tooth| milling.chip_of_tooth(tooth, &point, phi).max(0.0));
+            let chips = (0..flutes).map(|tooth| chip_of_tooth(&milling, tooth, &point, phi).max(0.0));
             let whole = f64::from(flutes) * 0.18 * MM * phi.sin();
             // Sums of lengths of up to 2 mm.
             assert!(
