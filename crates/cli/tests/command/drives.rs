@@ -104,7 +104,14 @@ fn what_was_found_is_written_into_a_robot_file() {
     );
     assert!(err.contains("robot with these values in found.toml"), "{err}");
     let (code, _, err) = armill(at, &command);
+    assert_eq!(code, 0, "the same file is done: {err}");
+    std::fs::write(at.join("found.toml"), "# changed\n").unwrap();
+    let (code, _, err) = armill(at, &command);
     assert_eq!(code, 2, "an existing file is kept: {err}");
+    assert_eq!(
+        std::fs::read_to_string(at.join("found.toml")).unwrap(),
+        "# changed\n"
+    );
 }
 
 /// A log without link encoders: 1.5 N m, 4 N m s/rad, 0.8 kg m^2, 12 N m at a horizontal arm; positions have 6 decimals.
