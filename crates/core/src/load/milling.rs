@@ -30,7 +30,7 @@
 //! | `h`, `db` | chip thickness; chip width, the length of the profile | m |
 //!
 //! With runout a tooth cuts the material that the teeth before it left; a tooth that cuts nothing leaves its chip to
-//! the next ([`super::teeth_at`]).
+//! the next (`teeth_at`).
 //!
 //! The tool may lean from the programmed axis: the feed frame is then that of the leaning tool, and a point of an edge may cut over
 //! several arcs (`engaged_arcs`).
