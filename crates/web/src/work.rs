@@ -164,12 +164,14 @@ mod tests {
 
     use super::*;
 
+    fn runtime() -> tokio::runtime::Runtime {
+        let mut builder = tokio::runtime::Builder::new_multi_thread();
+        builder.worker_threads(1).build().unwrap()
+    }
+
     #[test]
     fn four_requests_are_calculated_at_a_time_and_one_whose_client_leaves_makes_room() {
-        let runtime = tokio::runtime::Builder::new_multi_thread()
-            .worker_threads(1)
-            .build()
-            .unwrap();
+        let runtime = runtime();
         let _entered = runtime.enter();
         let work = Work::new();
         let (begin, begun) = channel();
@@ -209,10 +211,7 @@ mod tests {
 
     #[test]
     fn tabs_are_answered_at_once_and_a_later_request_replaces_the_waiting_one() {
-        let runtime = tokio::runtime::Builder::new_multi_thread()
-            .worker_threads(1)
-            .build()
-            .unwrap();
+        let runtime = runtime();
         let _entered = runtime.enter();
         let work = Work::new();
         let tab = |name: &str| HeaderMap::from_iter([("x-tab".parse().unwrap(), name.parse().unwrap())]);

@@ -74,32 +74,35 @@ def test_after_a_kill_at_any_time_the_next_run_gives_the_same_bytes(tmp_path: Pa
     assert min(caught) < PARTS, "every run was over before it was killed"
 
 
-def finishes_though_a_worker_is_killed(tmp_path: Path, backend: Any, victim: Callable[[], int]) -> None:
-    """Runs a sweep for each moment, and kills one worker when that share of the parts is there."""
+def finishes_though_a_worker_is_killed(tmp_path: Path, backend: Any, victims: Callable[[], Callable[[], int]]) -> None:
+    """Runs a sweep for each moment, and kills one worker when that share of the parts is there; `victims` is called before each run."""
     sweep = works.waves(seconds=0.01)
     scale.run(sweep, tmp_path / "undisturbed", workers=1, items_per_part=2)
     undisturbed = sums(tmp_path / "undisturbed")
     caught = []
     for k, moment in enumerate(moments(2)):
         folder = tmp_path / f"killed {k}"
-        killer = Killer(folder, 1 + int(moment * 0.9 * PARTS), victim)
+        killer = Killer(folder, 1 + int(moment * 0.9 * PARTS), victims())
         done = scale.run(sweep, folder, backend, items_per_part=2)
         caught.append(killer.join())
         assert (done.done_before, done.part_count) == (0, PARTS)
         assert sums(folder) == undisturbed, f"after {moment:.3f}"
         assert not list(folder.rglob(f"*{scale.files.UNFINISHED}")), f"after {moment:.3f}"
     print(f"parts there at each kill: {caught} of {PARTS}")
+    assert min(caught) > 0, "no process was killed in a run"
     assert min(caught) < PARTS, "every run was over before a worker was killed"
 
 
 def test_workers_of_dask_killed_at_any_time_leave_no_unfinished_file(tmp_path: Path, client: Any) -> None:
-    def worker() -> int:
-        pids: dict[str, int] = client.run(os.getpid)
-        return next(iter(pids.values()))
+    def victims() -> Callable[[], int]:
+        # The one killed before is started again.
+        client.wait_for_workers(4, timeout=60)
+        pids: list[int] = list(client.run(os.getpid).values())
+        return lambda: pids[0]
 
-    finishes_though_a_worker_is_killed(tmp_path, client, worker)
+    finishes_though_a_worker_is_killed(tmp_path, client, victims)
 
 
 def test_processes_of_ray_killed_at_any_time_leave_no_unfinished_file(tmp_path: Path, four_of_ray: Any) -> None:
-    finishes_though_a_worker_is_killed(tmp_path, "ray", busy_of_ray)
+    finishes_though_a_worker_is_killed(tmp_path, "ray", lambda: busy_of_ray)
     assert four_of_ray.is_initialized(), "what was started elsewhere is kept"
