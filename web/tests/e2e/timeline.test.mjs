@@ -226,6 +226,8 @@ test("only a path has a timeline; it is closed and opened, and stays so", async 
   await shown.click("#timeline summary");
   assert.equal(await shown.locator(".charts").isVisible(), false);
   assert.match(await reading(shown), /^point \d+ of/);
+  // The browser tells the page after the click that it is closed.
+  await shown.waitForFunction(() => localStorage.getItem("armill-panel-timeline") === "false");
   await shown.reload();
   await settled(shown);
   assert.equal(await shown.locator(".charts").isVisible(), false);
