@@ -24,5 +24,5 @@ Examples:
   armill advise cell                               the part may move by up to 300 mm in each direction
   armill advise cell --x-mm 700,1300 --tilt-deg 0,90 --branch any
   armill advise cell --analysis rim --json
-The results are those of `armill run` with all recommended measures. They are written to the folder `advice`, with
+The results are those of `armill run` with all recommended measures. They are written to the folder `advice`, with \
 advice.json; the folder `advised` next to it has the study as advised, the path to command, and a table of the steps.";

@@ -10,7 +10,7 @@ use super::writing::WritingOptions;
 
 const AFTER: &str = "\
 STUDY contains circles (analyses of kind = \"path\") and, to estimate backlash, the ball-bar records measured on them:
-[[ballbar]] with the keys analysis and files. Its keys zero_deg and mirrored convert the angles of the files to those of
+[[ballbar]] with the keys analysis and files. Its keys zero_deg and mirrored convert the angles of the files to those of \
 the circle.
 Guide: docs/guide/ballbar.md
 

@@ -26,8 +26,8 @@ const MOST_POINTS: usize = 3600;
 #[command(
     allow_negative_numbers = true,
     after_help = "\
-A file is a CSV whose column names end in units (angle_deg,radius_dev_um,direction,run), with `# radius_mm: 100` above
-them, or a result file of a Renishaw ball-bar (.b5r), whose results are shown for comparison. All files must be of the same
+A file is a CSV whose column names end in units (angle_deg,radius_dev_um,direction,run), with `# radius_mm: 100` above \
+them, or a result file of a Renishaw ball-bar (.b5r), whose results are shown for comparison. All files must be of the same \
 circle. Guide: docs/guide/ballbar.md
 
 Examples:

@@ -7,8 +7,8 @@ use clap::Args;
 use super::writing::WritingOptions;
 
 const AFTER: &str = "\
-Compares the measurements of a circle of the study ([measured]: the profile of the part, circular tests without load)
-with the deviation predicted under load. Reports each contribution to the error with its bias and scatter, their sums,
+Compares the measurements of a circle of the study ([measured]: the profile of the part, circular tests without load) \
+with the deviation predicted under load. Reports each contribution to the error with its bias and scatter, their sums, \
 and how much of the measured error they explain, also per harmonic. Guide: docs/guide/budget.md
 
 Examples:

@@ -12,8 +12,8 @@ Examples:
   armill compare cell-a cell-b                              two set-ups; analyses of the same name are compared
   armill compare cell --robot kuka/kr120r2500pro --robot yaskawa/mh50
   armill compare studies/* --out decision --json
-A robot given with --robot has its own compliances or, if they are not known, those assumed for its payload; all other
-inputs are those of the study. Where robots differ, the first common path or set of holes is also compared at the best
+A robot given with --robot has its own compliances or, if they are not known, those assumed for its payload; all other \
+inputs are those of the study. Where robots differ, the first common path or set of holes is also compared at the best \
 placement of the part for each robot.")]
 pub(crate) struct CompareArguments {
     /// Studies: folders with a study.toml, files, or names of example studies

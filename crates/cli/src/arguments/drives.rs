@@ -9,8 +9,8 @@ use super::writing::WritingOptions;
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
-A log has one row per instant: time_s, and of each joint motor_j1_deg (motor encoder, reduced to the joint), torque_j1_nm (of the motor), and
-link_j1_deg (link encoder), if there is one: without it friction and load are determined, but no torsion. Of a MATLAB file (-v7, -v7.3),
+A log has one row per instant: time_s, and of each joint motor_j1_deg (motor encoder, reduced to the joint), torque_j1_nm (of the motor), and \
+link_j1_deg (link encoder), if there is one: without it friction and load are determined, but no torsion. Of a MATLAB file (-v7, -v7.3), \
 --names gives the arrays, with one row or one column for each joint. Guide: docs/guide/measure-stiffness.md
 
 Examples:

@@ -12,8 +12,8 @@ use super::writing::WritingOptions;
 #[command(
     allow_negative_numbers = true,
     after_help = "\
-Formats: urdf; xacro (macros, and the pose of each joint in a YAML file next to them); ur (calibration file of
-ur_description); dh (Denavit-Hartenberg table, CSV); sdf; mjcf (MuJoCo). Calibrated geometry is in all of them, stiffness in
+Formats: urdf; xacro (macros, and the pose of each joint in a YAML file next to them); ur (calibration file of \
+ur_description); dh (Denavit-Hartenberg table, CSV); sdf; mjcf (MuJoCo). Calibrated geometry is in all of them, stiffness in \
 sdf and mjcf. Joint positions are those of the robot file. Warnings name what a format does not express. Guide: docs/guide/export.md
 
 Examples:

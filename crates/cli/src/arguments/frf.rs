@@ -8,8 +8,8 @@ use super::writing::WritingOptions;
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
-A file is a universal file (dataset 58 or 58b) or a table with frequency_hz and receptance_real_um_per_n, receptance_imag_um_per_n (or mobility,
-accelerance; magnitude and phase_deg), and response, reference (1X, 12-Y). One FRF has its force and its response at the same point in the
+A file is a universal file (dataset 58 or 58b) or a table with frequency_hz and receptance_real_um_per_n, receptance_imag_um_per_n (or mobility, \
+accelerance; magnitude and phase_deg), and response, reference (1X, 12-Y). One FRF has its force and its response at the same point in the \
 same direction. Guide: docs/guide/stability.md
 
 Examples:

@@ -14,9 +14,9 @@ use super::writing::WritingOptions;
 #[command(
     allow_negative_numbers = true,
     after_help = "\
-TESTS.csv has one row per test; column names end in units: joint positions (A1_deg or q1_deg ...), force on the tool in
+TESTS.csv has one row per test; column names end in units: joint positions (A1_deg or q1_deg ...), force on the tool in \
 base axes (fx_n, fy_n, fz_n), displacement in base axes (dx_mm, dy_mm, dz_mm; empty where not measured).
-Groups of --unknowns: drives; bending (about the two axes perpendicular to each drive); base (the foundation); tool
+Groups of --unknowns: drives; bending (about the two axes perpendicular to each drive); base (the foundation); tool \
 (holder and tool, along the flange axes); lost-motion (backlash in drives). Guide: docs/guide/measure-stiffness.md
 
 Examples:

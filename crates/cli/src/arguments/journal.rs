@@ -10,8 +10,8 @@ use super::writing::WritingOptions;
 #[command(
     allow_negative_numbers = true,
     after_help = "\
-JOURNAL names a robot and every measurement of it: parts that were cut and measured, positions of a tracker, load tests, each with its day,
-temperature, file and uncertainty. Geometry, compliances and backlash are found from all of them together; what they do not determine
+JOURNAL names a robot and every measurement of it: parts that were cut and measured, positions of a tracker, load tests, each with its day, \
+temperature, file and uncertainty. Geometry, compliances and backlash are found from all of them together; what they do not determine \
 stays as the robot file has it.
 Guide: docs/guide/journal.md
 

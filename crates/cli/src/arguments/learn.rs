@@ -12,8 +12,8 @@ use super::writing::WritingOptions;
 #[command(
     allow_negative_numbers = true,
     after_help = "\
-POSES_FILE as for `armill calibrate`: joint positions and the measured point. The chain is calibrated, and what the calibrated
-chain leaves is learnt as a function of the joint positions. Each stretch of the file is held out once, and predicted from the
+POSES_FILE as for `armill calibrate`: joint positions and the measured point. The chain is calibrated, and what the calibrated \
+chain leaves is learnt as a function of the joint positions. Each stretch of the file is held out once, and predicted from the \
 others with the nominal, the calibrated and the learnt model.
 Guide: docs/guide/learn.md
 

@@ -4,7 +4,7 @@ use clap::Args;
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
-A study names a material in its table [cut]. Forces are computed from the mean of the complete coefficient sets of the
+A study names a material in its table [cut]. Forces are computed from the mean of the complete coefficient sets of the \
 material; the scatter of the sets gives the uncertainty.
 
 Examples:

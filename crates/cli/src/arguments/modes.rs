@@ -7,7 +7,7 @@ use clap::Args;
     allow_negative_numbers = true,
     after_help = "\
 The arm needs masses: [[mass]] and [[motor]] of the robot file, or <inertial> of a URDF; and joint compliances.
-Joints have the signs and zeros of the robot file. --tool-mm is flange to TCP in the flange frame: X,Y,Z in mm and RX,RY,RZ in
+Joints have the signs and zeros of the robot file. --tool-mm is flange to TCP in the flange frame: X,Y,Z in mm and RX,RY,RZ in \
 degrees. In the place of ROBOT a study (its folder or file) adds its tool with springs and masses. Equations: docs/theory/modes.md
 
 Examples:

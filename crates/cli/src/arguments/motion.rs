@@ -10,7 +10,7 @@ use super::writing::WritingOptions;
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
-A log has one row per instant: time, position of each joint (J1 ... or A1 ..., actual_q_0, AIPos.A1, fb_j1), and where known the commanded
+A log has one row per instant: time, position of each joint (J1 ... or A1 ..., actual_q_0, AIPos.A1, fb_j1), and where known the commanded \
 positions (target_q_0, ASPos.A1, planned_j1) and the number of the move. Guide: docs/guide/your-robot.md
 
 Examples:

@@ -8,7 +8,7 @@ use super::writing::WritingOptions;
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Files have one row per point (x_mm, y_mm, z_mm), in time order and in the same axes; a column `run` separates several
+Files have one row per point (x_mm, y_mm, z_mm), in time order and in the same axes; a column `run` separates several \
 runs in one file. Guide: docs/guide/calibrate.md
 
 Examples:

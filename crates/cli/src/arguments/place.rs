@@ -115,5 +115,5 @@ Examples:
   armill place cell --x-mm 700,1300 --y-mm -400,400
   armill place cell --x-mm 700,1300 --z-mm 400,1200 --tilt-deg -60,90 --branch any --spin-deg -180,180
   armill place cell --margin-deg 5 --objective mean --analysis rim
-The results are those of `armill run` with the path at the best placement. They are written to the folder `place`, with
+The results are those of `armill run` with the path at the best placement. They are written to the folder `place`, with \
 placement.json. An interrupted search continues when the command is started again.";

@@ -19,7 +19,7 @@ const ROBOT_OR_STUDY_HELP: &str = "Library robot (see `armill robots`), robot fi
     allow_negative_numbers = true,
     after_help = "\
 Joints have the signs and zeros of the robot file. Positions are relative to base_link unless --base is given.
---tool-mm is flange to TCP in the flange frame (z out of the flange): X,Y,Z in mm and RX,RY,RZ in degrees, about the
+--tool-mm is flange to TCP in the flange frame (z out of the flange): X,Y,Z in mm and RX,RY,RZ in degrees, about the \
 fixed axes x, y, z.
 --tilt-deg points the tool against the outward normal of a plane that is tilted from the vertical about base y.
 At 0 the plane faces the robot (tool along +x, the default), at 90 it faces up (tool down).

@@ -11,7 +11,7 @@ use super::robots::ROBOT_HELP;
 #[command(
     allow_negative_numbers = true,
     after_help = "\
-FILE has one row for each visit of a pose: joint positions (q1_deg ...), the measured point in tracker axes (x_mm, y_mm,
+FILE has one row for each visit of a pose: joint positions (q1_deg ...), the measured point in tracker axes (x_mm, y_mm, \
 z_mm) and, if known, the columns pose, direction, rx_deg ... Guide: docs/guide/calibrate.md
 
 Examples:

@@ -10,8 +10,8 @@ use super::writing::WritingOptions;
 #[command(
     allow_negative_numbers = true,
     after_help = "\
-Holder and cutter are beams, coupled to the modes of an arm in a posture, to modes measured at the spindle nose (--modes), or to a rigid
-nose (--rigid). Results are in the feed frame: x along the feed, y to its left, z from part to spindle. --nose-mm is flange to
+Holder and cutter are beams, coupled to the modes of an arm in a posture, to modes measured at the spindle nose (--modes), or to a rigid \
+nose (--rigid). Results are in the feed frame: x along the feed, y to its left, z from part to spindle. --nose-mm is flange to \
 spindle nose in the flange frame, X,Y,Z in mm and RX,RY,RZ in degrees; the tool points along z of the nose. Guide: docs/guide/receptance.md
 
 Examples:

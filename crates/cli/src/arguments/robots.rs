@@ -63,7 +63,7 @@ pub(crate) enum RobotsAction {
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
-The extension selects the format: .urdf, .xacro, .xml; .yaml (OPW, UR calibration); .dh, .csv (Denavit-Hartenberg table);
+The extension selects the format: .urdf, .xacro, .xml; .yaml (OPW, UR calibration); .dh, .csv (Denavit-Hartenberg table); \
 .chain, .fsf (elementary motions). Comments in the robot file state what was assumed and what is missing.
 
 Examples:
@@ -93,7 +93,7 @@ pub(crate) struct ImportArguments {
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
-The collision meshes are those that the file names, in its folder. Each capsule contains its part of a mesh; accuracy_mm is a bound
+The collision meshes are those that the file names, in its folder. Each capsule contains its part of a mesh; accuracy_mm is a bound \
 of the largest distance of its surface from the link. Joints are called as in the robot file of `armill robots import`.
 
 Examples:
@@ -117,8 +117,8 @@ pub(crate) struct BodiesArguments {
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
-The mass of the arm is in the maker's data sheet. It is distributed over the links in the ratio of the volumes of their bodies, less the
-masses that the robot file already gives. The mass of a link has a standard uncertainty of 45 %: enough for frequencies of vibration
+The mass of the arm is in the maker's data sheet. It is distributed over the links in the ratio of the volumes of their bodies, less the \
+masses that the robot file already gives. The mass of a link has a standard uncertainty of 45 %: enough for frequencies of vibration \
 within some 15 %, not for a calibration.
 
 Examples:
@@ -169,10 +169,10 @@ fn parse_capsules(text: &str) -> Result<usize, String> {
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
-A reading is joint positions, `=`, and the pose that the pendant shows for them: X,Y,Z in mm and the orientation, which
-is A,B,C (kuka), W,P,R (fanuc) or Rx,Ry,Rz (yaskawa, staubli) in degrees, the quaternion q1,q2,q3,q4 (abb), or the
+A reading is joint positions, `=`, and the pose that the pendant shows for them: X,Y,Z in mm and the orientation, which \
+is A,B,C (kuka), W,P,R (fanuc) or Rx,Ry,Rz (yaskawa, staubli) in degrees, the quaternion q1,q2,q3,q4 (abb), or the \
 rotation vector in rad (ur).
-Read two or three poses with every joint well away from 0 and 90 deg, in the base or world frame of the robot and with
+Read two or three poses with every joint well away from 0 and 90 deg, in the base or world frame of the robot and with \
 tool 0 selected.
 
 Examples:

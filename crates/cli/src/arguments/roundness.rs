@@ -14,7 +14,7 @@ use super::writing::WritingOptions;
 #[command(
     allow_negative_numbers = true,
     after_help = "\
-A file is a table whose column names end in units (x_mm,y_mm or x_mm,y_mm,z_mm or angle_deg,radius_mm), or, with --unit,
+A file is a table whose column names end in units (x_mm,y_mm or x_mm,y_mm,z_mm or angle_deg,radius_mm), or, with --unit, \
 rows of numbers without column names. Guide: docs/guide/roundness.md
 
 Examples:

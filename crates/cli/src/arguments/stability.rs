@@ -8,7 +8,7 @@ use super::writing::WritingOptions;
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
-The cut is that of `[cut]` of the study: cutter, material, depths, side; or that of the options, without a study. A file of modal data has the modes of vibration at the tip of the
+The cut is that of `[cut]` of the study: cutter, material, depths, side; or that of the options, without a study. A file of modal data has the modes of vibration at the tip of the \
 cutter: frequency, damping, direction, modal mass or stiffness. Guide: docs/guide/stability.md
 
 Examples:

@@ -9,8 +9,8 @@ use super::writing::WritingOptions;
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
-FILE is a table of a measured body or point as the tracker writes it (x, y, z; quaternion q0 to q3 or matrix m_00 to m_23), or three files of
-reflectors on the tool (x, y, z in mm, without titles), or one file of these (nine columns, without titles, joint positions in the last columns). Rows of all files belong together. The result is a table of poses for
+FILE is a table of a measured body or point as the tracker writes it (x, y, z; quaternion q0 to q3 or matrix m_00 to m_23), or three files of \
+reflectors on the tool (x, y, z in mm, without titles), or one file of these (nine columns, without titles, joint positions in the last columns). Rows of all files belong together. The result is a table of poses for \
 `armill calibrate`, `learn` and `pose-accuracy`.
 Guide: docs/guide/calibrate.md
 
