@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import re
 import subprocess
-import time
 
 import numpy as np
 import pytest
@@ -164,11 +163,9 @@ def test_reports_progress_and_an_exception_of_it_stops_the_run(tmp_path):
         if count > 0:
             raise Enough
 
-    start = time.perf_counter()
     with pytest.raises(Enough):
         study.run(tmp_path / "out", progress=progress)
     assert counts == sorted(counts) and 0 < counts[-1] < study.point_count
-    assert time.perf_counter() - start < 30
     assert not (tmp_path / "out/result.json").exists()
 
 

@@ -62,13 +62,13 @@ def test_python_continues_while_armill_works(mh12):
 
     thread = threading.Thread(target=tick)
     thread.start()
-    start, before = time.perf_counter(), ticks
+    before = ticks
     mh12.contributions(joints, FORCES, threads=1)
-    seconds, counted = time.perf_counter() - start, ticks - before
+    counted = ticks - before
     stop.set()
     thread.join()
-    # With the lock evaluation it would count none: one tick in five milliseconds is far less than it could.
-    assert counted > 3 and counted > 200 * seconds / 5, f"{counted} ticks in {seconds:.2f} s"
+    # With the lock evaluation it would count none, or one at either end.
+    assert counted > 3
 
 
 def test_several_threads_of_python_call_at_once(mh12):
@@ -127,15 +127,19 @@ except armill.Cancelled as stopped:
 
 @pytest.mark.parametrize("work", ["robot.contributions(joints, forces, threads=1)"])
 def test_ctrl_c_stops_long_work(work):
+    psutil = pytest.importorskip("psutil")
     process = subprocess.Popen([sys.executable, "-c", LONG.format(work=work)], stdout=subprocess.PIPE, text=True)
     assert process.stdout is not None and process.stdout.readline() == "ready\n"
-    time.sleep(0.7)
-    interrupted = time.perf_counter()
+    # In the middle of it, however busy the machine is: all of it takes ten times as much of a processor.
+    used = psutil.Process(process.pid).cpu_times
+    before = used().user
+    while used().user < before + 0.5:
+        time.sleep(0.01)
     process.send_signal(signal.SIGINT)
-    printed, _ = process.communicate(timeout=60)
+    printed, _ = process.communicate(timeout=600)
+    # Python itself would report an interrupt after the work, and with another error.
     assert process.returncode == 7, printed
     assert printed == "stopped: cancelled: no result was written\n"
-    assert time.perf_counter() - interrupted < 5.0
 
 
 def test_a_signal_handler_of_the_user_is_called(mh12):

@@ -58,7 +58,7 @@ class Killer:
         self._thread.start()
 
     def _wait(self) -> None:
-        until = time.monotonic() + 60
+        until = time.monotonic() + 3000
         while time.monotonic() < until and self._count() < self._parts:
             time.sleep(0.005)
         os.kill(self._victim(), signal.SIGKILL)
@@ -84,7 +84,7 @@ def at_work(pid: int) -> bytes:
 def busy_of_ray() -> int:
     """A process of the Ray started here that works on a part."""
     psutil = pytest.importorskip("psutil")
-    until = time.monotonic() + 30
+    until = time.monotonic() + 300
     while time.monotonic() < until:
         for process in psutil.Process().children(recursive=True):
             # Ray writes the current task there.

@@ -6,7 +6,6 @@ import dataclasses
 import os
 import subprocess
 import sys
-import time
 from collections.abc import Iterable
 from pathlib import Path
 from types import SimpleNamespace
@@ -155,10 +154,8 @@ def test_a_failing_part_on_a_worker_reports_its_items(tmp_path: Path, client: An
 
 def test_reports_a_scheduler_that_does_not_answer_in_time(tmp_path: Path) -> None:
     pytest.importorskip("distributed")
-    began = time.monotonic()
     with pytest.raises(scale.SweepFailed, match=r"scheduler at tcp://127\.0\.0\.1:9 did not answer within 1 s"):
         scale.run(works.waves(), tmp_path, "tcp://127.0.0.1:9", timeout=1, items_per_part=50)
-    assert time.monotonic() - began < 10
 
 
 def test_reports_missing_workers_in_time(tmp_path: Path, client: Any) -> None:

@@ -232,7 +232,7 @@ def started(folder: Path, progress: bool = False) -> subprocess.Popen[str]:
 
 def has_parts(folder: Path, count: int, process: subprocess.Popen[str]) -> None:
     """Waits until the manifest has `count` parts."""
-    until = time.monotonic() + 30
+    until = time.monotonic() + 300
     while time.monotonic() < until and process.poll() is None:
         if (folder / "manifest.json").exists() and len(manifest(folder)["parts"]) >= count:
             return

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-import time
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import armill
 from armill import scale
+from armill.scale import planning
 from armill.scale.fingerprint import request_of
 
 from . import works
@@ -45,12 +46,22 @@ def test_parts_cover_the_items_once() -> None:
     assert spans[-1][1] == 1000
 
 
-def test_a_planned_part_takes_longer_than_sending_it() -> None:
-    plan = scale.plan(works.waves(4000, 2500))
-    began = time.perf_counter()
-    plan.sweep.work(plan.sweep.block(*plan.span(0)))
-    assert time.perf_counter() - began > 0.02, "half of 50 ms, for clocks and neighbours"
-    assert plan.part_count > 4
+@pytest.mark.parametrize("seconds", [1e-7, 2e-5, 3e-3, 0.7])
+def test_a_planned_part_takes_longer_than_sending_it(monkeypatch: pytest.MonkeyPatch, seconds: float) -> None:
+    now = 0.0
+
+    def clocked(block: scale.Block) -> dict[str, object]:
+        nonlocal now
+        now += seconds * len(block)
+        return {"value": block["row"] + block["column"]}
+
+    # A clock by which every item takes as long as on any other machine.
+    monkeypatch.setattr(planning, "time", SimpleNamespace(perf_counter=lambda: now))
+    plan = scale.plan(scale.Sweep({"row": 4000, "column": 2500}, clocked))
+    assert plan.seconds_per_item == pytest.approx(seconds)
+    part = seconds * plan.items_per_part
+    assert part >= 0.09 or plan.part_count == 1, "sending it takes some ten milliseconds"
+    assert part <= max(4.0, 1e7 * seconds / 20_000) * 1.001, "so much is lost with a worker"
     assert "in total on one worker here" in str(plan)
 
 

@@ -10,6 +10,9 @@ use serde_json::{Value, json};
 
 use crate::cell::{Cell, files_in};
 
+/// After this a test gives up; nothing takes so long, also beside other work.
+const PATIENCE: Duration = Duration::from_secs(600);
+
 /// The server of this cell and its address; ended with the test, however it ends.
 struct Served(Child, String);
 
@@ -68,7 +71,7 @@ fn the_first_line_is_the_address_and_a_signal_ends_it_with_zero() {
             if let Some(status) = child.try_wait().unwrap() {
                 break status;
             }
-            assert!(begun.elapsed() < Duration::from_secs(20));
+            assert!(begun.elapsed() < PATIENCE, "still running");
             std::thread::sleep(Duration::from_millis(20));
         };
         assert_eq!(ended.code(), Some(0));
@@ -80,7 +83,7 @@ fn the_first_line_is_the_address_and_a_signal_ends_it_with_zero() {
 fn wait_until(what: &str, happens: impl Fn() -> bool) {
     let begun = Instant::now();
     while !happens() {
-        assert!(begun.elapsed() < Duration::from_secs(30), "{what}");
+        assert!(begun.elapsed() < PATIENCE, "{what}");
         std::thread::sleep(Duration::from_millis(20));
     }
 }
@@ -195,21 +198,27 @@ fn clients_without_the_token_do_not_keep_out_one_that_has_it() {
     let (host, _) = server.1.strip_prefix("http://").unwrap().split_once('/').unwrap();
     // So much that what answers it does not fit into what the system keeps.
     let requested = format!("GET / HTTP/1.1\r\nHost: {host}\r\n\r\n").repeat(4000);
-    let mut strangers = Vec::new();
-    for number in 0..520 {
-        let mut stranger = TcpStream::connect(host).unwrap();
-        stranger.set_nonblocking(true).unwrap();
-        if number % 2 == 0 {
-            // What the system does not take is not sent.
-            let _ = stranger.write(requested.as_bytes());
+    let answered = || {
+        let mut strangers = Vec::new();
+        for number in 0..520 {
+            let mut stranger = TcpStream::connect(host).unwrap();
+            stranger.set_nonblocking(true).unwrap();
+            if number % 2 == 0 {
+                // What the system does not take is not sent.
+                let _ = stranger.write(requested.as_bytes());
+            }
+            strangers.push(stranger);
         }
-        strangers.push(stranger);
-    }
-    let begun = Instant::now();
-    assert_eq!(server.requested("GET", "/api/jobs", ""), json!({ "jobs": [] }));
-    // Before the time limits of the strangers end any of their connections.
-    assert!(begun.elapsed() < Duration::from_secs(8), "{:?}", begun.elapsed());
-    drop(strangers);
+        let begun = Instant::now();
+        assert_eq!(server.requested("GET", "/api/jobs", ""), json!({ "jobs": [] }));
+        begun.elapsed()
+    };
+    // Before the time limits of the strangers, ten seconds, end any of their connections; if it waited for them, it would every time.
+    let times: Vec<Duration> = (0..10)
+        .map(|_| answered())
+        .take_while(|time| *time > Duration::from_secs(8))
+        .collect();
+    assert!(times.len() < 10, "{times:?}");
 }
 
 #[test]
@@ -277,7 +286,7 @@ impl Served {
             let job = self.requested("GET", &format!("/api/jobs/{id}"), "");
             match job["state"].as_str().unwrap() {
                 "done" => return job,
-                "waiting" | "running" => assert!(begun.elapsed() < Duration::from_secs(600)),
+                "waiting" | "running" => assert!(begun.elapsed() < PATIENCE, "{job}"),
                 other => panic!("{other}: {job}"),
             }
             std::thread::sleep(Duration::from_millis(50));
@@ -312,10 +321,7 @@ fn a_placement_continues_after_the_server_was_killed() {
     server.place();
     let begun = Instant::now();
     while !killed.at("place/place.rounds").exists() {
-        assert!(
-            begun.elapsed() < Duration::from_secs(300),
-            "no round in five minutes"
-        );
+        assert!(begun.elapsed() < PATIENCE, "no round");
         std::thread::sleep(Duration::from_millis(1));
     }
     server.0.kill().unwrap();

@@ -9,7 +9,7 @@ use armill_web::{Options, Server};
 use serde_json::Value;
 
 /// Longest time that any test waits for one answer.
-pub const PATIENCE: Duration = Duration::from_secs(60);
+pub const PATIENCE: Duration = Duration::from_secs(300);
 
 /// A server with what is needed to send requests to it.
 pub struct Served {

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::json;
 
-use crate::client::{STUDY, Served, folder, read, serve};
+use crate::client::{PATIENCE, STUDY, Served, folder, read, serve};
 
 /// A request with these lines behind the first.
 fn request(served: &Served, first: &str, lines: &[&str]) -> u16 {
@@ -267,7 +267,7 @@ fn files_of_a_killed_upload_are_removed_at_the_next_start() {
     stream.write_all(format!("{head}half").as_bytes()).unwrap();
     let begun = Instant::now();
     while unfinished(folder.path()).is_empty() {
-        assert!(begun.elapsed() < Duration::from_secs(9), "no upload began");
+        assert!(begun.elapsed() < PATIENCE, "no upload began");
         std::thread::sleep(Duration::from_millis(10));
     }
     // As a kill leaves it: of the same form, and open nowhere.
@@ -310,12 +310,12 @@ fn files_are_uploaded_once_and_completely() {
     let left = || unfinished(&inner).len();
     let begun = Instant::now();
     while left() == 0 {
-        assert!(begun.elapsed() < Duration::from_secs(9), "no upload began");
+        assert!(begun.elapsed() < PATIENCE, "no upload began");
         std::thread::sleep(Duration::from_millis(10));
     }
     drop(stream);
     let begun = Instant::now();
-    while left() > 0 && begun.elapsed() < Duration::from_secs(10) {
+    while left() > 0 && begun.elapsed() < PATIENCE {
         std::thread::sleep(Duration::from_millis(20));
     }
     assert_eq!(left(), 0);
@@ -400,7 +400,7 @@ fn a_client_that_sends_slowly_is_disconnected() {
     let begun = Instant::now();
     stream.write_all(b"GET /api/study HTTP/1.1\r\nX-Slow: ").unwrap();
     let cut = loop {
-        assert!(begun.elapsed() < Duration::from_secs(30), "still open");
+        assert!(begun.elapsed() < PATIENCE, "still open");
         let mut piece = [0; 64];
         let ended = match stream.read(&mut piece) {
             Ok(_) => true,
@@ -441,9 +441,10 @@ fn a_stalled_body_is_answered_and_closed() {
     for mut stream in stalled {
         assert_eq!(read(&mut stream).status, 408);
     }
+    // Not at once, and not only at the limit of a whole body, which is a minute.
     let waited = begun.elapsed();
     assert!(
-        waited > Duration::from_secs(5) && waited < Duration::from_secs(40),
+        waited > Duration::from_secs(5) && waited < Duration::from_secs(60),
         "{waited:?}"
     );
     // Nothing of it was kept.
