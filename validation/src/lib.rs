@@ -67,6 +67,8 @@ mod milling_mean_force;
 mod nist_circles;
 #[path = "../path-accuracy/case.rs"]
 mod path_accuracy;
+#[path = "../path-and-hole-columns/case.rs"]
+mod path_and_hole_columns;
 #[path = "../planar-modes/case.rs"]
 mod planar_modes;
 #[path = "../plane-split/case.rs"]
@@ -184,6 +186,10 @@ pub const CASES: &[Case] = &[
     Case {
         folder: "shares-and-uncertainty",
         checks: shares_and_uncertainty::checks,
+    },
+    Case {
+        folder: "path-and-hole-columns",
+        checks: path_and_hole_columns::checks,
     },
     Case {
         folder: "jacobian-differences",

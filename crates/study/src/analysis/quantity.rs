@@ -68,7 +68,7 @@ const ALONG_TRACK: Origin = Origin {
     file: "core/src/path/track.rs",
     function: "Track::parts",
     theory: Some("deviation"),
-    validation: None,
+    validation: Some("path-and-hole-columns"),
 };
 const WITHOUT_LOAD: Origin = Origin {
     file: "core/src/predict.rs",
@@ -98,7 +98,7 @@ const IN_HOLE: Origin = Origin {
     file: "study/src/analysis/holes/answer.rs",
     function: "error",
     theory: None,
-    validation: None,
+    validation: Some("path-and-hole-columns"),
 };
 
 /// Distance to the joint limits.
@@ -265,7 +265,7 @@ pub const SCALLOP: Quantity = deviation(
         file: "core/src/path/scallop.rs",
         function: "scallop",
         theory: Some("lattice"),
-        validation: None,
+        validation: Some("path-and-hole-columns"),
     },
 );
 /// Along the track.
@@ -315,14 +315,14 @@ pub const WRIST_BEND: Quantity = angle(
         file: "core/src/robot/jacobian.rs",
         function: "wrist_bend",
         theory: None,
-        validation: None,
+        validation: Some("path-and-hole-columns"),
     },
 );
 const OF_CUT: Origin = Origin {
     file: "core/src/load/spindle.rs",
     function: "Milling::mean_torque",
     theory: Some("cutting"),
-    validation: None,
+    validation: Some("path-and-hole-columns"),
 };
 
 /// A value of the cut.

@@ -63,7 +63,7 @@ const RELEASE: Origin = Origin {
     file: "core/src/dynamics/release.rs",
     function: "release",
     theory: Some("modes"),
-    validation: None,
+    validation: Some("path-and-hole-columns"),
 };
 /// Speed at breakthrough.
 pub const BREAKTHROUGH_SPEED: Quantity = Quantity {
@@ -87,5 +87,8 @@ pub const BREAKTHROUGH_FEED: Quantity = Quantity {
     unit: None,
     decimals: 4,
     words: "part of the feed before breakthrough with which the drill is at most twice as fast there as programmed",
-    origin: Some(RELEASE),
+    origin: Some(Origin {
+        validation: None,
+        ..RELEASE
+    }),
 };

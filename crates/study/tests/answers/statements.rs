@@ -101,3 +101,27 @@ fn sources_of_loads_and_of_the_tool_holder_are_in_the_result() {
         Some("a dynamometer")
     );
 }
+
+#[test]
+fn chips_thicker_than_a_fifth_of_the_radius_are_reported() {
+    // 1 mm at 900 revolutions a minute.
+    let at = |rpm: u32| {
+        let cut = format!(
+            "[cut]\nmaterial = \"aluminium-7075-t6\"\naxial_depth_mm = 1\nside = \"slot\"\nspindle_rpm = {rpm}\nfeed_mm_per_min = 1800\n\
+             cutter = {{ diameter_mm = 10, flutes = 2 }}\n[[analysis]]\nkind = \"path\"\nname = \"c\"\ncircle.radius_mm = 100\nstep_mm = 10\n"
+        );
+        answered(&plate_with(&cut))
+    };
+    let thin = at(910);
+    assert_eq!(thin.paths[0].cut.as_ref().unwrap().points_with_thick_chips, 0);
+    assert!(!thin.warnings.iter().any(|warning| warning.contains("thicker")));
+    let thick = at(890);
+    let cut = thick.paths[0].cut.as_ref().unwrap();
+    assert_eq!(cut.points_with_thick_chips, thick.paths[0].points);
+    let expected = "c: chips are thicker than a fifth of the radius of the cutter at 63 points, the first in line 1 (up to 1011.2 µm): check the units";
+    assert!(
+        thick.warnings.iter().any(|warning| warning.starts_with(expected)),
+        "{:?}",
+        thick.warnings
+    );
+}

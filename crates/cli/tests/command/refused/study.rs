@@ -260,7 +260,11 @@ fn a_grid_of_a_billion_points_is_refused_at_once_with_its_memory() {
             .refused(&words)
             .refused(&["study.toml:10:11"]);
         // Two starts of a program; a billion points take ten minutes and more.
-        assert!(start.elapsed() < Duration::from_secs(300), "{:?}", start.elapsed());
+        assert!(
+            start.elapsed() < Duration::from_secs(300),
+            "{:?}",
+            start.elapsed()
+        );
     }
 }
 

@@ -7,6 +7,9 @@ use armill_core::path::{Cutting, Pace, Track};
 
 /// Steps of a period at which the greatest torque is sought.
 const TORQUE_STEPS: u32 = 360;
+/// From this part of the radius of the cutter on a chip is thick. Teeth move on trochoids; as circles they have a chip that is wrong by a
+/// tenth of the feed per tooth there: `c / 2R`, where the tooth passes beside.
+const THICK: f64 = 0.2;
 
 /// Process values along a path; not a number where nothing is cut or the force is not known.
 #[derive(Clone, Debug, Default)]
@@ -15,6 +18,10 @@ pub struct ProcessLoads {
     pub points: Vec<ProcessPoint>,
     /// Greatest torque within a revolution where its mean is largest, N m.
     pub greatest_torque: f64,
+    /// Number of points with a thick chip.
+    pub thick: usize,
+    /// The first of them.
+    pub first_thick: Option<usize>,
 }
 
 /// Process values at a point.
@@ -46,7 +53,8 @@ impl ProcessLoads {
         // Consecutive points mostly have the same cut.
         let mut last: Option<(usize, Cut, [f64; 2])> = None;
         let mut hardest: Option<(f64, Milling)> = None;
-        for (here, point) in cuts.points.iter().zip(&track.path.points) {
+        let (mut thick, mut first_thick) = (0, None);
+        for (index, (here, point)) in cuts.points.iter().zip(&track.path.points).enumerate() {
             let Some(cut) = here.cut else {
                 points.push(NOTHING);
                 continue;
@@ -66,6 +74,10 @@ impl ProcessLoads {
                     Err(_) => [f64::NAN; 2],
                 },
             };
+            if chip > THICK * 0.5 * cuts.cutters[here.cutter].diameter() {
+                thick += 1;
+                first_thick.get_or_insert(index);
+            }
             let speed = match point.pace {
                 Pace::Feed(speed) => Some(speed),
                 Pace::Rapid | Pace::Unknown => cutting.feed,
@@ -80,6 +92,8 @@ impl ProcessLoads {
         Some(ProcessLoads {
             points,
             greatest_torque: hardest.map_or(0.0, |(_, milling)| milling.greatest_torque(TORQUE_STEPS)),
+            thick,
+            first_thick,
         })
     }
 

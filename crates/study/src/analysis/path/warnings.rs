@@ -1,7 +1,7 @@
 //! Warnings of a path: out of reach, outside joint limits, jumps and speeds of joints, motions that leave the tolerance, points without
-//! force.
+//! force, thick chips.
 
-use crate::analysis::path::answer::{MotionAnswer, PathAnswer};
+use crate::analysis::path::answer::{CutAnswer, MotionAnswer, PathAnswer};
 use crate::analysis::path::machined_part;
 use crate::analysis::words::micrometres;
 
@@ -11,7 +11,7 @@ const MOST_STRETCHES: usize = 5;
 /// Warnings of a path that a user should know before relying on it.
 ///
 /// In this order: points without the demanded clearance, points out of reach with what may be the reason, points outside joint limits, jumps and speeds of
-/// joints, points whose deviation is zero only because no force is known there.
+/// joints, points whose deviation is zero only because no force is known there, chips that are too thick.
 pub fn warnings(path: &PathAnswer) -> Vec<String> {
     let name = &path.name;
     let mut warnings = Vec::new();
@@ -84,8 +84,20 @@ pub fn warnings(path: &PathAnswer) -> Vec<String> {
             path.points
         ));
     }
+    warnings.extend(path.cut.as_ref().and_then(|cut| thick_chips(name, cut)));
     warnings.extend(machined_part::report::warnings(path));
     warnings
+}
+
+/// Chips so thick that feed or spindle speed are hardly meant so.
+fn thick_chips(name: &str, cut: &CutAnswer) -> Option<String> {
+    let (line, largest) = (cut.first_thick_chip_line?, cut.largest_chip_um?);
+    Some(format!(
+        "{name}: chips are thicker than a fifth of the radius of the cutter at {} points, the first in line {line} (up to {} µm): check the \
+         units of feed and spindle speed; the coefficients of the material are extrapolated there.",
+        cut.points_with_thick_chips,
+        micrometres(largest)
+    ))
 }
 
 /// Rounded corners, or joints that follow late, that exceed the tolerance without any load.

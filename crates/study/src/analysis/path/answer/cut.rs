@@ -29,6 +29,10 @@ pub struct CutAnswer {
     pub largest_torque_n_m: Option<f64>,
     /// Largest chip thickness.
     pub largest_chip_um: Option<f64>,
+    /// Points with chips thicker than a fifth of the radius of the cutter.
+    pub points_with_thick_chips: usize,
+    /// Line of the first of them.
+    pub first_thick_chip_line: Option<u32>,
     /// Largest material removal rate.
     pub largest_removal_mm3_per_s: Option<f64>,
     /// Points whose cut has no force: plunges and steep ramps, where the bottom of the cutter is not modelled.
@@ -82,6 +86,12 @@ impl CutAnswer {
             largest_mean_torque_n_m: largest(|point| point.torque),
             largest_torque_n_m: found.process.as_ref().map(|process| process.greatest_torque),
             largest_chip_um: largest(|point| point.chip).map(to_um),
+            points_with_thick_chips: found.process.as_ref().map_or(0, |process| process.thick),
+            first_thick_chip_line: found
+                .process
+                .as_ref()
+                .and_then(|process| process.first_thick)
+                .map(|index| analysis.track.path.points[index].line),
             largest_removal_mm3_per_s: largest(|point| point.removal_rate).map(|rate| rate * 1e9),
             material: material.name.clone(),
             largest_mean_n: forces.largest_mean,
