@@ -54,6 +54,7 @@ export default defineConfig(({ mode }) => {
         },
       },
     },
-    test: { include: ["tests/unit/**/*.test.ts"], environment: "node" },
+    // A limit is there for what hangs: a busy machine takes minutes.
+    test: { include: ["tests/unit/**/*.test.ts"], environment: "node", testTimeout: 600_000 },
   };
 });

@@ -44,7 +44,7 @@ async function study(page) {
 test("advice: each measure with its gain, applied by its button, taken back as one step", () =>
   at(async (page, folder) => {
     await page.click("[data-key=advise]");
-    await page.locator(".advice-measures").waitFor({ timeout: 300_000 });
+    await page.locator(".advice-measures").waitFor();
     const advice = JSON.parse(readFileSync(join(folder, "advice/advice.json"), "utf8"));
     const words = await page.locator(".advice").innerText();
     assert.ok(words.includes(advice.advice[0].replaceAll(" um", " µm")), words);
@@ -77,18 +77,18 @@ test("advice: each measure with its gain, applied by its button, taken back as o
 test("compensation: what remains, the path and a robot program as files, in the language of the robot or another", () =>
   at(async (page, folder) => {
     await page.click("[data-key=compensate]");
-    await page.locator(".advice-files").waitFor({ timeout: 300_000 });
+    await page.locator(".advice-files").waitFor();
     assert.match(await page.locator(".advice-files").innerText(), /compensated [\d.]+ µm/);
     const [download] = await Promise.all([page.waitForEvent("download"), page.locator('.advice-files [data-file="programs/pocket.LS"]').click()]);
     assert.deepEqual(readFileSync(await download.path()), readFileSync(join(folder, "programs/pocket.LS")));
     assert.ok(existsSync(join(folder, "compensated/pocket.commanded.csv")));
     await page.selectOption(".advice-language", "src");
     await page.click("[data-key=compensate]");
-    await page.locator('.advice-files [data-file="programs/pocket.src"]').waitFor({ timeout: 300_000 });
+    await page.locator('.advice-files [data-file="programs/pocket.src"]').waitFor();
     // Keyboard alone.
     await page.focus("[data-key=compensate]");
     await page.keyboard.press("Enter");
-    await page.locator('.advice-files [data-file="programs/pocket.src"]').waitFor({ timeout: 300_000 });
+    await page.locator('.advice-files [data-file="programs/pocket.src"]').waitFor();
   }));
 
 test("the cut: values as controls, at the field what is wrong, and what the program gives instead", () =>

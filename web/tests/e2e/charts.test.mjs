@@ -85,7 +85,7 @@ for (const [analysis, [names, column]] of Object.entries(CHARTS))
     await page.selectOption("#field-analysis", analysis);
     await settled(page);
     await page.click("#tab-pictures");
-    await page.waitForSelector(".picture img", { timeout: 60_000 });
+    await page.waitForSelector(".picture img");
     const cards = page.locator(".picture");
     const drawn = await page.locator(".picture img").evaluateAll((images) => Promise.all(images.map((i) => i.decode().then(() => i.naturalWidth * i.naturalHeight))));
     assert.ok(drawn.length >= 1 && drawn.every((area) => area > 10_000), `${drawn}`);
@@ -95,7 +95,7 @@ for (const [analysis, [names, column]] of Object.entries(CHARTS))
       for (const kind of ["SVG", "PNG", "CSV"]) {
         // Chromium takes ten downloads of a page at once, and drops what comes faster.
         await page.waitForTimeout(200);
-        const [download] = await Promise.all([page.waitForEvent("download", { timeout: 60_000 }), cards.nth(i).getByRole("button", { name: kind, exact: true }).click()]);
+        const [download] = await Promise.all([page.waitForEvent("download"), cards.nth(i).getByRole("button", { name: kind, exact: true }).click()]);
         assert.ok(download.suggestedFilename().endsWith(`.${kind.toLowerCase()}`), download.suggestedFilename());
         saved[kind] = readFileSync(await download.path());
         files.push(download.suggestedFilename());

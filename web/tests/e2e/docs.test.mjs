@@ -25,7 +25,7 @@ async function inside(page) {
   const element = await page.waitForSelector(".live iframe");
   await element.scrollIntoViewIfNeeded();
   const frame = await element.contentFrame();
-  await frame.waitForSelector(".pace", { timeout: 60_000 });
+  await frame.waitForSelector(".pace");
   await settled(frame);
   return frame;
 }

@@ -51,7 +51,7 @@ const json = (folder, name) => JSON.parse(readFileSync(join(folder, name), "utf8
 test("a small placement runs to its end: its place is told, shown, and lies in the folder", () =>
   at(SMALL, async (page, folder, server) => {
     await page.click("[data-kind=place]");
-    await page.waitForSelector(".job.done", { timeout: 240_000 });
+    await page.waitForSelector(".job.done");
     const placed = json(folder, "place/placement.json");
     const words = await page.locator(".job.done").innerText();
     assert.ok(words.includes(`deviation ${placed.recommended.cost_um.toFixed(1)} ± `), `${words} does not report ${placed.recommended.cost_um}`);
@@ -97,7 +97,7 @@ test("a placement goes on over a reload and is shown again; cancelled it leaves 
     await page.click("[data-kind=place]");
     await page.waitForSelector(".job.running progress");
     const counted = async () => Number(/^([\d.,]+) of/.exec((await page.locator(".job.running p").first().innerText()).replaceAll("\u202f", ""))?.[1] ?? -1);
-    await page.waitForFunction(() => /about .* left/.test(document.querySelector(".job.running p")?.textContent ?? ""), null, { timeout: 120_000 });
+    await page.waitForFunction(() => /about .* left/.test(document.querySelector(".job.running p")?.textContent ?? ""));
     const said = await page.locator(".job.running").innerText();
     assert.match(said, /^Placement\n/);
     assert.ok((said.match(/best so far/g) ?? []).length <= 1, said);
@@ -114,9 +114,9 @@ test("a placement goes on over a reload and is shown again; cancelled it leaves 
     await page.click("[data-kind=run]");
     await page.waitForSelector(".job.waiting");
     await page.locator(".job.running").getByRole("button", { name: "Cancel" }).click();
-    await page.waitForSelector(".job.cancelled", { timeout: 60_000 });
+    await page.waitForSelector(".job.cancelled");
     assert.ok(!existsSync(join(folder, "place/placement.json")));
-    await page.waitForSelector(".job.done", { timeout: 240_000 });
+    await page.waitForSelector(".job.done");
     assert.ok(json(folder, "out/result.json").paths[0].points > 100);
     await other.close();
   }));
@@ -124,7 +124,7 @@ test("a placement goes on over a reload and is shown again; cancelled it leaves 
 test("the best posture is searched to its end, its table lies in the folder", () =>
   at(`${SMALL}[posture.search]\nstep_deg = 30\n`, async (page, folder) => {
     await page.click("[data-kind=posture]");
-    await page.waitForSelector(".job.done", { timeout: 240_000 });
+    await page.waitForSelector(".job.done");
     const { search } = json(folder, "posture/result.json").paths[0];
     assert.equal(search.turns, 12);
     assert.ok((await page.locator(".job.done").innerText()).includes("posture/"), "its files are named");
@@ -148,7 +148,7 @@ test("compliances are identified from a table that was dropped, and the study ta
     await page.click("#tab-jobs");
     await page.click("[data-kind=identify]");
     await page.getByRole("button", { name: "Start" }).click();
-    await page.waitForSelector(".job.done", { timeout: 120_000 });
+    await page.waitForSelector(".job.done");
     assert.match(readFileSync(join(folder, "identify/robot.toml"), "utf8"), /tests\.csv/);
     assert.match(await page.locator(".job.done").innerText(), /^Compliance identification\n.*springs from 14 load tests.*N m\/rad/s);
     await page.reload();
@@ -171,7 +171,7 @@ test("compliances are identified from a table that was dropped, and the study ta
 test("a run with several analyses says each", () =>
   at(`${SMALL}\n[[analysis]]\nkind = "map"\nname = "plate"\n`, async (page) => {
     await page.click("[data-kind=run]");
-    await page.waitForSelector(".job.done .job-lines", { timeout: 240_000 });
+    await page.waitForSelector(".job.done .job-lines");
     const lines = await page.locator(".job.done .job-lines li").allInnerTexts();
     assert.equal(lines.length, 2);
     assert.ok(lines.some((line) => /^plate .*within tolerance, worst .* µm/.test(line)) && lines.some((line) => /^groove /.test(line)), lines.join());
@@ -180,7 +180,7 @@ test("a run with several analyses says each", () =>
 test("a finished job is in the list after a restart of the server, with its files", () =>
   at(SMALL, async (page, folder, server) => {
     await page.click("[data-kind=run]");
-    await page.waitForSelector(".job.done", { timeout: 240_000 });
+    await page.waitForSelector(".job.done");
     await server.end();
     await page.goto(await restart(server));
     await page.click("#tab-jobs");
@@ -190,6 +190,6 @@ test("a finished job is in the list after a restart of the server, with its file
     await report.waitForSelector("h1");
     // A new one is another one, though the server begins to count anew.
     await page.click("[data-kind=run]");
-    await page.waitForSelector(".job.done + .job.done", { timeout: 240_000 });
+    await page.waitForSelector(".job.done + .job.done");
     assert.equal(await page.locator(".job").count(), 2);
   }));

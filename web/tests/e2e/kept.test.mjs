@@ -175,7 +175,7 @@ test("an open tab continues when the study is opened at the address of a restart
     const url = await restart(server);
     assert.equal(new URL(url).port, new URL(server.url).port, "the same port");
     await page.bringToFront();
-    await page.waitForFunction(() => document.querySelector('[data-notice="server"]')?.textContent.includes("restarted") ?? false, null, { timeout: 20_000 });
+    await page.waitForFunction(() => document.querySelector('[data-notice="server"]')?.textContent.includes("restarted") ?? false);
     const next = await page.context().newPage();
     await next.goto(url);
     await settled(next);

@@ -30,7 +30,7 @@ after(async () => {
 
 /** The points of the path that the material shown is cut by. */
 const points = (page) => page.evaluate(() => Number(document.querySelector(".stage").dataset.part || NaN));
-const shown = (page, expected = count) => page.waitForFunction((expected) => document.querySelector(".stage").dataset.part === String(expected) && document.querySelector("#panel-machined").getAttribute("aria-busy") === "false", expected, { timeout: 60_000 });
+const shown = (page, expected = count) => page.waitForFunction((expected) => document.querySelector(".stage").dataset.part === String(expected) && document.querySelector("#panel-machined").getAttribute("aria-busy") === "false", expected);
 const picture = async (page) => {
   await still(page);
   return page.locator(".stage > canvas").screenshot();
@@ -191,14 +191,14 @@ test("a change of the study cuts the part again; what cannot be cut is said in a
   const before = await most();
   await page.fill("#field-x", "1850");
   await page.keyboard.press("Enter");
-  await page.waitForFunction((before) => document.querySelector("#panel-machined .figure-value").textContent !== before, before, { timeout: 60_000 });
+  await page.waitForFunction((before) => document.querySelector("#panel-machined .figure-value").textContent !== before, before);
   await shown(page);
   const moved = await client(server.url)("POST", "/api/answer", { text: text.replace("centre_mm = [1700,", "centre_mm = [1850,"), analysis: "pocket" });
   assert.equal(await most(), signed(moved.paths[0].machined_part.most_left_um));
   await page.route("**/api/part-surface", (route) => route.fulfill({ status: 400, contentType: "application/json", body: JSON.stringify({ error: { kind: "invalid-input", message: "the mesh of the stock has no triangle", hint: null, problems: [] } }) }));
   await page.fill("#field-x", "1800");
   await page.keyboard.press("Enter");
-  await page.waitForFunction(() => /no triangle/.test(document.querySelector("#panel-machined").textContent), null, { timeout: 60_000 });
+  await page.waitForFunction(() => /no triangle/.test(document.querySelector("#panel-machined").textContent));
   assert.ok(Number.isNaN(await points(page)));
   assert.deepEqual(page.complaints, []);
   await page.context().close();

@@ -62,6 +62,9 @@ export async function restart(server) {
   return url;
 }
 
+/** After this a test gives up, ms: nothing takes so long, also on a busy machine. */
+export const PATIENCE = 300_000;
+
 export const launch = () => chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: FLAGS });
 
 /** Requests to the server by a program. */
@@ -82,6 +85,7 @@ export function client(url) {
 /** A page on the server, with whatever the browser complained about. */
 export async function open(browser, url, { width = 1280, height = 800, dark = false, scale = 1, answers = true } = {}) {
   const context = await browser.newContext({ viewport: { width, height }, colorScheme: dark ? "dark" : "light", deviceScaleFactor: scale });
+  context.setDefaultTimeout(PATIENCE);
   const page = await context.newPage();
   page.complaints = [];
   page.on("pageerror", (error) => page.complaints.push(String(error)));
@@ -105,21 +109,19 @@ export async function settled(page) {
   await page.waitForTimeout(60);
   await page.waitForFunction(
     () => /\d ms/.test(document.querySelector(".pace")?.textContent ?? "") && document.querySelector("main")?.getAttribute("aria-busy") !== "true" && document.querySelector(".right")?.getAttribute("aria-busy") !== "true",
-    null,
-    { timeout: 60_000 },
   );
   await drawn(page);
 }
 
 /** The scene is drawn as it is now: what the pointer is over is found. */
-export const drawn = (page) => page.waitForFunction(() => document.querySelector(".stage")?.dataset.picture !== "waits", null, { timeout: 60_000 });
+export const drawn = (page) => page.waitForFunction(() => document.querySelector(".stage")?.dataset.picture !== "waits");
 
 /** The scene is drawn in its final resolution. */
-export const still = (page) => page.waitForFunction(() => document.querySelector(".stage").dataset.picture === "still", null, { timeout: 60_000 });
+export const still = (page) => page.waitForFunction(() => document.querySelector(".stage").dataset.picture === "still");
 
 /** Waits until this is true; it is asked again and again. */
 export async function until(isTrue) {
-  for (const end = Date.now() + 240_000; !(await isTrue()); await new Promise((done) => setTimeout(done, 20))) if (Date.now() > end) throw new Error(`not within four minutes: ${isTrue}`);
+  for (const end = Date.now() + PATIENCE; !(await isTrue()); await new Promise((done) => setTimeout(done, 20))) if (Date.now() > end) throw new Error(`not within five minutes: ${isTrue}`);
 }
 
 /** A micrometre value as the page writes it. */

@@ -193,7 +193,7 @@ test("a job runs in the browser: report, tables and pictures are in its folder",
   const page = await open(browser, pages.url);
   await page.click("#tab-jobs");
   await page.click("[data-kind=run]");
-  await page.waitForSelector(".job.done", { timeout: 240_000 });
+  await page.waitForSelector(".job.done");
   await page.click("#tab-files");
   const names = await page.locator("[data-file]").evaluateAll((all) => all.map((one) => one.dataset.file));
   for (const name of ["out/result.json", "out/report.html"]) assert.ok(names.includes(name), names.join());
