@@ -3,6 +3,8 @@
 //! The template fits a Yaskawa MH12. For another arm lengths grow with its reach, the height of the plate with reach
 //! and shoulder; if the arm cannot reach its corners, the plate is moved nearer, step by step.
 
+use std::path::{Component, Path};
+
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::Point3;
 use armill_core::robot::forward::forward;
@@ -74,11 +76,11 @@ pub struct MadeStudy {
     pub files: Vec<String>,
 }
 
-/// A study of the robot `given`: a library name, or the path of a robot file relative to the current folder.
+/// A study in `folder` of the robot `given`: a library name, or the path of a robot file relative to the current folder.
 ///
 /// # Errors
 /// As [`robots::find`]; a robot of too few joints for any study.
-pub fn new_study(given: &str) -> Result<NewStudy, StudyError> {
+pub fn new_study(given: &str, folder: &Path) -> Result<NewStudy, StudyError> {
     let found = robots::find(given, ".".as_ref())?;
     let joints = found.robot.joints().len();
     if joints < ENOUGH_JOINTS {
@@ -98,7 +100,7 @@ pub fn new_study(given: &str) -> Result<NewStudy, StudyError> {
         }
         None => (Compliances::Assumed, COMPLIANCE.replace("CLASS", class.name())),
     };
-    let robot = toml_string(&robot_for(given)?);
+    let robot = toml_string(&robot_for(given, folder)?);
     let text = scaled(&found.robot)
         .replace("\"ROBOT\"", &robot)
         .replace("# COMPLIANCE\n", &table);
@@ -164,18 +166,42 @@ impl Plate {
     }
 }
 
+/// A robot file at most so many folders up is named relative to the study, so that both can be moved together.
+const LEVELS_UP: usize = 2;
+
 /// The robot as named in the study: paths there are relative to its folder, not to the current one.
-fn robot_for(given: &str) -> Result<String, StudyError> {
+fn robot_for(given: &str, folder: &Path) -> Result<String, StudyError> {
     if library::robot(given).is_some() {
         return Ok(given.to_owned());
     }
-    let path = std::path::absolute(given).map_err(|error| {
-        StudyError::value(
-            format!("cannot find the location of {given}: {error}"),
-            "give its full path",
-        )
-    })?;
-    Ok(path.display().to_string())
+    let absolute = |path: &Path| {
+        std::path::absolute(path).map_err(|error| {
+            StudyError::value(
+                format!("cannot find the location of {}: {error}", path.display()),
+                "give its full path",
+            )
+        })
+    };
+    let (file, folder) = (absolute(given.as_ref())?, absolute(folder)?);
+    // From a folder behind a link `..` leads to where the link points.
+    let is_direct = folder
+        .ancestors()
+        .find_map(|above| above.canonicalize().ok().map(|physical| physical == above))
+        .unwrap_or(false);
+    let nearby = relative(&file, &folder).filter(|_| is_direct);
+    Ok(nearby.unwrap_or_else(|| file.display().to_string()))
+}
+
+/// `file` relative to `folder`, both absolute, with `/` as in every study; `None` if it is too far up, or reached through `..`.
+fn relative(file: &Path, folder: &Path) -> Option<String> {
+    let is_plain = |path: &Path| !path.components().any(|part| part == Component::ParentDir);
+    let up = (0..=LEVELS_UP).zip(folder.ancestors());
+    let (up, rest) = up
+        .filter(|(_, above)| above.parent().is_some())
+        .find_map(|(up, above)| Some((up, file.strip_prefix(above).ok()?)))?;
+    let down = rest.components().map(|part| part.as_os_str().to_str());
+    let parts: Option<Vec<&str>> = std::iter::repeat_n(Some(".."), up).chain(down).collect();
+    (is_plain(file) && is_plain(folder)).then_some(parts?.join("/"))
 }
 
 /// A TOML basic string.
@@ -194,7 +220,7 @@ mod tests {
             ("kuka/kr16-2", Compliances::Assumed),
             ("kuka/lbr-iiwa-14-r820", Compliances::Missing),
         ] {
-            let made = new_study(robot).unwrap();
+            let made = new_study(robot, "cell".as_ref()).unwrap();
             assert_eq!(made.compliances, known, "{robot}");
             assert_eq!(made.text.contains("[compliance]"), known != Compliances::Known);
             assert!(
@@ -203,5 +229,21 @@ mod tests {
                 made.text
             );
         }
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn a_robot_file_nearby_is_named_relative_to_the_study() {
+        let named = |file: &str, folder: &str| relative(file.as_ref(), folder.as_ref());
+        let of = |text: &str| Some(text.to_owned());
+        assert_eq!(named("/home/a/cell/arm.toml", "/home/a/cell"), of("arm.toml"));
+        assert_eq!(named("/home/a/arm.toml", "/home/a/cell"), of("../arm.toml"));
+        assert_eq!(
+            named("/home/a/arms/1.urdf", "/home/a/cells/1"),
+            of("../../arms/1.urdf")
+        );
+        assert_eq!(named("/home/arm.toml", "/home/a/b/cell"), None);
+        assert_eq!(named("/opt/arm.toml", "/home/cell"), None, "nothing in common");
+        assert_eq!(named("/home/b/../arm.toml", "/home/cell"), None);
     }
 }

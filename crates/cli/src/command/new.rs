@@ -26,7 +26,7 @@ pub(crate) fn run(arguments: &NewArguments) -> Result<Outcome, StudyError> {
             (texts.collect(), "check it")
         }
         None => {
-            let made = new_study(&arguments.robot)?;
+            let made = new_study(&arguments.robot, &arguments.dir)?;
             let first = match made.compliances {
                 Compliances::Missing => "add its joint compliances",
                 Compliances::Known | Compliances::Assumed => "edit it",

@@ -56,6 +56,11 @@ fn a_new_study_of_a_robot_file_finds_it_from_its_own_folder() {
     cell.file("arms/by hand.urdf", MH12_URDF);
     cell.armill(&["new", "cells/first", "--robot", "arms/by hand.urdf"])
         .fine();
+    let text = std::fs::read_to_string(cell.at("cells/first/study.toml")).unwrap();
+    assert!(
+        cfg!(not(target_os = "linux")) || text.contains("robot = \"../../arms/by hand.urdf\""),
+        "{text}"
+    );
     cell.armill(&["run", "cells/first", "--no-pictures"]).fine();
 }
 
