@@ -3716,6 +3716,16 @@ export interface components {
              */
             largest_chip_um: number | null;
             /**
+             * Format: uint
+             * @description Points with chips thicker than a fifth of the radius of the cutter.
+             */
+            points_with_thick_chips: number;
+            /**
+             * Format: uint32
+             * @description Line of the first of them.
+             */
+            first_thick_chip_line: number | null;
+            /**
              * Format: double
              * @description Largest material removal rate.
              */
