@@ -133,7 +133,7 @@ def test_ctrl_c_stops_long_work(work):
     # In the middle of it, however busy the machine is: all of it takes ten times as much of a processor.
     used = psutil.Process(process.pid).cpu_times
     before = used().user
-    while used().user < before + 0.5:
+    while process.poll() is None and used().user < before + 0.5:
         time.sleep(0.01)
     process.send_signal(signal.SIGINT)
     printed, _ = process.communicate(timeout=600)

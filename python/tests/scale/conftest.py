@@ -58,7 +58,7 @@ class Killer:
         self._thread.start()
 
     def _wait(self) -> None:
-        until = time.monotonic() + 3000
+        until = time.monotonic() + 300
         while time.monotonic() < until and self._count() < self._parts:
             time.sleep(0.005)
         os.kill(self._victim(), signal.SIGKILL)

@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 
 use crate::cell::{Cell, files_in};
 
-/// After this a test gives up; nothing takes so long, also beside other work.
+/// After this a test gives up; nothing takes so long, even on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(600);
 
 /// The server of this cell and its address; ended with the test, however it ends.

@@ -8,7 +8,7 @@ use armill_core::path::{Cutting, Pace, Track};
 /// Steps of a period at which the greatest torque is sought.
 const TORQUE_STEPS: u32 = 360;
 /// From this part of the radius of the cutter on a chip is thick. Teeth move on trochoids; as circles they have a chip that is wrong by a
-/// tenth of the feed per tooth there: `c / 2R`, where the tooth passes beside.
+/// tenth of the feed per tooth there: `c / 2R`, at the side of the tool.
 const THICK: f64 = 0.2;
 
 /// Process values along a path; not a number where nothing is cut or the force is not known.
