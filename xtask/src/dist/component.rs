@@ -1,10 +1,11 @@
-//! What is built in: crates of the command and of the Python package, packages of the page, fonts.
+//! What is built in: crates of the command, of the Python package and of the program of the browser, packages of the page, fonts.
 //!
 //! Crates are read off `cargo tree`, without those that only build or derive; packages of npm off the lock file of the
 //! page, without those that only build it. A component is known by its package URL, such as `pkg:cargo/libm@0.2.16`.
 
 use super::locked;
 use crate::command::printed;
+use crate::site;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -40,22 +41,14 @@ const FONTS_IN: &str = "armill-report";
 /// Lists the packages of the page, one a line.
 const PAGE_PACKAGES: &str = "web/dev/bundled.mjs";
 
-/// Everything that is built in for any of these targets.
+/// Everything that is built in for any of these targets, or in the program of the browser.
 ///
 /// # Errors
 /// In a line: cargo or node does not answer, or the sources of a crate are not there.
 pub fn all(targets: &[&str]) -> Result<Components, String> {
-    let mut tree = locked(&["tree", "-p", "armill", "-p", "armill-py"]);
-    tree.args([
-        "-e",
-        "normal,no-proc-macro",
-        "--prefix",
-        "depth",
-        "--format",
-        "{p}|{l}|{r}",
-    ])
-    .args(targets.iter().flat_map(|target| ["--target", target]));
-    let mut components = read_tree(&printed(&mut tree)?);
+    let installed = crates_of(&["armill", "armill-py"], targets)?;
+    let in_browser = crates_of(&["armill-browser"], &[site::TARGET])?;
+    let mut components = read_tree(&(installed + &in_browser));
     let lock = fs::read_to_string("Cargo.lock").map_err(|error| format!("Cargo.lock: {error}"))?;
     let checksums = checksums(&lock).ok_or("Cargo.lock lists no packages")?;
     for (url, component) in &mut components {
@@ -77,6 +70,18 @@ pub fn all(targets: &[&str]) -> Result<Components, String> {
         vec![("pkg:generic/dejavu-fonts@2.37".to_owned(), fonts())],
     );
     Ok(components)
+}
+
+/// The crates of these packages, for any of these targets, as [`read_tree`] reads them.
+///
+/// # Errors
+/// In a line: cargo does not answer.
+fn crates_of(packages: &[&str], targets: &[&str]) -> Result<String, String> {
+    let mut tree = locked(&["tree", "--edges", "normal,no-proc-macro", "--prefix", "depth"]);
+    tree.args(["--format", "{p}|{l}|{r}"])
+        .args(packages.iter().flat_map(|package| ["--package", package]))
+        .args(targets.iter().flat_map(|target| ["--target", target]));
+    printed(&mut tree)
 }
 
 /// The components of `cargo tree --prefix depth --format '{p}|{l}|{r}'`.

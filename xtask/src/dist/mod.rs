@@ -7,6 +7,7 @@
 //! | `armill-VERSION-....whl` | the Python package |
 //! | `armill-VERSION.tar.gz` | its sources (sdist), of which the wheel is built |
 //! | `conda/recipe.yaml` | the recipe of the conda package of these sources |
+//! | `armill-site-VERSION.tar.gz` | the documentation and the live page without a server, for a web server |
 //! | `armill-....crate` | the crates, as they would be published, each built from its package alone |
 //! | `THIRD-PARTY-LICENSES.md` | every package that is built in, its licence, and the texts |
 //! | `armill-VERSION.cdx.json` | the same as a bill of materials: CycloneDX 1.6 |
@@ -14,7 +15,7 @@
 //!
 //! `tools`: what is needed, and gets installed; `component`: what is built in; `third_party`, `bill`: lists of it for
 //! people and for programs; `program`: the command; `accompanying`: what goes with it; `tarball`; `debian`;
-//! `source_package`; `wheel`; `conda`; `crates`.
+//! `source_package`; `wheel`; `conda`; `site`; `crates`.
 //!
 //! Linux with glibc: linked by zig against glibc 2.17, so that the command and the wheel run on any distribution since
 //! 2014; with `--aarch64` also for that processor. Elsewhere, and with `--native`, the C library of this machine is the oldest
@@ -28,6 +29,7 @@ mod conda;
 mod crates;
 mod debian;
 mod program;
+mod site;
 mod source_package;
 mod tarball;
 mod third_party;
@@ -44,17 +46,18 @@ use toml::de::DeTable;
 use tools::Tools;
 
 /// Description in the list of tasks.
-pub const ABOUT: &str = "Builds the release artifacts: tarball, Debian package, wheel, sdist, crates, licences, SBOM: [--out DIR] [--lists] [--aarch64] [--native] [--allow-dirty].";
+pub const ABOUT: &str = "Builds the release artifacts: tarball, Debian package, wheel, sdist, site, crates, licences, SBOM: [--out DIR] [--lists] [--site] [--aarch64] [--native] [--allow-dirty].";
 
 const HELP: &str = "\
 Builds the release artifacts of this version: crates, Python wheel and its sources (sdist), conda recipe, a tarball and a
-Debian package with the command, its completions, manual pages and documentation, the licences of all that is built in, a
-bill of materials (SBOM), checksums. What cannot be made on this machine is listed with the reason.
+Debian package with the command, its completions, manual pages and documentation, the site (documentation, and the live page
+without a server), the licences of all that is built in, a bill of materials (SBOM), checksums. What cannot be made on this machine is listed with the reason.
 
-usage: cargo xtask dist [--out DIR] [--lists] [--aarch64] [--native] [--allow-dirty]
+usage: cargo xtask dist [--out DIR] [--lists] [--site] [--aarch64] [--native] [--allow-dirty]
 
   --out DIR      output folder; files of the same name are replaced [default: target/dist]
   --lists        licences and bill of materials alone, of the page as its packages are installed
+  --site         the site alone, with the licences of what is in it
   --aarch64      tarball, Debian package and wheel also for Linux on aarch64, linked by zig
   --native       link against the C library of this machine, without zig: runs on systems as new as this one
   --allow-dirty  also with changes that are not committed
@@ -75,6 +78,7 @@ const OUT: &str = "target/dist";
 struct Options {
     out: PathBuf,
     lists: bool,
+    site: bool,
     aarch64: bool,
     native: bool,
     allow_dirty: bool,
@@ -103,9 +107,9 @@ pub fn run(arguments: &[String]) -> ExitCode {
     }
     let prepared = options(arguments).and_then(|options| match options.lists {
         true => lists_alone(&options.out).map(|()| None),
-        false => prepared(&options).map(Some),
+        false => prepared(&options).map(|(release, others)| Some((options, release, others))),
     });
-    let (release, others) = match prepared {
+    let (options, release, others) = match prepared {
         Ok(Some(prepared)) => prepared,
         Ok(None) => return ExitCode::SUCCESS,
         Err(problem) => {
@@ -113,7 +117,11 @@ pub fn run(arguments: &[String]) -> ExitCode {
             return ExitCode::from(COULD_NOT_RUN);
         }
     };
-    match made(&release, &others) {
+    let made = match options.site {
+        true => site_alone(&release),
+        false => made(&release, &others),
+    };
+    match made {
         Ok(()) => ExitCode::SUCCESS,
         Err(problem) => {
             eprintln!("{problem}");
@@ -130,6 +138,7 @@ fn options(arguments: &[String]) -> Result<Options, String> {
     let mut options = Options {
         out: PathBuf::from(OUT),
         lists: false,
+        site: false,
         aarch64: false,
         native: false,
         allow_dirty: false,
@@ -144,6 +153,7 @@ fn options(arguments: &[String]) -> Result<Options, String> {
                     .into();
             }
             "--lists" => options.lists = true,
+            "--site" => options.site = true,
             "--aarch64" => options.aarch64 = true,
             "--native" => options.native = true,
             "--allow-dirty" => options.allow_dirty = true,
@@ -274,8 +284,9 @@ fn made(release: &Release, others: &[Release]) -> Result<(), String> {
     }
     made.left_out
         .extend(NOT_MADE.iter().map(|line| (*line).to_owned()));
+    let site = made.step("site", || site::pack(release, &third_party))?;
     let crates = made.step("crates", || crates::package(release))?;
-    made.files.extend([sources, third_party, bill]);
+    made.files.extend([sources, site, third_party, bill]);
     made.files.extend(crates);
     made.files.push(tarball::checksums(release, &made.files)?);
     made.files.push(recipe);
@@ -303,6 +314,21 @@ fn lists_alone(out: &Path) -> Result<(), String> {
     let third_party = out.join(third_party::NAME);
     let bill = out.join(format!("armill-{version}.cdx.json"));
     lists(&version, &[&target], [&third_party, &bill])
+}
+
+/// Makes the site alone, and prints its time and its file.
+///
+/// # Errors
+/// In a line, of the step that failed.
+fn site_alone(release: &Release) -> Result<(), String> {
+    let mut made = Made::default();
+    let third_party = release.out.join(third_party::NAME);
+    let bill = release.out.join(format!("armill-{}.cdx.json", release.version));
+    lists(&release.version, &[&release.target], [&third_party, &bill])?;
+    let site = made.step("site", || site::pack(release, &third_party))?;
+    made.files.push(site);
+    made.print();
+    Ok(())
 }
 
 /// The version of the workspace, and the target triple of this machine.
@@ -343,26 +369,30 @@ impl Made {
 impl Release {
     /// `command` with our programs first in its path, and with nothing of this machine in what it builds.
     fn building(&self, mut command: Command) -> Command {
-        let here = env::current_dir().unwrap_or_default();
-        let target_folder = here.join(target_folder());
-        let unpacked = target_folder
+        command
+            .env("PATH", self.tools.path())
+            // What is between two flags.
+            .env("CARGO_ENCODED_RUSTFLAGS", self.remapped().join("\u{1f}"))
+            // Some run in other folders.
+            .env("CARGO_TARGET_DIR", absolute_target_folder())
+            .env("SOURCE_DATE_EPOCH", &self.committed_s);
+        command
+    }
+
+    /// Flags of the compiler after which no path of this machine is in what it builds.
+    fn remapped(&self) -> Vec<String> {
+        let unpacked = absolute_target_folder()
             .join(UNPACKED)
             .join(format!("armill-{}", self.version));
         // The last that fits decides.
         let folders = [
             (component::cargo_home(), "/cargo"),
-            (here, "/armill"),
+            (env::current_dir().unwrap_or_default(), "/armill"),
             (unpacked, "/armill"),
         ];
-        let flags = folders.map(|(folder, name)| format!("--remap-path-prefix={}={name}", folder.display()));
-        command
-            .env("PATH", self.tools.path())
-            // What is between two flags.
-            .env("CARGO_ENCODED_RUSTFLAGS", flags.join("\u{1f}"))
-            // Some run in other folders.
-            .env("CARGO_TARGET_DIR", target_folder)
-            .env("SOURCE_DATE_EPOCH", &self.committed_s);
-        command
+        let flag =
+            |(folder, name): (PathBuf, &str)| format!("--remap-path-prefix={}={name}", folder.display());
+        folders.map(flag).into()
     }
 
     /// Where cargo puts what is built for the target in releases.
@@ -374,6 +404,11 @@ impl Release {
 /// Where cargo builds.
 fn target_folder() -> PathBuf {
     env::var_os("CARGO_TARGET_DIR").map_or_else(|| PathBuf::from("target"), PathBuf::from)
+}
+
+/// The same, also seen from other folders.
+fn absolute_target_folder() -> PathBuf {
+    env::current_dir().unwrap_or_default().join(target_folder())
 }
 
 /// `cargo tree` and its like read the lock file as it is.
@@ -437,13 +472,14 @@ mod tests {
             "--allow-dirty",
             "--aarch64",
             "--lists",
+            "--site",
         ])
         .unwrap();
         assert_eq!(all.out, Path::new("there"));
-        assert!(all.native && all.allow_dirty && all.aarch64 && all.lists);
+        assert!(all.native && all.allow_dirty && all.aarch64 && all.lists && all.site);
         let none = options_of(&[]).unwrap();
         assert_eq!(none.out, Path::new(OUT));
-        assert!(!none.native && !none.allow_dirty && !none.aarch64 && !none.lists);
+        assert!(!none.native && !none.allow_dirty && !none.aarch64 && !none.lists && !none.site);
         assert!(options_of(&["--fast"]).unwrap_err().contains("`--fast`"));
         assert!(options_of(&["--out"]).unwrap_err().contains("takes a folder"));
         assert!(
@@ -470,7 +506,14 @@ mod tests {
 
     #[test]
     fn help_names_every_option() {
-        for option in ["--out", "--lists", "--aarch64", "--native", "--allow-dirty"] {
+        for option in [
+            "--out",
+            "--lists",
+            "--site",
+            "--aarch64",
+            "--native",
+            "--allow-dirty",
+        ] {
             assert!(
                 HELP.matches(option).count() >= 2 && ABOUT.contains(option),
                 "{option}"

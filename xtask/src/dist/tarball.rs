@@ -43,6 +43,14 @@ pub fn pack(release: &Release, program: &Path, runs: &Path, others: &[&Path]) ->
     }
     accompanying::manual(runs, &folder.join("man/man1"))?;
 
+    archive(release, &above, &name)
+}
+
+/// Packs the folder `above/name` and gives the path of the file: one folder gives the same bytes everywhere.
+///
+/// # Errors
+/// In a line: tar fails.
+pub fn archive(release: &Release, above: &Path, name: &str) -> Result<PathBuf, String> {
     let tarball = release.out.join(format!("{name}.tar.gz"));
     let mut tar = Command::new("tar");
     tar.args([
@@ -57,8 +65,8 @@ pub fn pack(release: &Release, program: &Path, runs: &Path, others: &[&Path]) ->
     .args(["--use-compress-program", "gzip -9n", "-cf"])
     .arg(&tarball)
     .arg("-C")
-    .arg(&above)
-    .arg(&name);
+    .arg(above)
+    .arg(name);
     succeeded(&mut tar)?;
     Ok(tarball)
 }

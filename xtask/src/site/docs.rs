@@ -8,7 +8,7 @@ use std::env;
 use std::process::Command;
 
 /// The environment of the generator.
-const VENV: &str = "target/site-venv";
+pub const VENV: &str = "target/site-venv";
 /// The oldest Python: the first with a reader of TOML.
 const OLDEST: [u32; 2] = [3, 11];
 

@@ -6,7 +6,7 @@ use std::process::Command;
 use std::{env, fs};
 
 /// WebAssembly with files, clock, random numbers and threads of its host: WASI, version 1.
-const TARGET: &str = "wasm32-wasip1-threads";
+pub const TARGET: &str = "wasm32-wasip1-threads";
 /// The program, as cargo names it; seen from the folder of the page.
 const PROGRAM: &str = "../target/wasm32-wasip1-threads/browser/armill_browser.wasm";
 /// Where it goes; seen from the folder of the page.
@@ -31,15 +31,19 @@ fn begin_of_library() -> Result<String, String> {
     ))
 }
 
-/// The commands that make it, each with its name; the packages of the page are installed before.
+/// The commands that make it, each with its name; the packages of the page are installed before. `rustflags`: for the compiler, in
+/// addition to those of the workspace.
 ///
 /// # Errors
 /// In a line: the standard library for WebAssembly is missing and cannot be installed.
-pub fn live_page() -> Result<Vec<(&'static str, Command)>, String> {
+pub fn live_page(rustflags: &[String]) -> Result<Vec<(&'static str, Command)>, String> {
     rustup::add_target(TARGET)?;
     let begin = format!("link-arg={}", begin_of_library()?);
     fs::create_dir_all("target/site").map_err(|error| format!("target/site: {error}"))?;
     let mut program = cargo(&["rustc", "--profile", "browser", "--target", TARGET]);
+    if !rustflags.is_empty() {
+        program.args(["--config", &format!("target.{TARGET}.rustflags={rustflags:?}")]);
+    }
     program.args(["--package", "armill-browser", "--crate-type", "cdylib", "--"]);
     for option in [begin.as_str()].iter().chain(LINK_OPTIONS) {
         program.args(["-C", option]);

@@ -15,8 +15,8 @@
 mod docs;
 mod live;
 
-pub use docs::documentation;
-pub use live::live_page;
+pub use docs::{VENV, documentation};
+pub use live::{TARGET, live_page};
 
 use crate::COULD_NOT_RUN;
 use crate::command::succeeded;
@@ -29,8 +29,8 @@ pub const ABOUT: &str = "Builds the site into target/site: documentation, and th
 /// Builds it, or reports what is missing.
 pub fn run(arguments: &[String]) -> ExitCode {
     let built = match arguments {
-        [] => live().and_then(|()| docs()),
-        [only] if only == "--docs" => docs(),
+        [] => build(&[], None),
+        [only] if only == "--docs" => docs(None),
         _ => Err(format!(
             "cargo xtask site takes --docs or nothing, got: {}",
             arguments.join(" ")
@@ -45,13 +45,22 @@ pub fn run(arguments: &[String]) -> ExitCode {
     }
 }
 
+/// Builds the live page, with `rustflags` for the compiler, and the documentation, with the time `dated_s` in s since 1970.
+///
+/// # Errors
+/// In a line: what is missing, or what failed.
+pub fn build(rustflags: &[String], dated_s: Option<&str>) -> Result<(), String> {
+    live(rustflags)?;
+    docs(dated_s)
+}
+
 /// Builds the live page.
-fn live() -> Result<(), String> {
+fn live(rustflags: &[String]) -> Result<(), String> {
     if let Some(problem) = node::missing() {
         return Err(problem);
     }
     succeeded(&mut node::npm(&["ci", "--no-audit", "--no-fund"]))?;
-    for (_, mut command) in live_page()? {
+    for (_, mut command) in live_page(rustflags)? {
         succeeded(&mut command)?;
     }
     println!("target/site/live/index.html: open it, or serve the folder target/site");
@@ -59,8 +68,11 @@ fn live() -> Result<(), String> {
 }
 
 /// Builds the documentation.
-fn docs() -> Result<(), String> {
+fn docs(dated_s: Option<&str>) -> Result<(), String> {
     for (_, mut command) in documentation()? {
+        if let Some(dated_s) = dated_s {
+            command.env("SOURCE_DATE_EPOCH", dated_s);
+        }
         succeeded(&mut command)?;
     }
     println!("target/site/index.html: open it, or serve the folder target/site");

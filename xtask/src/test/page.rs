@@ -43,7 +43,7 @@ pub fn build() -> Vec<Step> {
 
 /// The steps that make the page without a server, with the packages of [`build`].
 pub fn build_without_server() -> Vec<Step> {
-    Step::all(live_page())
+    Step::all(live_page(&[]))
 }
 
 /// The steps that test it.

@@ -21,6 +21,7 @@ mod cell;
 mod clearance;
 mod compare;
 mod compensate;
+mod disturbed_jobs;
 mod documents;
 mod drives;
 mod export;
@@ -35,7 +36,6 @@ mod import;
 mod journal;
 #[cfg(unix)]
 mod killed;
-mod killed_jobs;
 mod learn;
 mod machined_part;
 mod masses;

@@ -1,10 +1,10 @@
-//! Every command that writes files, killed half-way: what is there is final, and the same command after it gives what an
-//! undisturbed one gives. `run` and `place` have tests of their own in `killed`.
+//! Every command that writes files, killed half-way, on a full disk, and twice at once in one folder: what is there is final, and
+//! the same command after it gives what an undisturbed one gives. `run` and `place` have tests of their own in `killed`.
 
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
@@ -203,40 +203,134 @@ fn with(files: &BTreeMap<String, Vec<u8>>) -> Cell {
     cell
 }
 
-#[test]
-fn every_job_leaves_final_files_and_can_be_repeated() {
-    for Job { cell, arguments } in jobs() {
+/// What a job gives that nothing disturbs.
+struct Undisturbed {
+    arguments: &'static [&'static str],
+    given: BTreeMap<String, Vec<u8>>,
+    results: BTreeMap<String, Vec<u8>>,
+    took: Duration,
+}
+
+impl Undisturbed {
+    fn of(Job { cell, arguments }: &Job) -> Undisturbed {
         let given = tree(cell.path());
         let begun = Instant::now();
         let ended = start(cell.path(), arguments).wait().unwrap();
-        let whole_time = begun.elapsed();
+        let took = begun.elapsed();
         assert!(ended.success(), "{arguments:?}");
-        let undisturbed = results(tree(cell.path()));
-        assert!(undisturbed.len() > given.len(), "{arguments:?} writes nothing");
+        let results = results(tree(cell.path()));
+        assert!(results.len() > given.len(), "{arguments:?} writes nothing");
+        Undisturbed {
+            arguments,
+            given,
+            results,
+            took,
+        }
+    }
+
+    /// How many files a disturbed job has left; each of them is final.
+    fn left(&self, folder: &Path, disturbance: &str) -> usize {
+        let left = results(tree(folder));
+        for (name, bytes) in &left {
+            assert!(
+                self.results.get(name) == Some(bytes),
+                "{:?} {disturbance}: `{name}` is not final",
+                self.arguments
+            );
+        }
+        left.len() - self.given.len()
+    }
+
+    /// The same command after a disturbance gives the same files.
+    fn again(&self, folder: &Path, disturbance: &str) {
+        let again = start(folder, self.arguments).wait().unwrap();
+        assert!(again.success(), "{:?} again after {disturbance}", self.arguments);
+        let differ = results(tree(folder)) != self.results;
+        assert!(
+            !differ,
+            "{:?} again after {disturbance} gives other files",
+            self.arguments
+        );
+    }
+}
+
+#[test]
+fn a_killed_job_leaves_final_files_and_can_be_repeated() {
+    for job in jobs() {
+        let undisturbed = Undisturbed::of(&job);
         let mut left_by_kills = Vec::new();
         for moment in moments() {
-            let killed = with(&given);
-            let mut child = start(killed.path(), arguments);
-            std::thread::sleep(whole_time.mul_f64(moment));
+            let killed = with(&undisturbed.given);
+            let mut child = start(killed.path(), job.arguments);
+            std::thread::sleep(undisturbed.took.mul_f64(moment));
             child.kill().unwrap();
             child.wait().unwrap();
-            let left = results(tree(killed.path()));
-            for (name, bytes) in &left {
-                assert!(
-                    undisturbed.get(name) == Some(bytes),
-                    "{arguments:?} after {moment:.3}: `{name}` is not final"
-                );
-            }
-            left_by_kills.push(left.len() - given.len());
-            let again = start(killed.path(), arguments).wait().unwrap();
-            assert!(again.success(), "{arguments:?} again after {moment:.3}");
-            let differ = results(tree(killed.path())) != undisturbed;
-            assert!(!differ, "{arguments:?} again after {moment:.3} gives other files");
+            let disturbance = format!("a kill at {moment:.3}");
+            left_by_kills.push(undisturbed.left(killed.path(), &disturbance));
+            undisturbed.again(killed.path(), &disturbance);
         }
-        let of = undisturbed.len() - given.len();
+        let of = undisturbed.results.len() - undisturbed.given.len();
         println!(
             "{}: files left by each kill {left_by_kills:?} of {of}",
-            arguments[0]
+            job.arguments[0]
+        );
+    }
+}
+
+/// A limit of the size of files stands for a disk that becomes full: the system refuses the rest of the bytes.
+#[cfg(target_os = "linux")]
+#[test]
+fn on_a_full_disk_a_job_says_so_and_can_be_repeated() {
+    for job in jobs() {
+        let undisturbed = Undisturbed::of(&job);
+        let full = with(&undisturbed.given);
+        let output = Command::new("sh")
+            // In units of 512 bytes. Without the signal the program sees the refusal itself, as on a full disk.
+            .args(["-c", "trap '' XFSZ; ulimit -f 1; exec \"$0\" \"$@\"", ARMILL])
+            .args(job.arguments)
+            .current_dir(full.path())
+            .output()
+            .unwrap();
+        let said = String::from_utf8_lossy(&output.stderr);
+        let disturbance = format!("on a full disk, which says: {said}");
+        assert_eq!(output.status.code(), Some(2), "{:?} {disturbance}", job.arguments);
+        assert!(
+            said.contains("cannot write") && !said.contains("panicked"),
+            "{:?} {disturbance}",
+            job.arguments
+        );
+        undisturbed.left(full.path(), &disturbance);
+        undisturbed.again(full.path(), &disturbance);
+    }
+}
+
+#[test]
+fn of_two_jobs_in_one_folder_one_writes_and_the_other_says_so() {
+    for job in jobs() {
+        let undisturbed = Undisturbed::of(&job);
+        let shared = with(&undisturbed.given);
+        let spawn = || {
+            let mut command = Command::new(ARMILL);
+            command.args(job.arguments).current_dir(shared.path());
+            command.stdout(Stdio::null()).stderr(Stdio::piped());
+            command.spawn().unwrap()
+        };
+        let ended = [spawn(), spawn()].map(|child| child.wait_with_output().unwrap());
+        let said: Vec<_> = ended
+            .iter()
+            .map(|output| String::from_utf8_lossy(&output.stderr))
+            .collect();
+        let codes = ended.each_ref().map(|output| output.status.code());
+        assert!(
+            codes.contains(&Some(0)) && codes.iter().all(|code| matches!(code, Some(0 | 2))),
+            "{:?}: {codes:?}, {said:?}",
+            job.arguments
+        );
+        let differ = results(tree(shared.path())) != undisturbed.results;
+        assert!(
+            !differ,
+            "two of {:?} give other files: {codes:?}, {said:?}",
+            job.arguments
         );
     }
 }
