@@ -241,15 +241,13 @@ fn made(release: &Release, others: &[Release]) -> Result<(), String> {
         ExitCode::SUCCESS => Ok(()),
         _ => Err("the page was not built".to_owned()),
     })?;
-    let third_party = release.out.join(third_party::NAME);
-    let bill = release.out.join(format!("armill-{}.cdx.json", release.version));
-    made.step("licences and bill of materials", || {
+    let [third_party, bill] = made.step("licences and bill of materials", || {
         let targets: Vec<&str> = [release]
             .into_iter()
             .chain(others)
             .map(|it| it.target.as_str())
             .collect();
-        lists(&release.version, &targets, [&third_party, &bill])
+        lists(&release.version, &targets, &release.out)
     })?;
     let sources = made.step("sources of the Python package", || {
         source_package::pack(release, &third_party)
@@ -294,14 +292,17 @@ fn made(release: &Release, others: &[Release]) -> Result<(), String> {
     Ok(())
 }
 
-/// Writes the licences and the bill of materials of what is built in for these targets.
+/// Writes the licences and the bill of materials of what is built in for these targets; gives their paths.
 ///
 /// # Errors
 /// In a line: cargo or node does not answer; a file cannot be read or written.
-fn lists(version: &str, targets: &[&str], [third_party, bill]: [&Path; 2]) -> Result<(), String> {
+fn lists(version: &str, targets: &[&str], out: &Path) -> Result<[PathBuf; 2], String> {
+    let third_party = out.join(third_party::NAME);
+    let bill = out.join(format!("armill-{version}.cdx.json"));
     let components = component::all(targets)?;
-    write(third_party, &third_party::page(version, targets, &components)?)?;
-    write(bill, &bill::text(version, &components))
+    write(&third_party, &third_party::page(version, targets, &components)?)?;
+    write(&bill, &bill::text(version, &components))?;
+    Ok([third_party, bill])
 }
 
 /// Writes the lists alone, for the target of this machine.
@@ -311,9 +312,7 @@ fn lists(version: &str, targets: &[&str], [third_party, bill]: [&Path; 2]) -> Re
 fn lists_alone(out: &Path) -> Result<(), String> {
     let (version, target) = version_and_target()?;
     fs::create_dir_all(out).map_err(|error| format!("{}: {error}", out.display()))?;
-    let third_party = out.join(third_party::NAME);
-    let bill = out.join(format!("armill-{version}.cdx.json"));
-    lists(&version, &[&target], [&third_party, &bill])
+    lists(&version, &[&target], out).map(|_| ())
 }
 
 /// Makes the site alone, and prints its time and its file.
@@ -322,9 +321,7 @@ fn lists_alone(out: &Path) -> Result<(), String> {
 /// In a line, of the step that failed.
 fn site_alone(release: &Release) -> Result<(), String> {
     let mut made = Made::default();
-    let third_party = release.out.join(third_party::NAME);
-    let bill = release.out.join(format!("armill-{}.cdx.json", release.version));
-    lists(&release.version, &[&release.target], [&third_party, &bill])?;
+    let [third_party, _] = lists(&release.version, &[&release.target], &release.out)?;
     let site = made.step("site", || site::pack(release, &third_party))?;
     made.files.push(site);
     made.print();

@@ -305,7 +305,7 @@ fn on_a_full_disk_a_job_says_so_and_can_be_repeated() {
 }
 
 #[test]
-fn of_two_jobs_in_one_folder_one_writes_and_the_other_says_so() {
+fn two_jobs_at_once_in_one_folder_leave_the_files_of_one() {
     for job in jobs() {
         let undisturbed = Undisturbed::of(&job);
         let shared = with(&undisturbed.given);
