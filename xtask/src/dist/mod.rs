@@ -51,7 +51,8 @@ pub const ABOUT: &str = "Builds the release artifacts: tarball, Debian package, 
 const HELP: &str = "\
 Builds the release artifacts of this version: crates, Python wheel and its sources (sdist), conda recipe, a tarball and a
 Debian package with the command, its completions, manual pages and documentation, the site (documentation, and the live page
-without a server), the licences of all that is built in, a bill of materials (SBOM), checksums. What cannot be made on this machine is listed with the reason.
+without a server), the licences of all that is built in, a bill of materials (SBOM), checksums. What cannot be made on this
+machine is listed with the reason.
 
 usage: cargo xtask dist [--out DIR] [--lists] [--site] [--aarch64] [--native] [--allow-dirty]
 
@@ -62,7 +63,7 @@ usage: cargo xtask dist [--out DIR] [--lists] [--site] [--aarch64] [--native] [-
   --native       link against the C library of this machine, without zig: runs on systems as new as this one
   --allow-dirty  also with changes that are not committed
 
-It takes from ten minutes to half an hour, and needs git, tar, Python 3 with venv, Node 20 with npm, and the network:
+It takes from a quarter of an hour to an hour, and needs git, tar, Python 3.11 with venv, Node 20 with npm, rustup, and the network:
 maturin, zig and auditwheel come from PyPI into target/dist-venv.
 ";
 
