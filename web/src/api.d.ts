@@ -4795,7 +4795,7 @@ export interface components {
                 string,
                 string
             ] | null;
-            /** @description Holes by reason; their sum is the total. */
+            /** @description Holes by reason, those of `refused` left out; their sum and `refused` are the total. */
             counts: components["schemas"]["CountsAnswer"];
             /**
              * Format: uint

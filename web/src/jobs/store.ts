@@ -26,10 +26,10 @@ export class JobStore {
     this.changed();
   }
 
-  /** The newest first. */
+  /** The newest first, by the time of the request: `started_s_ago` is as old as what was last received about a job. */
   get sorted(): Job[] {
     const all = [...this.jobs.values()];
-    return [...all, ...(this.kept?.except(all, Date.now()) ?? [])].sort((a, b) => a.started_s_ago - b.started_s_ago || b.id.localeCompare(a.id, undefined, { numeric: true }));
+    return [...all, ...(this.kept?.except(all, Date.now()) ?? [])].sort((a, b) => b.requested_at_ms - a.requested_at_ms || b.id.localeCompare(a.id, undefined, { numeric: true }));
   }
 
   async refresh(): Promise<void> {

@@ -52,8 +52,9 @@ class Advice {
       ),
       this.problem ? h("p", { class: "note warn", role: "alert" }, this.problem) : null,
       [job, program].map((one) => (one?.state === "failed" && one.error ? this.failed(one) : null)),
-      job?.state === "done" ? this.measures(job) : null,
-      program?.state === "done" ? this.files(program) : null,
+      // The answer of a job comes after the news that it is done.
+      job?.answer ? this.measures(job) : null,
+      program?.answer ? this.files(program) : null,
     );
   }
 

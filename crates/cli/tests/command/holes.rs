@@ -81,6 +81,8 @@ fn a_hole_with_only_a_singular_posture_is_reported_with_a_warning_and_unreachabl
     assert_eq!(json["holes"][0]["each"][0]["blocked_by"], "singular", "{json}");
     assert_eq!(json["holes"][0]["refused"], 1);
     assert_eq!(json["holes"][0]["fraction_within"], 0.0);
+    let counts = json["holes"][0]["counts"].as_object().unwrap();
+    assert!(counts.values().all(|count| *count == 0), "{counts:?}");
     let warned = json["warnings"].to_string();
     assert!(
         warned.contains("panel: for 1 of 1 holes every turn and branch is rejected, hole 1 first (singular)"),

@@ -31,7 +31,7 @@ pub struct CellNumbers {
     pub reached: usize,
     /// Points with a posture inside the joint limits.
     pub inside_joint_limits: usize,
-    /// Points by reason.
+    /// Points by reason; holes that are reached but cannot be drilled are left out.
     pub counts: CountsAnswer,
     /// The tolerance.
     pub tolerance_um: f64,
@@ -93,6 +93,7 @@ impl AnalysisNumbers {
             numbers: CellNumbers {
                 fraction_within: given.fraction_within,
                 fraction_within_and_inside_joint_limits: given.fraction_within,
+                counts: given.counts,
                 ..numbers.with_deviations_of(decisive)
             },
         }

@@ -44,7 +44,7 @@ pub struct HolesAnswer {
     pub least_clearance_mm: Option<f64>,
     /// The two bodies.
     pub nearest: Option<[String; 2]>,
-    /// Holes by reason; their sum is the total.
+    /// Holes by reason, those of `refused` left out; their sum and `refused` are the total.
     pub counts: CountsAnswer,
     /// Holes without a usable spin and branch, clear of singularities and inside joint limits; they are evaluated in a
     /// rejected posture.
@@ -135,8 +135,8 @@ const WORST: usize = 5;
 pub fn answer(robot: &Robot, name: &str, analysis: &HolesAnalysis, found: &HolesFound) -> HolesAnswer {
     let (path, answers) = (&analysis.path, &found.answers);
     let setting = &path.setting;
-    let counts = Counts::of(answers, setting.tolerance);
-    let evaluation: Vec<(usize, &Evaluation)> = answers.evaluations().collect();
+    let reached = answers.evaluations().count();
+    let counts = counts(found, setting.tolerance);
     let count = answers.points.len();
     let mut order: Vec<usize> = (0..count).collect();
     let key = |index: usize| {
@@ -145,7 +145,6 @@ pub fn answer(robot: &Robot, name: &str, analysis: &HolesAnalysis, found: &Holes
             .map_or(f64::INFINITY, |evaluation| evaluation.in_plane)
     };
     order.sort_by(|a, b| key(*b).total_cmp(&key(*a)));
-    let is_refused = |index: usize| is_refused(found, index);
     let decisive = decisive(found);
     let across = || decisive.iter().map(|(_, evaluation)| to_um(evaluation.in_plane));
     let depths = decisive
@@ -153,10 +152,6 @@ pub fn answer(robot: &Robot, name: &str, analysis: &HolesAnalysis, found: &Holes
         .map(|(_, evaluation)| to_um(evaluation.normal.abs()));
     let mut worst: Vec<usize> = decisive.iter().map(|(index, _)| *index).collect();
     worst.sort_by(|a, b| key(*b).total_cmp(&key(*a)));
-    let good = evaluation
-        .iter()
-        .filter(|(index, evaluation)| evaluation.in_plane <= setting.tolerance && !is_refused(*index))
-        .count();
     let source = match &path.source {
         PathSource::Program { file, .. } => Some(file.clone()),
         PathSource::Holes { file } => file.clone(),
@@ -167,12 +162,12 @@ pub fn answer(robot: &Robot, name: &str, analysis: &HolesAnalysis, found: &Holes
         name: name.to_owned(),
         branch: analysis.branch(),
         holes: count,
-        unreachable: count - evaluation.len(),
+        unreachable: count - reached,
         least_clearance_mm: clearance.as_ref().map(|least| least.distance_mm),
         nearest: clearance.map(|least| least.bodies),
-        refused: evaluation.iter().filter(|(index, _)| is_refused(*index)).count(),
-        fraction_within: good as f64 / count.max(1) as f64,
-        counts: CountsAnswer::of(&counts),
+        refused: reached - counts.within - counts.above_tolerance,
+        fraction_within: counts.within as f64 / count.max(1) as f64,
+        counts,
         mean_in_plane_um: (!decisive.is_empty()).then(|| across().sum::<f64>() / decisive.len() as f64),
         max_in_plane_um: across().max_by(f64::total_cmp),
         max_depth_um: depths.max_by(f64::total_cmp),
@@ -196,6 +191,23 @@ pub fn answer(robot: &Robot, name: &str, analysis: &HolesAnalysis, found: &Holes
             .collect(),
         notes: notes(analysis),
     }
+}
+
+/// Holes by reason for this `limit` (m), the tolerance; a refused hole is none of them, whatever it deviates by.
+fn counts(found: &HolesFound, limit: f64) -> CountsAnswer {
+    let mut counts = CountsAnswer::of(&Counts::of(&found.answers, limit));
+    for (_, evaluation) in found
+        .answers
+        .evaluations()
+        .filter(|(index, _)| is_refused(found, *index))
+    {
+        if evaluation.in_plane <= limit {
+            counts.within -= 1;
+        } else {
+            counts.above_tolerance -= 1;
+        }
+    }
+    counts
 }
 
 /// Whether every posture of hole `index` is rejected: its answer is that of a rejected one.
