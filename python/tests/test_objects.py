@@ -30,13 +30,17 @@ circle = { radius_mm = 100 }
 """
 
 
-def temporary() -> set[str]:
-    """Temporary files of armill."""
-    return {path.name for path in Path(tempfile.gettempdir()).glob("armill-*")}
+@pytest.fixture
+def temporary(tmp_path, monkeypatch) -> Path:
+    """The folder of temporary files, for this test alone: other programs have theirs elsewhere."""
+    folder = tmp_path / "temporary"
+    folder.mkdir()
+    monkeypatch.setenv("TMPDIR", str(folder))
+    monkeypatch.setattr(tempfile, "tempdir", None)
+    return folder
 
 
-def test_a_robot_is_an_operand(mh12, tmp_path):
-    before = temporary()
+def test_a_robot_is_an_operand(mh12, tmp_path, temporary):
     assert armill.pose(mh12, **POSE).json == armill.pose("yaskawa/mh12", **POSE).json
     soft = mh12.with_compliance(2 * mh12.joint_compliance, source="test")
     file = tmp_path / "mh12.toml"
@@ -50,7 +54,7 @@ def test_a_robot_is_an_operand(mh12, tmp_path):
     file.unlink()
     assert armill.pose(loaded, **POSE).postures == answer.postures
     assert armill.robots(mh12).json == armill.robots("yaskawa/mh12").json
-    assert temporary() == before
+    assert not list(temporary.iterdir())
 
 
 def test_objects_that_are_neither_are_refused():
@@ -146,16 +150,15 @@ def tests(tmp_path, mh12) -> Path:
     return file
 
 
-def test_a_table_is_an_operand(tests, mh12, tmp_path):
+def test_a_table_is_an_operand(tests, mh12, temporary):
     pandas, polars, pyarrow = (pytest.importorskip(name) for name in ("pandas", "polars", "pyarrow"))
     options = {"robot": mh12, "tool_mm": [0, 0, 150], "unknowns": "drives"}
     witness = armill.identify(tests, **options)
     columns = columns_of(tests)
     frame = pandas.DataFrame(columns)
-    before = temporary()
     for table in (columns, {k: v.tolist() for k, v in columns.items()}, frame, polars.DataFrame(columns), pyarrow.table(columns)):
         assert armill.identify(table, **options).json == witness.json, type(table)
-    assert temporary() == before
+    assert not list(temporary.iterdir())
     # What is missing is an empty cell.
     holes = {name: np.ma.masked_invalid(np.where(np.arange(len(values)) == 3, np.nan, values)) for name, values in columns.items() if name == "dz_mm"}
     masked = armill.identify({**columns, **holes}, **options)
