@@ -98,7 +98,9 @@ def busy_of_ray() -> int:
 def cluster() -> Iterator[Any]:
     """Four workers of Dask, which are restarted when killed."""
     distributed = pytest.importorskip("distributed")
-    with distributed.LocalCluster(n_workers=4, threads_per_worker=1, dashboard_address=None, silence_logs=50) as cluster:
+    dask = pytest.importorskip("dask")
+    # The cluster gives up a worker that is away this long after a kill, also where it has been back and was killed again.
+    with dask.config.set({"distributed.deploy.lost-worker-timeout": "1 hour"}), distributed.LocalCluster(n_workers=4, threads_per_worker=1, dashboard_address=None, silence_logs=50) as cluster:
         yield cluster
 
 

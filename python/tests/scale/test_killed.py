@@ -96,7 +96,7 @@ def finishes_though_a_worker_is_killed(tmp_path: Path, backend: Any, victims: Ca
 def test_workers_of_dask_killed_at_any_time_leave_no_unfinished_file(tmp_path: Path, client: Any) -> None:
     def victims() -> Callable[[], int]:
         # The one killed before is started again.
-        client.wait_for_workers(4, timeout=60)
+        client.wait_for_workers(4, timeout=300)
         pids: list[int] = list(client.run(os.getpid).values())
         return lambda: pids[0]
 
