@@ -91,6 +91,21 @@ test("compensation: what remains, the path and a robot program as files, in the 
     await page.locator('.advice-files [data-file="programs/pocket.src"]').waitFor();
   }));
 
+test("compensation that is done, its answer still to come: nothing is shown of it, and nothing fails", () =>
+  at(async (page) => {
+    let pass;
+    const requested = new Promise((done) => void page.route(/\/api\/jobs\/[^/]+$/, (route) => {
+      pass = () => route.continue();
+      done();
+    }));
+    await page.click("[data-key=compensate]");
+    await requested;
+    await page.locator("[data-key=compensate]:not([disabled])").waitFor();
+    assert.equal(await page.locator(".advice-files").count(), 0);
+    await pass();
+    await page.locator(".advice-files").waitFor();
+  }));
+
 test("the cut: values as controls, at the field what is wrong, and what the program gives instead", () =>
   at(async (page) => {
     assert.match(await page.locator(".controls").innerText(), /Feed: given by the program/);
