@@ -4880,7 +4880,7 @@ export interface components {
                 number,
                 number
             ];
-            /** @description `within`, `above_tolerance`, or why there is no posture. */
+            /** @description `within`, `above_tolerance`, or why it cannot be drilled. */
             state: string;
             /** @description Why there is no posture, in words; none if there is one. */
             reason: string | null;

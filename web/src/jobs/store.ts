@@ -88,6 +88,8 @@ export class JobStore {
       this.kept?.keep(job);
       this.changed();
     } catch (error) {
+      // With the next list it is requested again.
+      this.requested.delete(id);
       this.fail(error);
     }
   }

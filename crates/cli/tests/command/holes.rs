@@ -78,7 +78,11 @@ fn a_hole_with_only_a_singular_posture_is_reported_with_a_warning_and_unreachabl
         .armill(&["run", "study.toml", "--json", "--no-pictures"])
         .fine()
         .json();
-    assert_eq!(json["holes"][0]["each"][0]["blocked_by"], "singular", "{json}");
+    let hole = &json["holes"][0]["each"][0];
+    assert_eq!(
+        (&hole["blocked_by"], &hole["state"]),
+        (&"singular".into(), &"singular".into())
+    );
     assert_eq!(json["holes"][0]["refused"], 1);
     assert_eq!(json["holes"][0]["fraction_within"], 0.0);
     let counts = json["holes"][0]["counts"].as_object().unwrap();
@@ -204,4 +208,39 @@ fn a_hole_that_cannot_be_drilled_does_not_decide_a_comparison() {
     }
     let point = &holes["worst_holes"][0]["point"];
     assert_eq!(numbers["max_in_plane_u_um"], point["in_plane_u_um"]);
+    assert_eq!(numbers["counts"], holes["counts"]);
+}
+
+#[test]
+fn the_table_gives_each_hole_the_state_of_the_answer() {
+    let cell = Cell::new();
+    cell.armill(&["new", "rivets", "--example", "kr210-rivets"])
+        .fine();
+    let run = cell
+        .armill(&["run", "rivets", "--json", "--no-pictures", "--out", "out"])
+        .fine();
+    let text = std::fs::read_to_string(cell.at("out").join("rivets.csv")).unwrap();
+    let rows: Vec<Vec<&str>> = text
+        .lines()
+        .filter(|line| !line.starts_with('#'))
+        .map(|line| line.split(',').collect())
+        .collect();
+    let column = |name: &str| rows[0].iter().position(|head| *head == name).unwrap();
+    let (hole, state) = (column("hole"), column("state"));
+    let json = run.json();
+    let each = json["holes"][0]["each"].as_array().unwrap();
+    assert_eq!(rows.len() - 1, each.len());
+    for row in &rows[1..] {
+        let of = |answer: &&serde_json::Value| answer["hole"].to_string() == row[hole];
+        assert_eq!(
+            each.iter().find(of).unwrap()["state"],
+            row[state],
+            "hole {}",
+            row[hole]
+        );
+    }
+    // Holes 17 and 18 are reached near a singularity only.
+    let within = rows[1..].iter().filter(|row| row[state] == "within").count();
+    assert_eq!(json["holes"][0]["counts"]["within"], within);
+    assert_eq!([rows[17][state], rows[18][state]], ["singular"; 2]);
 }

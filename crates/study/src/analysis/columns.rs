@@ -84,7 +84,7 @@ pub fn table(
     }
     columns.push(words(
         "state",
-        "within the tolerance, above it, or why there is no posture",
+        "within the tolerance, above it, or why there is no posture that can be used",
         series,
         |rows, i| Some(rows.state(i)),
     ));

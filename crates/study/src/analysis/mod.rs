@@ -241,16 +241,12 @@ impl AnalysisData<'_> {
                 .collect(),
             AnalysisData::Volume(setting, volume) => vec![Rows::of_volume(setting, volume)],
             AnalysisData::Path(analysis, found) => {
-                vec![Rows::of_track(
-                    &analysis.setting,
-                    &analysis.track,
-                    &found.along.answers,
-                    true,
-                )]
+                let answers = &found.along.answers;
+                vec![Rows::of_path(&analysis.setting, &analysis.track, answers)]
             }
             AnalysisData::Holes(analysis, found) => {
                 let path = &analysis.path;
-                vec![Rows::of_track(&path.setting, &path.track, &found.answers, false)]
+                vec![Rows::of_holes(&path.setting, &path.track, found)]
             }
         }
     }

@@ -6,10 +6,12 @@
 
 use std::ops::Range;
 
-use armill_core::kernel::{Answers, Evaluation};
+use armill_core::kernel::{Answers, Evaluation, PostureStatus};
 use armill_core::map::{PlaneMap, VolumeMap};
 use armill_core::nalgebra::Point3;
+use armill_core::optimize::HolesFound;
 use armill_core::path::Track;
+use armill_core::robot::Unreachable;
 use armill_core::units::to_mm;
 
 use crate::analysis::vibration::points::SeriesVibration;
@@ -33,6 +35,8 @@ pub struct Rows<'a> {
     pub layout: Layout,
     /// Their vibration, if the study asks for it.
     pub vibration: Option<&'a SeriesVibration>,
+    /// Of each hole, whether its posture can be used; empty for other points.
+    statuses: &'a [PostureStatus],
 }
 
 /// How the points of a series are arranged.
@@ -83,6 +87,7 @@ impl<'a> Rows<'a> {
             at_mm: points.map(mm).collect(),
             layout,
             vibration: None,
+            statuses: &[],
         }
     }
 
@@ -116,13 +121,18 @@ impl<'a> Rows<'a> {
         Rows::new("", setting, &volume.answers, layout, points)
     }
 
-    /// The tips along a track, joined between rapids; of holes each for itself.
-    pub fn of_track(setting: &'a Setting, track: &Track, answers: &'a Answers, joined: bool) -> Rows<'a> {
-        let layout = match joined {
-            true => Layout::Lines(track.path.stretches().collect()),
-            false => Layout::Points,
-        };
-        Rows::new("", setting, answers, layout, tips(track))
+    /// The tips along a path, joined between rapids.
+    pub fn of_path(setting: &'a Setting, track: &Track, answers: &'a Answers) -> Rows<'a> {
+        let lines = Layout::Lines(track.path.stretches().collect());
+        Rows::new("", setting, answers, lines, tips(track))
+    }
+
+    /// The tips at the ends of holes.
+    pub fn of_holes(setting: &'a Setting, track: &Track, found: &'a HolesFound) -> Rows<'a> {
+        Rows {
+            statuses: &found.statuses,
+            ..Rows::new("", setting, &found.answers, Layout::Points, tips(track))
+        }
     }
 
     /// The points of each line; none of another layout.
@@ -136,13 +146,24 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// State of a point relative to the tolerance.
+    /// Its [`state`].
     pub fn state(&self, index: usize) -> &'static str {
-        match &self.answers.points[index] {
-            Ok(evaluation) if evaluation.in_plane <= self.setting.tolerance => "within",
-            Ok(_) => "above_tolerance",
-            Err(miss) => miss.word(),
-        }
+        let point = &self.answers.points[index];
+        state(point, self.statuses.get(index).copied(), self.setting.tolerance)
+    }
+}
+
+/// State of a point relative to the `tolerance` (m), or why its posture of this `status` cannot be used, or why there is none.
+pub fn state(
+    point: &Result<Evaluation, Unreachable>,
+    status: Option<PostureStatus>,
+    tolerance: f64,
+) -> &'static str {
+    match (point, status) {
+        (Err(miss), _) => miss.word(),
+        (Ok(_), Some(status)) if status != PostureStatus::Usable => status.word(),
+        (Ok(evaluation), _) if evaluation.in_plane <= tolerance => "within",
+        (Ok(_), _) => "above_tolerance",
     }
 }
 

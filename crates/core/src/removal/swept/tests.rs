@@ -181,8 +181,8 @@ fn is_reached(tool: &Plain, axis: &Vector3<f64>, off: &dyn Fn(f64) -> Vector3<f6
         if tool.outside(rho, h) <= 0.0 {
             return 0.0;
         }
-        let near = |[height, radius]: &[f64; 2]| (rho - radius).max(0.0).hypot(h - height);
-        outline.iter().map(near).fold(f64::INFINITY, f64::min)
+        let near_2 = |[height, radius]: &[f64; 2]| (rho - radius).max(0.0).powi(2) + (h - height).powi(2);
+        outline.iter().map(near_2).fold(f64::INFINITY, f64::min).sqrt()
     };
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..60 {

@@ -25,6 +25,7 @@ use crate::analysis::holes::HolesAnalysis;
 use crate::analysis::map::answer::CountsAnswer;
 use crate::analysis::path::PathSource;
 use crate::analysis::point::{PointAnswer, ReachedPoint, SettingAnswer};
+use crate::analysis::rows::state;
 use crate::input::setting::Setting;
 use crate::joint_order::shown_positions;
 use crate::number::without_rounding;
@@ -95,7 +96,7 @@ pub struct HoleAnswer {
     pub xyz_mm: [f64; 3],
     /// Out of the part, base axes.
     pub normal_axis: [f64; 3],
-    /// `within`, `above_tolerance`, or why there is no posture.
+    /// `within`, `above_tolerance`, or why it cannot be drilled.
     pub state: &'static str,
     /// Why there is no posture, in words; none if there is one.
     pub reason: Option<String>,
@@ -276,11 +277,7 @@ fn hole(robot: &Robot, analysis: &HolesAnalysis, found: &HolesFound, index: usiz
         line: path.track.path.points[index].line,
         xyz_mm: tip.coords.map(|c| without_rounding(to_mm(c))).into(),
         normal_axis: stop.normal.into_inner().map(without_rounding).into(),
-        state: match point {
-            Ok(evaluation) if evaluation.in_plane <= setting.tolerance => "within",
-            Ok(_) => "above_tolerance",
-            Err(miss) => miss.word(),
-        },
+        state: state(point, found.statuses.get(index).copied(), setting.tolerance),
         reason: point.as_ref().err().map(|miss| {
             let most = match found.statuses[index] {
                 PostureStatus::OutOfReach | PostureStatus::Usable => String::new(),
