@@ -231,12 +231,12 @@ fn the_table_gives_each_hole_the_state_of_the_answer() {
     let each = json["holes"][0]["each"].as_array().unwrap();
     assert_eq!(rows.len() - 1, each.len());
     for row in &rows[1..] {
-        let of = |answer: &&serde_json::Value| answer["hole"].to_string() == row[hole];
+        let number: u64 = row[hole].parse().unwrap();
+        let of = |answer: &&serde_json::Value| answer["hole"] == number;
         assert_eq!(
             each.iter().find(of).unwrap()["state"],
             row[state],
-            "hole {}",
-            row[hole]
+            "hole {number}"
         );
     }
     // Holes 17 and 18 are reached near a singularity only.
