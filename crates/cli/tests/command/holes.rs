@@ -1,5 +1,7 @@
 //! Holes as a user meets them: files of `armill run`, the same numbers as `armill pose`, cells side by side.
 
+use serde_json::Value;
+
 use crate::cell::{Cell, number, numbers};
 
 const PANEL: &str = r#"format = 1
@@ -152,15 +154,20 @@ fn cells_are_compared_by_their_holes() {
     assert!(said.out.contains("3/3"), "{}", said.out);
 }
 
-#[test]
-fn the_worst_hole_is_one_that_can_be_drilled() {
+/// The example of 18 holes, in the folder `rivets`, and the answer of its run; its tables are in `out`.
+fn rivets() -> (Cell, Value) {
     let cell = Cell::new();
     cell.armill(&["new", "rivets", "--example", "kr210-rivets"])
         .fine();
-    let run = cell
-        .armill(&["run", "rivets", "--json", "--no-pictures", "--out", "out"])
-        .fine();
-    let holes = &run.json()["holes"][0];
+    let run = cell.armill(&["run", "rivets", "--json", "--no-pictures", "--out", "out"]);
+    let answer = run.fine().json();
+    (cell, answer)
+}
+
+#[test]
+fn the_worst_hole_is_one_that_can_be_drilled() {
+    let (_cell, answer) = rivets();
+    let holes = &answer["holes"][0];
     let each = holes["each"].as_array().unwrap();
     let largest = |drilled: bool| {
         each.iter()
@@ -174,20 +181,16 @@ fn the_worst_hole_is_one_that_can_be_drilled() {
     assert!((number(&worst["point"]["in_plane_um"]) - largest(true)).abs() < 1e-9);
     assert!((number(&holes["max_in_plane_um"]) - largest(true)).abs() < 1e-9);
     let headline = format!("hole {} deviates by", worst["hole"]);
-    let said = run.json()["answer"].to_string();
+    let said = answer["answer"].to_string();
     assert!(said.contains(&headline), "{said}");
 }
 
 #[test]
 fn a_hole_that_cannot_be_drilled_does_not_decide_a_comparison() {
-    let cell = Cell::new();
-    for name in ["rivets", "others"] {
-        cell.armill(&["new", name, "--example", "kr210-rivets"]).fine();
-    }
-    let run = cell
-        .armill(&["run", "rivets", "--json", "--no-pictures", "--out", "out"])
+    let (cell, answer) = rivets();
+    cell.armill(&["new", "others", "--example", "kr210-rivets"])
         .fine();
-    let holes = &run.json()["holes"][0];
+    let holes = &answer["holes"][0];
     let compared = cell
         .armill(&[
             "compare",
@@ -213,12 +216,7 @@ fn a_hole_that_cannot_be_drilled_does_not_decide_a_comparison() {
 
 #[test]
 fn the_table_gives_each_hole_the_state_of_the_answer() {
-    let cell = Cell::new();
-    cell.armill(&["new", "rivets", "--example", "kr210-rivets"])
-        .fine();
-    let run = cell
-        .armill(&["run", "rivets", "--json", "--no-pictures", "--out", "out"])
-        .fine();
+    let (cell, answer) = rivets();
     let text = std::fs::read_to_string(cell.at("out").join("rivets.csv")).unwrap();
     let rows: Vec<Vec<&str>> = text
         .lines()
@@ -227,12 +225,12 @@ fn the_table_gives_each_hole_the_state_of_the_answer() {
         .collect();
     let column = |name: &str| rows[0].iter().position(|head| *head == name).unwrap();
     let (hole, state) = (column("hole"), column("state"));
-    let json = run.json();
-    let each = json["holes"][0]["each"].as_array().unwrap();
+    let holes = &answer["holes"][0];
+    let each = holes["each"].as_array().unwrap();
     assert_eq!(rows.len() - 1, each.len());
     for row in &rows[1..] {
         let number: u64 = row[hole].parse().unwrap();
-        let of = |answer: &&serde_json::Value| answer["hole"] == number;
+        let of = |hole: &&Value| hole["hole"] == number;
         assert_eq!(
             each.iter().find(of).unwrap()["state"],
             row[state],
@@ -241,6 +239,6 @@ fn the_table_gives_each_hole_the_state_of_the_answer() {
     }
     // Holes 17 and 18 are reached near a singularity only.
     let within = rows[1..].iter().filter(|row| row[state] == "within").count();
-    assert_eq!(json["holes"][0]["counts"]["within"], within);
+    assert_eq!(holes["counts"]["within"], within);
     assert_eq!([rows[17][state], rows[18][state]], ["singular"; 2]);
 }
